@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "./Fixed.sol";
+import {sqrt} from "./Roots.sol";
+
+/// @notice A vector of three fixed-point numbers (Q32).
+struct Vector {
+    Fixed x;
+    Fixed y;
+    Fixed z;
+}
+
+using {add, sub, scale, dot, cross, negate, normalize, isZero} for Vector global;
+
+function vector(Fixed x, Fixed y, Fixed z) pure returns (Vector memory) {
+    return Vector(x, y, z);
+}
+
+function add(Vector memory a, Vector memory b) pure returns (Vector memory) {
+    return Vector(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+function sub(Vector memory a, Vector memory b) pure returns (Vector memory) {
+    return Vector(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+function scale(Vector memory a, Fixed k) pure returns (Vector memory) {
+    return Vector(a.x * k, a.y * k, a.z * k);
+}
+
+function negate(Vector memory a) pure returns (Vector memory) {
+    return Vector(-a.x, -a.y, -a.z);
+}
+
+function dot(Vector memory a, Vector memory b) pure returns (Fixed) {
+    unchecked {
+        // one rounding for the sum of the three products
+        return Fixed.wrap((a.x.raw() * b.x.raw() + a.y.raw() * b.y.raw() + a.z.raw() * b.z.raw()) >> 32);
+    }
+}
+
+function cross(Vector memory a, Vector memory b) pure returns (Vector memory) {
+    return Vector(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+function isZero(Vector memory a) pure returns (bool) {
+    return a.x.raw() | a.y.raw() | a.z.raw() == 0;
+}
+
+/// @notice The unit vector along `a`; zero for zero. Components of up to 2^62 keep the squares below 2^256.
+function normalize(Vector memory a) pure returns (Vector memory) {
+    unchecked {
+        // 60 more bits, so that vectors of a few units in the last place keep their direction
+        int256 x = a.x.raw() << 60;
+        int256 y = a.y.raw() << 60;
+        int256 z = a.z.raw() << 60;
+        int256 length = int256(sqrt(uint256(x * x + y * y + z * z)));
+        if (length == 0) return a;
+        return Vector(Fixed.wrap((x << 32) / length), Fixed.wrap((y << 32) / length), Fixed.wrap((z << 32) / length));
+    }
+}

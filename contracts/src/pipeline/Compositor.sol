@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Background, Rectangle} from "../scene/Scene.sol";
+
+import {ONES} from "../pipeline/Registers.sol";
+
+library Compositor {
+    /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
+    function background(uint256 image, uint256 top, uint256 bottom, uint256 height, Rectangle memory tile) internal pure {
+        unchecked {
+            uint256 rowBytes = 3 * tile.width;
+            // lanes of Q24: the change from row to row upwards, and the bottom row
+            uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
+            uint256 color = (lanes(height == 1 ? top : bottom) << 24) + (ONES << 23) + step * (height - tile.y - tile.height);
+            for (uint256 row = tile.height; row != 0; --row) {
+                fillRow(image, rowBytes, color);
+                image += rowBytes;
+                color += step;
+            }
+        }
+    }
+
+    function lanes(uint256 color) private pure returns (uint256) {
+        return (color & 0xff) | ((color & 0xff00) << 48) | ((color & 0xff0000) << 96);
+    }
+
+    function laneStep(uint256 top, uint256 bottom, uint256 rows) private pure returns (uint256 step) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) {
+                int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
+                step += uint256((difference << 24) / int256(rows)) << (56 * i);
+            }
+        }
+    }
+
+    function fillRow(uint256 row, uint256 rowBytes, uint256 color) private pure {
+        assembly ("memory-safe") {
+            // b g r b g r ...: 32 bytes hold ten pixels and two thirds
+            color := shr(232, mul(and(color, 0xff000000000000ff000000000000ff000000), 0x100000000000000010000000000000001000000000000000000000000))
+            let word := or(mul(shl(16, color), 0x1000001000001000001000001000001000001000001000001000001), shr(8, color))
+            mstore(row, word)
+            mstore(add(row, 32), or(shl(248, color), shr(8, word)))
+            mstore(add(row, 64), or(shl(240, color), shr(16, word)))
+            let done := 96
+            for {} lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) }
+        }
+    }
+}

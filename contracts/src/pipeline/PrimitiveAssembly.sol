@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Mesh} from "../scene/Mesh.sol";
+import {IndexOutOfRange} from "../scene/Checks.sol";
+import {Clipper} from "./Clipper.sol";
+import {MUST_CLIP, IS_OUTSIDE} from "./VertexShader.sol";
+import "./Registers.sol";
+
+// From vertices and faces to triangles that are to be drawn: those that face the viewer (or all), cut where they leave the guard
+// band. Each becomes one word:
+//
+//   bits 0..31, 32..63, 64..95   addresses of the third, second and first vertex record
+//   bits 96..111, 112..127       the first row that may be covered, and the row after the last
+//   bits 128..143                the tag of the face
+//   bits 144..146                which edges belong to the face: first to second vertex, second to third, third to first
+//   bit 147                      whether it reaches beyond the left or right border of the tile
+//
+// The first vertex is the topmost, and the three run counter-clockwise on the screen.
+
+uint256 constant ALL_EDGES = 0x00000007000000000000000000000000000000000000;
+uint256 constant OUTSIDE_BIT = 147;
+
+library PrimitiveAssembly {
+    /// @param records Address of the vertex records, 2^shift bytes each.
+    /// @param list Where to write the triangles.
+    /// @return end The end of the list.
+    /// @return drawn How many triangles face the viewer and are not outside the guard band, a clipped one counted once.
+    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, uint256 object)
+        internal
+        pure
+        returns (uint256 end, uint256 drawn)
+    {
+        unchecked {
+            uint256 faces = mesh.faces;
+            uint256 count = mesh.faceCount;
+            uint256 bound = records + (mesh.vertexCount << shift);
+            uint256 bad;
+            uint256 clipped;
+            (end, drawn, clipped, bad) = assemble(faces, faces + 6 * count, records, shift, bound, list, cull);
+            if (bad != 0) revert IndexOutOfRange(object, (bad - faces) / 6, mesh.vertexCount);
+        }
+    }
+
+    /// @return end The end of the list.
+    /// @return drawn How many triangles face the viewer.
+    /// @return clipped How many have to be clipped first; they are not in the list.
+    /// @return bad Where a face has a vertex tag that is out of range, if any.
+    function assemble(uint256 face, uint256 last, uint256 records, uint256 shift, uint256 bound, uint256 list, bool cull)
+        private
+        pure
+        returns (uint256 end, uint256 drawn, uint256 clipped, uint256 bad)
+    {
+        assembly ("memory-safe") {
+            // face numbers are counted in the place where the list wants them
+            let tag := ALL_EDGES
+            for {} lt(face, last) {
+                face := add(face, 6)
+                tag := add(tag, 0x100000000000000000000000000000000)
+            } {
+                let c := calldataload(face)
+                let a := add(records, shl(shift, shr(240, c)))
+                let b := add(records, shl(shift, and(shr(224, c), 0xffff)))
+                c := add(records, shl(shift, and(shr(208, c), 0xffff)))
+                if iszero(and(and(lt(a, bound), lt(b, bound)), lt(c, bound))) {
+                    bad := face
+                    break
+                }
+                a := mload(a)
+                b := mload(b)
+                c := mload(c)
+                let all := or(or(a, b), c)
+                if and(all, MUST_CLIP) {
+                    clipped := add(clipped, 1)
+                    continue
+                }
+                {
+                    // twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya); the biases 2^63 and 2^127 keep columns and rows
+                    // from borrowing from the lanes below
+                    let ab := add(sub(b, a), 0x8000000000000000)
+                    let ac := add(sub(c, a), 0x8000000000000000)
+                    let area := sub(mul(signextend(7, shr(64, ac)), sar(128, add(ab, 0x80000000000000000000000000000000))), mul(signextend(7, shr(64, ab)), sar(128, add(ac, 0x80000000000000000000000000000000))))
+                    if iszero(sgt(area, 0)) {
+                        if or(cull, iszero(area)) { continue }
+                        ab := b
+                        b := c
+                        c := ab
+                    }
+                }
+                drawn := add(drawn, 1)
+                // the topmost first, without changing the sense of rotation
+                if lt(b, a) {
+                    if lt(b, c) {
+                        let t := a
+                        a := b
+                        b := c
+                        c := t
+                    }
+                }
+                if lt(c, a) {
+                    let t := c
+                    c := b
+                    b := a
+                    a := t
+                }
+                let bottom := b
+                if gt(c, b) { bottom := c }
+                bottom := shr(136, add(bottom, 0xff00000000000000000000000000000000))
+                let top := shr(136, add(a, 0xff00000000000000000000000000000000))
+                if lt(top, bottom) {
+                    mstore(list, or(or(or(or(tag, shl(106, and(all, IS_OUTSIDE))), shl(112, bottom)), or(shl(96, top), shl(64, and(a, 0xffffffff)))), or(shl(32, and(b, 0xffffffff)), and(c, 0xffffffff))))
+                    list := add(list, 32)
+                }
+            }
+            end := list
+        }
+    }
+
+}

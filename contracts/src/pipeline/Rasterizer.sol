@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {FragmentShader, LANES_24} from "./FragmentShader.sol";
+import {Shading} from "./Shading.sol";
+import "./Registers.sol";
+
+// From triangles to fragments, by a digital differential analyzer.
+library Rasterizer {
+    /// @notice Draws the triangles of a list into the current band.
+    function run(uint256 list, uint256 end) internal pure {
+        unchecked {
+            (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
+            for (; list != end; list += 32) {
+                uint256 word = load(list);
+                uint256 top = (word >> 96) & 0xffff;
+                uint256 bottom = (word >> 112) & 0xffff;
+                if (top < bandTop) top = bandTop;
+                if (bottom > bandBottom) bottom = bandBottom;
+                if (top < bottom) triangle(word, top, bottom);
+            }
+        }
+    }
+
+    function triangle(uint256 word, uint256 top, uint256 bottom) private pure {
+        unchecked {
+            Shading.prepare(word);
+            setPlane(word, top);
+            (uint256 middle, uint256 b, uint256 c) = bend(word);
+            if (middle > bottom) middle = bottom;
+            (uint256 edges, uint256 slopes) = upperEdges(load((word >> 64) & 0xffffffff), b, c, top);
+            if (top < middle) fill(edges, slopes, load(START), top, middle);
+            else middle = top;
+            if (middle < bottom) {
+                (edges, slopes) = lowerEdges(edges, slopes, b, c, top, middle);
+                fill(edges, slopes, load(START) + load(DY) * (middle - top), middle, bottom);
+            }
+        }
+    }
+
+    function fill(uint256 edges, uint256 slopes, uint256 start, uint256 top, uint256 bottom) private pure {
+        uint256 mode = load(MODE);
+        if (mode > IS_LINEAR) FragmentShader.shadeRows(edges, slopes, start, top, bottom);
+        else if (mode == 0) rows(edges, slopes, start, top, bottom, 0);
+        else rows(edges, slopes, start, top, bottom, 1);
+    }
+
+    /// @return middle The first row below the upper of the two lower vertices, where one edge ends and another begins.
+    function bend(uint256 word) private pure returns (uint256 middle, uint256 b, uint256 c) {
+        assembly ("memory-safe") {
+            b := mload(and(shr(32, word), 0xffffffff))
+            c := mload(and(word, 0xffffffff))
+            middle := b
+            if lt(c, b) { middle := c }
+            middle := shr(136, add(middle, 0xff00000000000000000000000000000000))
+        }
+    }
+
+    /// @notice The left edge from a to b and the right one from a to c, at row `top`: columns, Q48, such that the integer part is the
+    /// first pixel whose centre is not left of the edge; and their change per row.
+    function upperEdges(uint256 a, uint256 b, uint256 c, uint256 top) private pure returns (uint256 edges, uint256 slopes) {
+        assembly ("memory-safe") {
+            edges := and(shr(64, a), 0xfffff)
+            a := shr(128, a)
+            slopes := sdiv(shl(48, sub(and(shr(64, b), 0xfffff), edges)), sub(shr(128, b), a))
+            let right := sdiv(shl(48, sub(and(shr(64, c), 0xfffff), edges)), sub(shr(128, c), a))
+            edges := add(shl(40, edges), 0xffffffffc000)
+            a := sub(shl(8, top), a)
+            edges := add(add(edges, sar(8, mul(a, slopes))), shl(128, add(edges, sar(8, mul(a, right)))))
+            slopes := add(slopes, shl(128, right))
+        }
+    }
+
+    /// @notice The same at row `middle`, where the edge between b and c takes the place of the one that has ended.
+    function lowerEdges(uint256 upper, uint256 upperSlopes, uint256 b, uint256 c, uint256 top, uint256 middle)
+        private
+        pure
+        returns (uint256 edges, uint256 slopes)
+    {
+        assembly ("memory-safe") {
+            edges := add(upper, mul(upperSlopes, sub(middle, top)))
+            let side := 0
+            if lt(c, b) {
+                side := 128
+                let t := b
+                b := c
+                c := t
+            }
+            upper := and(shr(64, b), 0xfffff)
+            b := shr(128, b)
+            let slope := sdiv(shl(48, sub(and(shr(64, c), 0xfffff), upper)), sub(shr(128, c), b))
+            upper := add(add(shl(40, upper), 0xffffffffc000), sar(8, mul(sub(shl(8, middle), b), slope)))
+            // keep the lane of the other edge
+            b := signextend(15, upperSlopes)
+            switch side
+            case 0 {
+                edges := or(shl(128, shr(128, edges)), upper)
+                slopes := add(sub(upperSlopes, b), slope)
+            }
+            default {
+                edges := or(and(edges, 0xffffffffffffffffffffffffffffffff), shl(128, upper))
+                slopes := add(b, shl(128, slope))
+            }
+        }
+    }
+
+    /// @notice The accumulator at column 0 of row `top`, and its change per pixel and per row.
+    function setPlane(uint256 word, uint256 top) private pure {
+        assembly ("memory-safe") {
+            let a := mload(and(shr(64, word), 0xffffffff))
+            let b := mload(and(shr(32, word), 0xffffffff))
+            let c := mload(and(word, 0xffffffff))
+            let x := and(shr(64, a), 0xfffff)
+            let y := shr(128, a)
+            let xb := sub(and(shr(64, b), 0xfffff), x)
+            let xc := sub(and(shr(64, c), 0xfffff), x)
+            b := sub(shr(128, b), y)
+            c := sub(shr(128, c), y)
+            a := sub(mul(xc, b), mul(xb, c))
+            // change of the barycentric coordinates per pixel, Q32
+            xb := sdiv(shl(40, xb), a)
+            xc := sdiv(shl(40, xc), a)
+            b := sdiv(shl(40, b), a)
+            c := sdiv(shl(40, c), a)
+            y := sub(shl(8, top), y)
+            a := mload(ATTRIBUTE_0)
+            let deltaB := sub(mload(ATTRIBUTE_1), a)
+            let deltaC := sub(mload(ATTRIBUTE_2), a)
+            // from the first vertex to the centre of pixel 0 in row `top`
+            a := add(shl(32, a), mload(LANE_BIAS))
+            a := add(a, mul(deltaB, sar(8, add(mul(y, xc), mul(x, c)))))
+            mstore(START, sub(a, mul(deltaC, sar(8, add(mul(x, b), mul(y, xb))))))
+            mstore(DX, sub(mul(deltaC, b), mul(deltaB, c)))
+            mstore(DY, sub(mul(deltaB, xc), mul(deltaC, xb)))
+        }
+    }
+
+    /// @param saturate 1 if colours may be above 255, else 0; a literal, of which the compiler makes two functions.
+    function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end, uint256 saturate) private pure {
+        assembly ("memory-safe") {
+            row := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), row))
+            end := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), end))
+            let dx := mload(DX)
+            for {} gt(row, end) {} {
+                let p := and(shr(48, edges), 0xffff)
+                if lt(p, shr(176, edges)) {
+                    let attribute := add(start, mul(dx, p))
+                    p := add(row, shl(3, p))
+                    let last := add(row, shl(3, shr(176, edges)))
+                    let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                    for {} 1 {} {
+                        let old := mload(p)
+                        if gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff)) {
+                            mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
+                            switch saturate
+                            case 0 {
+                                old := mload(pixel)
+                                mstore(pixel, xor(old, and(xor(old, mul(and(attribute, 0x3fc000000000003fc000000000003fc0000000000), 0x4000000000000000400000000000000040000000000000000000)), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
+                            }
+                            default {
+                                // lanes above 255 get all the bits of 255
+                                let color := and(shr(32, attribute), LANES_24)
+                                color := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
+                                color := mul(and(color, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
+                                old := mload(pixel)
+                                mstore(pixel, xor(old, and(xor(old, color), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
+                            }
+                        }
+                        p := add(p, 8)
+                        if eq(p, last) { break }
+                        pixel := add(pixel, 3)
+                        attribute := add(attribute, dx)
+                    }
+                }
+                edges := add(edges, slopes)
+                start := add(start, mload(DY))
+                row := sub(row, mload(DEPTH_STRIDE))
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "../math/Fixed.sol";
+import {Vector, normalize} from "../math/Vector.sol";
+import {Matrix} from "../math/Quaternion.sol";
+import {sqrt} from "../math/Roots.sol";
+import {Scene, Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
+import {NoViewDirection} from "../scene/Checks.sol";
+import "./Registers.sol";
+
+/// @notice Where the camera stands and how it projects. Camera space is x to the right, y down, z forward, as the rows of a picture
+/// run; the distance of a point is its z.
+/// @param focal Sub-pixels per unit at distance 1 (perspective) or per unit (orthographic), Q32.
+/// @param centerX Twice the sub-pixel column of the middle of the canvas as seen from the centre of a pixel, plus one half to round.
+struct View {
+    Vector eye;
+    Vector right;
+    Vector down;
+    Vector forward;
+    bool orthographic;
+    int256 focal;
+    int256 centerX;
+    int256 centerY;
+}
+
+using {toCamera} for View global;
+
+/// @notice The basis of the camera, and the registers that depend on nothing but camera and canvas.
+function lookAt(Camera calldata camera, uint256 width, uint256 height) pure returns (View memory view_) {
+    unchecked {
+        view_.eye = camera.eye;
+        view_.forward = normalize(camera.target.sub(camera.eye));
+        view_.right = normalize(view_.forward.cross(normalize(camera.up)));
+        if (view_.right.isZero()) revert NoViewDirection();
+        view_.down = view_.forward.cross(view_.right);
+
+        view_.orthographic = camera.projection == ORTHOGRAPHIC;
+        // 256 sub-pixels, half the height
+        view_.focal = (int256(height) << 71) / camera.halfHeight.raw();
+        view_.centerX = 2 * int256(width * 128 + PIXEL_BIAS * 256 - 128) + 1;
+        view_.centerY = 2 * int256(height * 128 + PIXEL_BIAS * 256 - 128) + 1;
+
+        store(FRAME_IS_ORTHOGRAPHIC, view_.orthographic ? 1 : 0);
+        storeSigned(NEAR, camera.near.raw());
+        storeSigned(DEPTH_SCALE, view_.orthographic ? int256(1 << 54) : camera.near.raw() << 55);
+        setRays(view_, width, height);
+    }
+}
+
+/// @dev The ray through the centre of a pixel, and the constants for its length.
+function setRays(View memory view_, uint256 width, uint256 height) pure {
+    unchecked {
+            if (view_.orthographic) {
+                // all rays are parallel
+                store(RAY_STEP, 0);
+                store(RAY_LEFT, 0);
+                store(RAY_TOP, 0);
+                store(LENGTH_SLOPE, 0);
+                store(LENGTH_AT_0, 1 << 24);
+                store(LENGTH_STEPS, 0);
+                return;
+            }
+            int256 step = int256(1 << 64) / view_.focal;
+            storeSigned(RAY_STEP, step);
+            storeSigned(RAY_LEFT, (int256(1) - int256(width + 2 * PIXEL_BIAS)) * step / 2);
+            storeSigned(RAY_TOP, (int256(1) - int256(height + 2 * PIXEL_BIAS)) * step / 2);
+
+        // The square root is taken from the chord between the middle and the corner of the canvas, raised by half its largest error
+        uint256 x = width * uint256(step) / 2;
+        uint256 y = height * uint256(step) / 2;
+        uint256 square = (1 << 48) + x * x + y * y;
+        uint256 corner = sqrt(square);
+        uint256 slope = ((corner - (1 << 24)) << 48) / (square - (1 << 48) + 1);
+        uint256 raised = (corner - (1 << 24)) * (corner - (1 << 24)) / (8 * (corner + (1 << 24)));
+        store(LENGTH_SLOPE, slope);
+        store(LENGTH_AT_0, (1 << 24) - slope + raised);
+        // relative error of the first step: 2^-16 up to 1.3 times the middle; each further step squares it and halves that
+        store(LENGTH_STEPS, corner < 21810380 ? 0 : corner < 41943040 ? 1 : corner < 100663296 ? 2 : 12);
+    }
+}
+
+/// @notice A direction in camera space.
+function toCamera(View memory view_, Vector memory v) pure returns (Vector memory) {
+    return Vector(view_.right.dot(v), view_.down.dot(v), view_.forward.dot(v));
+}
