@@ -1,0 +1,58 @@
+"""Checks of what is handed in, each with a message that says what was wrong and what would be right."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import InputError
+
+
+def number(value: object, name: str, low: float = -math.inf, high: float = math.inf) -> float:
+    """`value` as a float within low..high."""
+    try:
+        result = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be a number, not {value!r}") from None
+    if not math.isfinite(result) or not low <= result <= high:
+        raise InputError(f"{name} must be a finite number{_range(low, high)}, not {value!r}")
+    return result
+
+
+def vector(value: ArrayLike, name: str, size: int = 3) -> NDArray[np.float64]:
+    """`value` as a new array of `size` finite floats."""
+    try:
+        result = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be {size} numbers, not {value!r}") from None
+    if result.shape != (size,) or not np.isfinite(result).all():
+        raise InputError(f"{name} must be {size} finite numbers, not {value!r}")
+    return result
+
+
+def color(value: ArrayLike, name: str) -> tuple[int, int, int]:
+    """Red, green and blue, whole numbers 0..255."""
+    channels = vector(value, name)
+    if (channels < 0).any() or (channels > 255).any() or (channels % 1 != 0).any():
+        raise InputError(f"{name} must be red, green and blue from 0 to 255, not {value!r}")
+    red, green, blue = (int(channel) for channel in channels)
+    return red, green, blue
+
+
+def choice(value: object, name: str, choices: tuple[str, ...]) -> str:
+    """`value`, if it is one of `choices`."""
+    if value not in choices:
+        raise InputError(f"{name} must be one of {', '.join(choices)}, not {value!r}")
+    return str(value)
+
+
+def _range(low: float, high: float) -> str:
+    if low == -math.inf and high == math.inf:
+        return ""
+    if high == math.inf:
+        return f", at least {low:g}"
+    if low == -math.inf:
+        return f", at most {high:g}"
+    return f" from {low:g} to {high:g}"

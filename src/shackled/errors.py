@@ -1,0 +1,9 @@
+"""The errors that people see."""
+
+
+class InputError(ValueError):
+    """Something that was handed in is wrong. The message is one line: what is wrong, where, and what would be right."""
+
+
+class RenderError(RuntimeError):
+    """A contract refused the call, or the call could not be made. The message is one line."""
