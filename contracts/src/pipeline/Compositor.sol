@@ -5,6 +5,8 @@ import {Background, Rectangle} from "../scene/Scene.sol";
 
 import {ONES} from "../pipeline/Registers.sol";
 
+// The background under the objects, and what happens to all pixels when they are drawn.
+
 library Compositor {
     /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
     function background(uint256 image, uint256 top, uint256 bottom, uint256 height, Rectangle memory tile) internal pure {
@@ -17,6 +19,26 @@ library Compositor {
                 fillRow(image, rowBytes, color);
                 image += rowBytes;
                 color += step;
+            }
+        }
+    }
+
+    /// @notice Turns every byte v of `size` bytes into 255 - v.
+    function invert(uint256 image, uint256 size) internal pure {
+        assembly ("memory-safe") {
+            let end := add(image, size)
+            for {} lt(image, end) { image := add(image, 64) } {
+                mstore(image, not(mload(image)))
+                mstore(add(image, 32), not(mload(add(image, 32))))
+            }
+        }
+    }
+
+    /// @notice How many pixels of a depth buffer are covered. Nothing that is drawn has the depth 0 of the empty buffer.
+    function litPixels(uint256 depth, uint256 end) internal pure returns (uint256 count) {
+        assembly ("memory-safe") {
+            for {} lt(depth, end) { depth := add(depth, 8) } {
+                count := add(count, iszero(iszero(shr(192, mload(depth)))))
             }
         }
     }

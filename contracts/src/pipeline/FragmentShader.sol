@@ -140,9 +140,16 @@ library FragmentShader {
                 let second := and(shr(64, attribute), 0xffffffffffff)
                 let third := and(shr(8, attribute), 0xffffffffffff)
                 attribute := shr(192, attribute)
-                if iszero(and(mload(MODE), IS_ORTHOGRAPHIC)) {
+                switch and(mload(MODE), IS_ORTHOGRAPHIC)
+                case 0 {
                     second := div(mul(second, mload(DEPTH_1)), attribute)
                     third := div(mul(third, mload(DEPTH_2)), attribute)
+                }
+                default {
+                    mstore(FRAGMENT_PLACE_X, sar(16, x))
+                    mstore(FRAGMENT_PLACE_Y, sar(16, y))
+                    x := 0
+                    y := 0
                 }
                 color := and(shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), second)), mul(mload(COLOR_2), third))), LANES_24)
                 if and(mload(MODE), IS_LIT) {
@@ -304,7 +311,7 @@ library FragmentShader {
                     // the depth of the accumulator with the colour
                     let colored := or(shl(168, shr(168, attribute)), add(shl(32, color), LINE_BIAS))
                     if iszero(length) {
-                        gradient(base, first, end, colored, 0)
+                        gradient(base, first, end, colored, length)
                         break
                     }
                     attribute := add(attribute, mul(length, mload(DX)))
@@ -356,6 +363,10 @@ library FragmentShader {
             if iszero(mload(add(vertex, 0x40))) {
                 let x := add(mload(RAY_LEFT), sar(8, mul(and(shr(64, screenWord), 0xfffff), mload(RAY_STEP))))
                 let y := add(mload(RAY_TOP), sar(8, mul(shr(128, screenWord), mload(RAY_STEP))))
+                if mload(FRAME_IS_ORTHOGRAPHIC) {
+                    x := 0
+                    y := 0
+                }
                 let square := add(add(mul(x, x), mul(y, y)), 0x1000000000000)
                 let length := add(mload(LENGTH_AT_0), shr(48, mul(square, mload(LENGTH_SLOPE))))
                 length := shr(1, add(length, div(square, length)))
@@ -412,18 +423,26 @@ library FragmentShader {
                 lanes := or(or(shl(170, and(lanes, 0x1fffffffffffffffffffff)), shr(170, lanes)), and(lanes, 0x3ffffffffffffffffffffe00000000000000000000))
                 mstore(add(vertex, 0x60), sub(lanes, VECTOR_BIAS))
             }
-            int256 length = int256(sqrt(uint256(x * x + y * y + (1 << 48))));
+            bool orthographic = load(FRAME_IS_ORTHOGRAPHIC) != 0;
+            int256 length = orthographic ? int256(1 << 24) : int256(sqrt(uint256(x * x + y * y + (1 << 48))));
             int256 distance = int256((load(DEPTH_SCALE) << 8) / depth);
             uint256 place = vertex + 0x80;
             uint256 end = load(LIGHTS_END);
+            (int256 rayX, int256 rayY) = orthographic ? (int256(0), int256(0)) : (x, y);
             for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
                 int256 lx = loadSigned(record + LIGHT_X);
                 int256 ly = loadSigned(record + LIGHT_Y);
                 int256 lz = loadSigned(record + LIGHT_Z);
                 if (load(record + LIGHT_IS_POINT) != 0) {
-                    lx -= (x * distance) >> 40;
-                    ly -= (y * distance) >> 40;
-                    lz -= distance >> 16;
+                    if (orthographic) {
+                        lx -= x >> 16;
+                        ly -= y >> 16;
+                        lz -= (int256(load(DEPTH_SCALE) << 8) - int256(depth)) >> 16;
+                    } else {
+                        lx -= (x * distance) >> 40;
+                        ly -= (y * distance) >> 40;
+                        lz -= distance >> 16;
+                    }
                 }
                 int256 far = int256(sqrt(uint256(lx * lx + ly * ly + lz * lz)));
                 assembly ("memory-safe") {
@@ -432,8 +451,8 @@ library FragmentShader {
                     lz := sdiv(shl(20, lz), far)
                     mstore(place, add(add(lz, shl(85, ly)), shl(170, lx)))
                     // H = L + V
-                    lx := sub(lx, sdiv(shl(20, x), length))
-                    ly := sub(ly, sdiv(shl(20, y), length))
+                    lx := sub(lx, sdiv(shl(20, rayX), length))
+                    ly := sub(ly, sdiv(shl(20, rayY), length))
                     lz := sub(lz, sdiv(0x100000000000, length))
                     mstore(add(place, 0x20), add(add(lx, shl(85, ly)), shl(170, lz)))
                     mstore(add(place, 0x40), add(add(lz, shl(85, ly)), shl(170, lx)))

@@ -49,7 +49,6 @@ library Lighting {
     function setObject(View memory view_, Scene calldata scene, Object calldata object, Matrix memory rotation, Mesh memory mesh) internal pure {
         unchecked {
             Material calldata material = object.material;
-            store(SHADING, material.shading);
             uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
             store(OBJECT_MODE, mode);
             if (material.shading == UNLIT) return;
@@ -61,13 +60,17 @@ library Lighting {
             store(MESH_BITS, mesh.bits);
             Light[] calldata lights = scene.lights;
             uint256 record = LIGHTS;
+            bool grey = isGrey(load(AMBIENT));
             for (uint256 i; i != lights.length; ++i) {
-                store(record + LIGHT_DIFFUSE, scaled(lights[i].color, material.diffuse.raw()));
+                uint256 diffuse = scaled(lights[i].color, material.diffuse.raw());
+                grey = grey && isGrey(diffuse);
+                store(record + LIGHT_DIFFUSE, diffuse);
                 record += LIGHT_SIZE;
             }
             if (material.specular.raw() != 0) mode |= HAS_SPECULAR;
             setSpecular(uint256(material.specular.raw()), material.shininess);
-            if (material.shading == FLAT) {
+            // without lights the normal makes no difference
+            if (material.shading == FLAT || lights.length == 0) {
                 mode |= IS_FLAT;
                 store(FRAGMENT_SQUARE, 1 << 48);
                 store(FRAGMENT_NORMAL_LENGTH, 1 << 24);
@@ -77,9 +80,15 @@ library Lighting {
                 store(FACE_LIGHT_40, load(AMBIENT) << 24);
                 uint256 focal = uint256(view_.focal) >> 32;
                 store(VARYING_REACH, view_.orthographic ? 1 << 60 : focal * focal / 16);
-                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | IS_GREY;
+                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (grey ? IS_GREY : 0);
             }
             store(OBJECT_MODE, mode);
+        }
+    }
+
+    function isGrey(uint256 light) private pure returns (bool) {
+        unchecked {
+            return light == (light & 0xffffffff) * ONES;
         }
     }
 
@@ -105,7 +114,7 @@ library Lighting {
             int256 scale = object.scale.raw();
             if (scale == 0) return;
             storeSigned(SCALE, scale);
-            storeSigned(SCALE_PER_NEAR, (scale << 32) / loadSigned(NEAR));
+            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 32) / loadSigned(NEAR));
             Vector memory position = object.position;
             if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), 1 << 24);
             else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), (1 << 48) / scale);

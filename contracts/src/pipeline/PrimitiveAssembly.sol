@@ -25,11 +25,13 @@ library PrimitiveAssembly {
     /// @param records Address of the vertex records, 2^shift bytes each.
     /// @param list Where to write the triangles.
     /// @return end The end of the list.
-    /// @return drawn How many triangles face the viewer and are not outside the guard band, a clipped one counted once.
+    /// @return free The first free address.
+    /// @return drawn How many faces are to be drawn: they face the viewer, or both sides are drawn, and something of them is inside the
+    /// guard band.
     function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull, uint256 object)
         internal
         pure
-        returns (uint256 end, uint256 drawn)
+        returns (uint256 end, uint256 free, uint256 drawn)
     {
         unchecked {
             uint256 faces = mesh.faces;
@@ -39,6 +41,12 @@ library PrimitiveAssembly {
             uint256 clipped;
             (end, drawn, clipped, bad) = assemble(faces, faces + 6 * count, records, shift, bound, list, cull);
             if (bad != 0) revert IndexOutOfRange(object, (bad - faces) / 6, mesh.vertexCount);
+            free = end;
+            if (clipped != 0) {
+                uint256 cut;
+                (end, free, cut) = Clipper.run(mesh, records, shift, end, clipped, cull);
+                drawn += cut;
+            }
         }
     }
 
@@ -105,8 +113,8 @@ library PrimitiveAssembly {
                 }
                 let bottom := b
                 if gt(c, b) { bottom := c }
-                bottom := shr(136, add(bottom, 0xff00000000000000000000000000000000))
-                let top := shr(136, add(a, 0xff00000000000000000000000000000000))
+                bottom := shr(136, add(bottom, mload(ROUND_BOTTOM)))
+                let top := shr(136, add(a, mload(ROUND_TOP)))
                 if lt(top, bottom) {
                     mstore(list, or(or(or(or(tag, shl(106, and(all, IS_OUTSIDE))), shl(112, bottom)), or(shl(96, top), shl(64, and(a, 0xffffffff)))), or(shl(32, and(b, 0xffffffff)), and(c, 0xffffffff))))
                     list := add(list, 32)
@@ -116,4 +124,46 @@ library PrimitiveAssembly {
         }
     }
 
+    /// @notice The three vertex numbers of a face, 16 bits each.
+    function readIndices(uint256 face) internal pure returns (uint256 indices) {
+        assembly ("memory-safe") {
+            indices := shr(208, calldataload(face))
+        }
+    }
+
+    /// @notice Appends one triangle to the list, as `assemble` does.
+    /// @param a The screen words of its vertices.
+    /// @param edges Which edges belong to the face, three bits as in the list.
+    function append(uint256 list, uint256 a, uint256 b, uint256 c, uint256 edges, uint256 face, bool cull) internal pure returns (uint256) {
+        unchecked {
+            int256 area = (column(c) - column(a)) * (row(b) - row(a)) - (column(b) - column(a)) * (row(c) - row(a));
+            if (area == 0 || (cull && area < 0)) return list;
+            if (area < 0) {
+                (b, c) = (c, b);
+                edges = (edges >> 2) | (edges & 2) | ((edges & 1) << 2);
+            }
+            while (a > b || a > c) {
+                (a, b, c) = (b, c, a);
+                edges = (edges >> 1) | ((edges & 1) << 2);
+            }
+            uint256 top = (a + load(ROUND_TOP)) >> 136;
+            uint256 bottom = ((b > c ? b : c) + load(ROUND_BOTTOM)) >> 136;
+            if (top >= bottom) return list;
+            uint256 outside = ((a | b | c) & IS_OUTSIDE) << 106;
+            store(
+                list,
+                (edges << 144) | (face << 128) | outside | (bottom << 112) | (top << 96) | ((a & 0xffffffff) << 64)
+                    | ((b & 0xffffffff) << 32) | (c & 0xffffffff)
+            );
+            return list + 32;
+        }
+    }
+
+    function column(uint256 screenWord) private pure returns (int256) {
+        return int256((screenWord >> 64) & 0xfffff);
+    }
+
+    function row(uint256 screenWord) private pure returns (int256) {
+        return int256(screenWord >> 128);
+    }
 }

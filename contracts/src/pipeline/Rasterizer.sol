@@ -38,7 +38,10 @@ library Rasterizer {
         }
     }
 
-    function fill(uint256 edges, uint256 slopes, uint256 start, uint256 top, uint256 bottom) private pure {
+    /// @notice Draws the fragments between two edges, in the rows from `top` to before `bottom`.
+    /// @param edges, slopes As `upperEdges` says.
+    /// @param start The accumulator at column 0 of row `top`; DX and DY are its changes.
+    function fill(uint256 edges, uint256 slopes, uint256 start, uint256 top, uint256 bottom) internal pure {
         uint256 mode = load(MODE);
         if (mode > IS_LINEAR) FragmentShader.shadeRows(edges, slopes, start, top, bottom);
         else if (mode == 0) rows(edges, slopes, start, top, bottom, 0);

@@ -109,6 +109,34 @@ library VertexShader {
         }
     }
 
+    /// @notice The clip coordinates and the colour of a vertex, as `project` computes them, in the first four words of `corner`.
+    function clipCoordinates(Mesh memory mesh, uint256 index, uint256 corner) internal pure {
+        uint256 vertex = mesh.vertices;
+        uint256 bits = mesh.bits;
+        uint256 stride = mesh.stride;
+        assembly ("memory-safe") {
+            let data := calldataload(add(vertex, mul(index, stride)))
+            let rest := sub(256, bits)
+            let clip := add(mul(sar(rest, data), mload(MATRIX_X)), mload(MATRIX_T))
+            data := shl(bits, data)
+            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y)))
+            data := shl(bits, data)
+            clip := add(clip, mul(sar(rest, data), mload(MATRIX_Z)))
+            data := shr(232, shl(bits, data))
+            mstore(corner, sub(and(clip, 0xffffffffffffffffffffffff), 0x800000000000000000000000))
+            mstore(add(corner, 32), sub(and(shr(96, clip), 0xffffffffffffffffffffffff), 0x800000000000000000000000))
+            mstore(add(corner, 64), sar(192, clip))
+            mstore(add(corner, 96), and(mul(data, 0x400000000000400000000000400), 0x3fc000000000003fc000000000003fc00))
+        }
+    }
+
+    /// @notice The first word of a record.
+    function screenWord(uint256 x, uint256 y, uint256 record) internal pure returns (uint256 word) {
+        assembly ("memory-safe") {
+            word := or(or(or(shl(128, y), shl(64, x)), record), shl(41, gt(sub(x, mload(TILE_LEFT)), mload(TILE_SPAN))))
+        }
+    }
+
     function turnNormals(Mesh memory mesh, uint256 record, uint256 recordSize) private pure {
         unchecked {
             uint256 end = record + mesh.vertexCount * recordSize;

@@ -51,20 +51,12 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
 /// @dev The ray through the centre of a pixel, and the constants for its length.
 function setRays(View memory view_, uint256 width, uint256 height) pure {
     unchecked {
-            if (view_.orthographic) {
-                // all rays are parallel
-                store(RAY_STEP, 0);
-                store(RAY_LEFT, 0);
-                store(RAY_TOP, 0);
-                store(LENGTH_SLOPE, 0);
-                store(LENGTH_AT_0, 1 << 24);
-                store(LENGTH_STEPS, 0);
-                return;
-            }
-            int256 step = int256(1 << 64) / view_.focal;
-            storeSigned(RAY_STEP, step);
-            storeSigned(RAY_LEFT, (int256(1) - int256(width + 2 * PIXEL_BIAS)) * step / 2);
-            storeSigned(RAY_TOP, (int256(1) - int256(height + 2 * PIXEL_BIAS)) * step / 2);
+        // where all rays are parallel, places in world units (Q32) instead
+        int256 step = (view_.orthographic ? int256(1 << 72) : int256(1 << 64)) / view_.focal;
+        storeSigned(RAY_STEP, step);
+        storeSigned(RAY_LEFT, ((int256(1) - int256(width + 2 * PIXEL_BIAS)) * step) / 2);
+        storeSigned(RAY_TOP, ((int256(1) - int256(height + 2 * PIXEL_BIAS)) * step) / 2);
+        if (view_.orthographic) step = 0;
 
         // The square root is taken from the chord between the middle and the corner of the canvas, raised by half its largest error
         uint256 x = width * uint256(step) / 2;

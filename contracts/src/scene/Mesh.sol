@@ -16,7 +16,6 @@ pragma solidity 0.8.37;
 uint256 constant NORMALS = 1;
 uint256 constant WIDE = 2;
 
-/// @notice A mesh whose bytes were found to be complete.
 /// @dev All positions are calldata offsets.
 struct Mesh {
     uint256 vertices;
@@ -27,32 +26,21 @@ struct Mesh {
     uint256 bits;
     /// bytes of a vertex
     uint256 stride;
-    bool hasNormals;
 }
 
-/// @notice The header is not that of a mesh: `format` has bits that mean nothing, or the bytes end before it is complete.
-error MeshHeader(uint256 object, uint256 format, uint256 length);
-/// @notice The counts of the header ask for `expected` bytes in all, `actual` were given.
-error MeshLength(uint256 object, uint256 expected, uint256 actual);
-
-function openMesh(bytes calldata data, uint256 object) pure returns (Mesh memory mesh) {
+/// @notice Where the parts of a mesh are. Its bytes must be complete: see `checkMesh`.
+function openMesh(bytes calldata data) pure returns (Mesh memory mesh) {
     unchecked {
         uint256 header;
         assembly ("memory-safe") {
             header := shr(216, calldataload(data.offset))
+            mstore(mesh, add(data.offset, 5))
         }
         uint256 format = header >> 32;
-        if (data.length < 5 || format > 3) revert MeshHeader(object, format, data.length);
         mesh.vertexCount = (header >> 16) & 0xffff;
         mesh.faceCount = header & 0xffff;
         mesh.bits = format & WIDE == 0 ? 16 : 24;
-        mesh.hasNormals = format & NORMALS != 0;
-        mesh.stride = 3 * mesh.bits / 8 + (mesh.hasNormals ? 7 : 3);
-        uint256 expected = 5 + mesh.vertexCount * mesh.stride + mesh.faceCount * 6;
-        if (data.length != expected) revert MeshLength(object, expected, data.length);
-        assembly ("memory-safe") {
-            mstore(mesh, add(data.offset, 5))
-        }
+        mesh.stride = 3 * mesh.bits / 8 + (format & NORMALS == 0 ? 3 : 7);
         mesh.faces = mesh.vertices + mesh.vertexCount * mesh.stride;
     }
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+/// @notice Base64 without a table: 24 bytes at a time, whose 32 characters are computed side by side in one word.
+/// @dev Source of the encoding: RFC 4648.
+library Base64 {
+    /// @notice Writes the characters of `size` bytes at `data` to `target`, and up to 32 bytes without meaning behind them. The 32
+    /// bytes behind the data must be zero.
+    /// @return end The address after the last character.
+    function encode(uint256 data, uint256 size, uint256 target) internal pure returns (uint256 end) {
+        unchecked {
+            end = target + 4 * ((size + 2) / 3);
+            convert(data, data + size, target);
+            // fill up the last four characters: "=" for each byte that is missing
+            uint256 missing = (3 - size % 3) % 3;
+            assembly ("memory-safe") {
+                for { let place := sub(end, missing) } lt(place, end) { place := add(place, 1) } { mstore8(place, 0x3d) }
+            }
+        }
+    }
+
+    function convert(uint256 data, uint256 last, uint256 target) private pure {
+        assembly ("memory-safe") {
+            let previous := 0
+            let characters := 0x4141414141414141414141414141414141414141414141414141414141414141
+            for {} lt(data, last) { data := add(data, 24) } {
+                let bits := shr(64, mload(data))
+                // pictures have runs of one colour, and its period of three bytes divides 24
+                if xor(bits, previous) {
+                    previous := bits
+                    // 32 numbers of 6 bits to the 32 bytes of a word: the upper half of each part moves up until there is a number a byte
+                    bits := add(bits, mul(and(bits, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000), 4294967295))
+                    bits := add(bits, mul(and(bits, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000), 65535))
+                    bits := add(bits, mul(and(bits, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000), 255))
+                    bits := add(bits, mul(and(bits, 0x00fff00000fff00000fff00000fff00000fff00000fff00000fff00000fff000), 15))
+                    bits := add(bits, mul(and(bits, 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0), 3))
+                    // "A" + n, then what the steps to "a", "0", "+" and "/" differ from that
+                    characters := add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)
+                    characters := add(characters, mul(and(shr(7, add(bits, 0x6666666666666666666666666666666666666666666666666666666666666666)), 0x0101010101010101010101010101010101010101010101010101010101010101), 6))
+                    characters := sub(characters, mul(and(shr(7, add(bits, 0x4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c)), 0x0101010101010101010101010101010101010101010101010101010101010101), 75))
+                    characters := sub(characters, mul(and(shr(7, add(bits, 0x4242424242424242424242424242424242424242424242424242424242424242)), 0x0101010101010101010101010101010101010101010101010101010101010101), 15))
+                    characters := add(characters, mul(and(shr(7, add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)), 0x0101010101010101010101010101010101010101010101010101010101010101), 3))
+                }
+                mstore(target, characters)
+                target := add(target, 32)
+            }
+        }
+    }
+}

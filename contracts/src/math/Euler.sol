@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "./Fixed.sol";
+import {Quaternion} from "./Quaternion.sol";
+
+/// @dev Pi / 180, Q60.
+int256 constant RADIANS = 20122189578364352;
+int256 constant QUARTER_TURN = 90 << 32;
+
+/// @notice The angle leaves the range of 2^26 degrees either way.
+error AngleOutOfRange(int256 degrees_);
+
+/// @notice The rotation about the x axis, then y, then z, by angles in degrees (Q32).
+/// @dev The product of three quaternions, z * y * x, each of which has half the angle.
+function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
+    (Fixed sx, Fixed cx) = sinCos(x.raw() >> 1);
+    (Fixed sy, Fixed cy) = sinCos(y.raw() >> 1);
+    (Fixed sz, Fixed cz) = sinCos(z.raw() >> 1);
+    return Quaternion(
+        sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz
+    );
+}
+
+/// @notice Sine and cosine of an angle in degrees (Q32), to 2^-31.
+function sinCos(int256 angle) pure returns (Fixed sine, Fixed cosine) {
+    unchecked {
+        if (angle > 1 << 58 || angle < -(1 << 58)) revert AngleOutOfRange(angle);
+        // whole quarter turns, and the rest between -45 and 45 degrees, as radians in Q60
+        int256 quarters = (angle + QUARTER_TURN / 2) / QUARTER_TURN;
+        if (angle + QUARTER_TURN / 2 < 0) --quarters;
+        int256 x = ((angle - quarters * QUARTER_TURN) * RADIANS) >> 32;
+        int256 square = (x * x) >> 60;
+        // Taylor series to x^12, by Horner's rule: each factor divides by the two next numbers of the factorial
+        int256 s = 1 << 60;
+        int256 c = 1 << 60;
+        for (int256 n = 12; n != 0; n -= 2) {
+            s = (1 << 60) - (square * s >> 60) / (n * (n + 1));
+            c = (1 << 60) - (square * c >> 60) / (n * (n - 1));
+        }
+        s = (x * s) >> 60;
+        (s, c) = ((s + (1 << 27)) >> 28, (c + (1 << 27)) >> 28);
+        if (quarters & 1 == 1) (s, c) = (c, -s);
+        if (quarters & 2 == 2) (s, c) = (-s, -c);
+        return (Fixed.wrap(s), Fixed.wrap(c));
+    }
+}
