@@ -34,12 +34,19 @@ library Compositor {
         }
     }
 
-    /// @notice How many pixels of a depth buffer are covered. Nothing that is drawn has the depth 0 of the empty buffer.
+    /// @notice How many pixels of a depth buffer are covered. Nothing that is drawn has the depth 0 of the empty buffer; the 24 bytes
+    /// behind its end must be empty.
     function litPixels(uint256 depth, uint256 end) internal pure returns (uint256 count) {
         assembly ("memory-safe") {
-            for {} lt(depth, end) { depth := add(depth, 8) } {
-                count := add(count, iszero(iszero(shr(192, mload(depth)))))
+            // four depths in a word; 1 or 0 for each, side by side in lanes that are added up at the end
+            let lanes := 0
+            for {} lt(depth, end) { depth := add(depth, 32) } {
+                let depths := mload(depth)
+                // the highest bit of a lane is set if any bit of it is
+                let some := add(and(depths, 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff), 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff)
+                lanes := add(lanes, shr(63, and(or(some, depths), 0x8000000000000000800000000000000080000000000000008000000000000000)))
             }
+            count := mod(lanes, 0xffffffffffffffff)
         }
     }
 

@@ -132,7 +132,8 @@ function setBand(Rectangle memory tile, uint256 depth, uint256 image, uint256 to
         store(BAND_BOTTOM, first + bottom);
         store(DEPTH_ORIGIN, depth + 8 * ((first + bottom - 1) * tile.width - tile.x - PIXEL_BIAS));
         store(IMAGE_ORIGIN, image + 3 * (tile.height - bottom) * tile.width - 3 * (depth >> 3));
-        uint256 size = 8 * (bottom - top) * tile.width;
+        // and the word behind them, since depths are read as whole words
+        uint256 size = 8 * (bottom - top) * tile.width + 32;
         assembly ("memory-safe") {
             // beyond its end calldata is zero
             calldatacopy(depth, calldatasize(), size)

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed, ZERO, ONE} from "./math/Fixed.sol";
+import {Vector} from "./math/Vector.sol";
+import {Quaternion} from "./math/Quaternion.sol";
+import {
+    Scene,
+    Canvas,
+    Camera,
+    Background,
+    Light,
+    Material,
+    Object,
+    PERSPECTIVE,
+    ORTHOGRAPHIC,
+    DIRECTIONAL,
+    FLAT,
+    UNLIT,
+    CULL_BACKFACES,
+    WIREFRAME
+} from "./scene/Scene.sol";
+import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT} from "./scene/Checks.sol";
+import {WIDE} from "./scene/Mesh.sol";
+import {Base64} from "./encode/Base64.sol";
+import {Text} from "./encode/Text.sol";
+import {Renderer} from "./Renderer.sol";
+
+/// @title Original: the interface of the first Shackled contracts, served by this renderer.
+/// @notice Whatever was written against `render(RenderParams, int256, bool)` works here. Geometry, camera, culling, wireframe, background
+/// and inversion carry over exactly, except where the original drew them wrong. Its light becomes one directional light: the colour of
+/// the surface shows in full, as there; the highlight is its highlight; the diffuse term is multiplied by the colour of the surface. The
+/// ambient power and a diffuse colour of another hue than the highlight have no counterpart.
+contract Original {
+    struct LightingParams {
+        bool applyLighting;
+        int256 lightAmbiPower;
+        int256 lightDiffPower;
+        int256 lightSpecPower;
+        uint256 inverseShininess;
+        int256[3] lightPos;
+        int256[3] lightColSpec;
+        int256[3] lightColDiff;
+        int256[3] lightColAmbi;
+    }
+
+    /// @param faces Three vertex numbers each, counter-clockwise.
+    /// @param cols A colour for each vertex that a face uses, red, green, blue, 0..255.
+    /// @param backgroundColor At the top and at the bottom.
+    struct RenderParams {
+        uint256[3][] faces;
+        int256[3][] verts;
+        int256[3][] cols;
+        int256[3] objPosition;
+        int256 objScale;
+        int256[3][2] backgroundColor;
+        LightingParams lightingParams;
+        bool perspCamera;
+        bool backfaceCulling;
+        bool invert;
+        bool wireframe;
+    }
+
+    Renderer public immutable renderer;
+
+    /// @dev 1 / 2.145: half the height of the picture at distance 1, a field of view of about 50 degrees.
+    Fixed internal constant HALF_HEIGHT = Fixed.wrap(2002315756);
+    /// @dev Half the units that the orthographic camera spans for each pixel of the canvas.
+    uint256 internal constant ORTHOGRAPHIC_UNITS = 500;
+    uint256 internal constant MAX_COUNT = 65535;
+
+    error NoRenderer(address renderer);
+    error TooManyFaces(uint256 count);
+    error TooManyVertices(uint256 count);
+    /// @notice A face uses a vertex that has no position or no colour.
+    error NoVertex(uint256 face, uint256 vertex);
+    /// @notice The coordinates of a mesh are from -2^23 to 2^23 - 1.
+    error VertexOutOfRange(uint256 vertex, int256 x, int256 y, int256 z);
+    error ColorOutOfRange(int256 red, int256 green, int256 blue);
+    error NumberOutOfRange(int256 value);
+    /// @notice `lightPos` is the direction to the light and must not be zero.
+    error NoLightDirection();
+
+    constructor(Renderer renderer_) {
+        if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
+        renderer = renderer_;
+    }
+
+    /// @notice Draws a scene of the original.
+    /// @param canvasDim Width and height in pixels.
+    /// @param returnSVG Whether to return a `data:` URI of an SVG instead of one of a bitmap.
+    function render(RenderParams calldata params, int256 canvasDim, bool returnSVG) external view returns (string memory) {
+        Scene memory scene = toScene(params, canvasDim);
+        return returnSVG ? svgUri(renderer.renderSVG(scene)) : renderer.renderDataURI(scene);
+    }
+
+    /// @notice The scene that `render` draws.
+    function toScene(RenderParams calldata params, int256 canvasDim) public pure returns (Scene memory scene) {
+        unchecked {
+            uint256 side = uint256(canvasDim);
+            scene.canvas = Canvas(side, side);
+            Camera memory camera = scene.camera;
+            camera.target.z = -ONE;
+            camera.up.y = ONE;
+            // a canvas of a wrong size is refused by the renderer
+            camera.projection = params.perspCamera ? PERSPECTIVE : ORTHOGRAPHIC;
+            camera.halfHeight =
+                params.perspCamera ? HALF_HEIGHT : Fixed.wrap(int256((ORTHOGRAPHIC_UNITS * (side & 0xffff)) << 32));
+            camera.near = params.perspCamera ? ONE : Fixed.wrap(-MAX_COORDINATE);
+            scene.background = Background(toColor(params.backgroundColor[0]), toColor(params.backgroundColor[1]));
+            scene.invert = params.invert ? 1 : 0;
+            scene.ambientLight = 0xffffff;
+
+            scene.objects = new Object[](1);
+            Object memory object = scene.objects[0];
+            object.mesh = pack(params);
+            object.position = toVector(params.objPosition);
+            object.rotation = Quaternion(ZERO, ZERO, ZERO, ONE);
+            object.scale = toFixed(params.objScale < 0 ? -params.objScale : params.objScale);
+            object.flags = (params.backfaceCulling ? CULL_BACKFACES : 0) + (params.wireframe ? WIREFRAME : 0);
+            object.material = Material(UNLIT, ONE, ZERO, ZERO, 1);
+            if (params.lightingParams.applyLighting) setLight(scene, object.material, params.lightingParams);
+        }
+    }
+
+    function setLight(Scene memory scene, Material memory material, LightingParams calldata lighting) private pure {
+        unchecked {
+            Vector memory direction = toVector(lighting.lightPos);
+            int256[3] calldata p = lighting.lightPos;
+            int256 square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+            if (square == 0) revert NoLightDirection();
+            bool hasHighlight = lighting.lightSpecPower > 0 && largest(lighting.lightColSpec) > 0;
+            // one light has one colour: that of the highlight where there is one
+            int256[3] calldata color = hasHighlight ? lighting.lightColSpec : lighting.lightColDiff;
+            (uint256 hue, int256 sum) = toHue(color);
+            scene.lights = new Light[](1);
+            scene.lights[0] = Light(DIRECTIONAL, direction, hue);
+            material.shading = FLAT;
+            material.diffuse = coefficient(lighting.lightDiffPower, total(lighting.lightColDiff), square * sum);
+            material.specular = coefficient(lighting.lightSpecPower, largest(lighting.lightColSpec), square * 255);
+            uint256 shininess = lighting.inverseShininess;
+            material.shininess = shininess == 0 ? 1 : shininess > MAX_SHININESS ? MAX_SHININESS : shininess;
+        }
+    }
+
+    /// @dev power * color / divisor, from 0 to 4.
+    function coefficient(int256 power, int256 color, int256 divisor) private pure returns (Fixed) {
+        unchecked {
+            if (power <= 0 || divisor == 0) return ZERO;
+            if (power >> 64 != 0) power = 1 << 64;
+            int256 value = ((power * color) << 32) / divisor;
+            return Fixed.wrap(value > MAX_COEFFICIENT ? MAX_COEFFICIENT : value);
+        }
+    }
+
+    /// @dev The colour with its largest part at 255, and the sum of its parts then.
+    function toHue(int256[3] calldata color) private pure returns (uint256 hue, int256 sum) {
+        unchecked {
+            int256 most = largest(color);
+            for (uint256 i; i != 3; ++i) {
+                int256 part = most == 0 ? int256(255) : (510 * color[i] + most) / (2 * most);
+                hue = (hue << 8) | uint256(part);
+                sum += part;
+            }
+        }
+    }
+
+    function largest(int256[3] calldata color) private pure returns (int256 most) {
+        for (uint256 i; i != 3; ++i) {
+            // the original's powers may be in its colours
+            if (color[i] < 0 || color[i] >> 64 != 0) revert ColorOutOfRange(color[0], color[1], color[2]);
+            if (color[i] > most) most = color[i];
+        }
+    }
+
+    function total(int256[3] calldata color) private pure returns (int256) {
+        largest(color);
+        return color[0] + color[1] + color[2];
+    }
+
+    /// @notice The mesh in the format of `Mesh.sol`, with 3 bytes a coordinate.
+    function pack(RenderParams calldata params) private pure returns (bytes memory mesh) {
+        unchecked {
+            (uint256 vertices, uint256 faces) = (params.verts.length, params.faces.length);
+            if (vertices > MAX_COUNT) revert TooManyVertices(vertices);
+            if (faces > MAX_COUNT) revert TooManyFaces(faces);
+            mesh = new bytes(5 + 12 * vertices + 6 * faces);
+            uint256 target;
+            assembly ("memory-safe") {
+                target := add(mesh, 32)
+            }
+            target = write(target, (WIDE << 32) | (vertices << 16) | faces, 5);
+            // the original's scale may be negative: the mesh is mirrored at its origin instead
+            int256 sign = params.objScale < 0 ? -1 : int256(1);
+            uint256 colored = params.cols.length;
+            for (uint256 i; i != vertices; ++i) {
+                int256[3] calldata v = params.verts[i];
+                uint256 color = i < colored ? toColor(params.cols[i]) : 0;
+                target = write(target, (toPosition(v, sign, i) << 24) | color, 12);
+            }
+            uint256 usable = colored < vertices ? colored : vertices;
+            for (uint256 i; i != faces; ++i) {
+                uint256[3] calldata f = params.faces[i];
+                for (uint256 j; j != 3; ++j) if (f[j] >= usable) revert NoVertex(i, f[j]);
+                target = write(target, (f[0] << 32) | (f[1] << 16) | f[2], 6);
+            }
+        }
+    }
+
+    function write(uint256 target, uint256 value, uint256 size) private pure returns (uint256) {
+        unchecked {
+            for (uint256 i = size; i-- != 0; value >>= 8) {
+                assembly ("memory-safe") {
+                    mstore8(add(target, i), value)
+                }
+            }
+            return target + size;
+        }
+    }
+
+    /// @dev Three coordinates of 24 bits.
+    function toPosition(int256[3] calldata v, int256 sign, uint256 vertex) private pure returns (uint256 packed) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) {
+                int256 value = sign * v[i];
+                if (value != int24(value)) revert VertexOutOfRange(vertex, v[0], v[1], v[2]);
+                packed = (packed << 24) | (uint256(value) & 0xffffff);
+            }
+        }
+    }
+
+    function toColor(int256[3] calldata color) private pure returns (uint256) {
+        unchecked {
+            (uint256 red, uint256 green, uint256 blue) = (uint256(color[0]), uint256(color[1]), uint256(color[2]));
+            if (red | green | blue > 255) revert ColorOutOfRange(color[0], color[1], color[2]);
+            return (red << 16) | (green << 8) | blue;
+        }
+    }
+
+    function toVector(int256[3] calldata v) private pure returns (Vector memory) {
+        return Vector(toFixed(v[0]), toFixed(v[1]), toFixed(v[2]));
+    }
+
+    function toFixed(int256 value) private pure returns (Fixed) {
+        unchecked {
+            if (value > MAX_COORDINATE >> 32 || value < -MAX_COORDINATE >> 32) revert NumberOutOfRange(value);
+            return Fixed.wrap(value << 32);
+        }
+    }
+
+    /// @dev An SVG document as `data:` URI.
+    function svgUri(string memory svg) private pure returns (string memory uri) {
+        unchecked {
+            uint256 size = bytes(svg).length;
+            string memory head = "data:image/svg+xml;base64,";
+            // with room for what Base64 writes too much
+            uri = new string(32 + 4 * ((size + 2) / 3) + 32);
+            uint256 data;
+            uint256 begin;
+            assembly ("memory-safe") {
+                data := add(svg, 32)
+                begin := add(uri, 32)
+            }
+            uint256 end = Base64.encode(data, size, Text.write(begin, head));
+            assembly ("memory-safe") {
+                mstore(uri, sub(end, begin))
+            }
+        }
+    }
+}
