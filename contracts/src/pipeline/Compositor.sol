@@ -39,14 +39,14 @@ library Compositor {
     function litPixels(uint256 depth, uint256 end) internal pure returns (uint256 count) {
         assembly ("memory-safe") {
             // four depths in a word; 1 or 0 for each, side by side in lanes that are added up at the end
-            let lanes := 0
+            let counts := 0
             for {} lt(depth, end) { depth := add(depth, 32) } {
                 let depths := mload(depth)
                 // the highest bit of a lane is set if any bit of it is
                 let some := add(and(depths, 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff), 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff)
-                lanes := add(lanes, shr(63, and(or(some, depths), 0x8000000000000000800000000000000080000000000000008000000000000000)))
+                counts := add(counts, shr(63, and(or(some, depths), 0x8000000000000000800000000000000080000000000000008000000000000000)))
             }
-            count := mod(lanes, 0xffffffffffffffff)
+            count := mod(counts, 0xffffffffffffffff)
         }
     }
 
