@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,7 +34,11 @@ def vector(value: ArrayLike, name: str, size: int = 3) -> NDArray[np.float64]:
 
 
 def color(value: ArrayLike, name: str) -> tuple[int, int, int]:
-    """Red, green and blue, whole numbers 0..255."""
+    """Red, green and blue, whole numbers 0..255; or a string "#rrggbb" of them."""
+    if isinstance(value, str):
+        if not re.fullmatch("#[0-9a-fA-F]{6}", value):
+            raise InputError(f"{name} must be red, green and blue from 0 to 255, or #rrggbb, not {value!r}")
+        return int(value[1:3], 16), int(value[3:5], 16), int(value[5:7], 16)
     channels = vector(value, name)
     if (channels < 0).any() or (channels > 255).any() or (channels % 1 != 0).any():
         raise InputError(f"{name} must be red, green and blue from 0 to 255, not {value!r}")

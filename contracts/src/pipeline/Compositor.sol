@@ -15,8 +15,12 @@ library Compositor {
             // lanes of Q24: the change from row to row upwards, and the bottom row
             uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
             uint256 color = (lanes(height == 1 ? top : bottom) << 24) + (ONES << 23) + step * (height - tile.y - tile.height);
+            uint256 last = type(uint256).max;
             for (uint256 row = tile.height; row != 0; --row) {
-                fillRow(image, rowBytes, color);
+                uint256 rounded = (color >> 24) & (ONES * 0xff);
+                if (rounded == last) copyRow(image, rowBytes);
+                else fillRow(image, rowBytes, rounded);
+                last = rounded;
                 image += rowBytes;
                 color += step;
             }
@@ -63,10 +67,18 @@ library Compositor {
         }
     }
 
+    /// @dev Repeats the row before.
+    function copyRow(uint256 row, uint256 rowBytes) private pure {
+        assembly ("memory-safe") {
+            mcopy(row, sub(row, rowBytes), rowBytes)
+        }
+    }
+
+    /// @param color Lanes of bytes.
     function fillRow(uint256 row, uint256 rowBytes, uint256 color) private pure {
         assembly ("memory-safe") {
             // b g r b g r ...: 32 bytes hold ten pixels and two thirds
-            color := shr(232, mul(and(color, 0xff000000000000ff000000000000ff000000), 0x100000000000000010000000000000001000000000000000000000000))
+            color := shr(232, mul(color, 0x100000000000000010000000000000001000000000000000000000000000000))
             let word := or(mul(shl(16, color), 0x1000001000001000001000001000001000001000001000001000001), shr(8, color))
             mstore(row, word)
             mstore(add(row, 32), or(shl(248, color), shr(8, word)))

@@ -260,35 +260,30 @@ library FragmentShader {
                         length := add(length, div(square, length))
                         let factor := mload(FACE_LIGHT_40)
                         let sum := 0
-                        let varyings := VARYINGS
-                        for { let record := LIGHTS } 1 {} {
-                            // normal * light
-                            old := add(add(mload(varyings), mul(mload(add(varyings, 0x20)), s)), mul(mload(add(varyings, 0x40)), t))
-                            old := sar(171, shl(1, mul(n, old)))
+                        // normal * light
+                        old := add(add(mload(TO_LIGHT_0), mul(mload(TO_LIGHT_1), s)), mul(mload(TO_LIGHT_2), t))
+                        old := sar(171, shl(1, mul(n, old)))
+                        if sgt(old, 0) {
+                            factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(old, shl(11, length))))
+                            let half := add(add(mload(HALF_REVERSED_0), mul(mload(HALF_REVERSED_1), s)), mul(mload(HALF_REVERSED_2), t))
+                            old := sar(171, shl(1, mul(n, half)))
                             if sgt(old, 0) {
-                                factor := add(factor, mul(mload(add(record, LIGHT_DIFFUSE)), div(old, shl(11, length))))
-                                let half := add(add(mload(add(varyings, 0xc0)), mul(mload(add(varyings, 0xe0)), s)), mul(mload(add(varyings, 0x100)), t))
-                                old := sar(171, shl(1, mul(n, half)))
-                                if sgt(old, 0) {
-                                    half := mul(half, add(add(mload(add(varyings, 0x60)), mul(mload(add(varyings, 0x80)), s)), mul(mload(add(varyings, 0xa0)), t)))
-                                    old := div(shl(24, mul(old, old)), mul(square, sar(171, shl(1, half))))
-                                    if gt(old, mload(SPECULAR_BEGIN)) {
-                                        old := mul(sub(old, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
-                                        if gt(old, 0x400000000000) { old := 0x400000000000 }
-                                        half := mload(add(SPECULAR_TABLE, and(shr(35, old), 0xffffe0)))
-                                        sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), add(shr(128, half), shr(16, mul(and(half, 0xffffffff), and(shr(24, old), 0xffff))))))
-                                    }
+                                half := mul(half, add(add(mload(HALF_0), mul(mload(HALF_1), s)), mul(mload(HALF_2), t)))
+                                old := div(shl(24, mul(old, old)), mul(square, sar(171, shl(1, half))))
+                                if gt(old, mload(SPECULAR_BEGIN)) {
+                                    old := mul(sub(old, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
+                                    if gt(old, 0x400000000000) { old := 0x400000000000 }
+                                    half := mload(add(SPECULAR_TABLE, and(shr(35, old), 0xffffe0)))
+                                    half := add(shr(128, half), shr(16, mul(and(half, 0xffffffff), and(shr(24, old), 0xffff))))
+                                    sum := and(shr(6, mul(mload(add(LIGHTS, LIGHT_COLOR)), half)), LANES_24)
                                 }
                             }
-                            record := add(record, LIGHT_SIZE)
-                            if eq(record, mload(LIGHTS_END)) { break }
-                            varyings := add(varyings, 0x120)
                         }
                         n := shr(16, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
                         switch and(mload(MODE), IS_GREY)
                         case 0 { n := modulated(and(n, LANES_24), factor) }
                         default { n := and(shr(16, mul(and(n, LANES_24), and(shr(24, factor), 0xffffffff))), LANES_24) }
-                        n := add(n, add(and(shr(6, sum), LANES_24), HALF_LEVEL))
+                        n := add(n, add(sum, HALF_LEVEL))
                         n := or(n, mul(and(shr(30, add(n, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
                         n := mul(and(n, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
                         s := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
@@ -326,7 +321,7 @@ library FragmentShader {
             last := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), last))
             let base := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), row))
             row := add(mload(RAY_TOP), mul(row, mload(RAY_STEP)))
-            for {} gt(base, last) {} {
+            for {} sgt(base, last) {} {
                 let from := and(shr(48, edges), 0xffff)
                 let to := shr(176, edges)
                 if lt(from, to) {
@@ -407,8 +402,8 @@ library FragmentShader {
 
 
     /// @notice Fills the record of a vertex with the vectors that the fragments of smooth triangles interpolate, Q20 in lanes of 85
-    /// bits: the normal the other way round, and for each light the direction to it the other way round, the half vector, and that the
-    /// other way round.
+    /// bits: the normal the other way round, the direction to the one light the other way round, the half vector, and that the other
+    /// way round.
     function setVaryings(uint256 screenWord) internal pure {
         unchecked {
             uint256 vertex = screenWord & 0xffffffff;
@@ -424,40 +419,35 @@ library FragmentShader {
                 mstore(add(vertex, 0x60), sub(lanes, VECTOR_BIAS))
             }
             bool orthographic = load(FRAME_IS_ORTHOGRAPHIC) != 0;
-            int256 length = orthographic ? int256(1 << 24) : int256(sqrt(uint256(x * x + y * y + (1 << 48))));
-            int256 distance = int256((load(DEPTH_SCALE) << 8) / depth);
-            uint256 place = vertex + 0x80;
-            uint256 end = load(LIGHTS_END);
-            (int256 rayX, int256 rayY) = orthographic ? (int256(0), int256(0)) : (x, y);
-            for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
-                int256 lx = loadSigned(record + LIGHT_X);
-                int256 ly = loadSigned(record + LIGHT_Y);
-                int256 lz = loadSigned(record + LIGHT_Z);
-                if (load(record + LIGHT_IS_POINT) != 0) {
-                    if (orthographic) {
-                        lx -= x >> 16;
-                        ly -= y >> 16;
-                        lz -= (int256(load(DEPTH_SCALE) << 8) - int256(depth)) >> 16;
-                    } else {
-                        lx -= (x * distance) >> 40;
-                        ly -= (y * distance) >> 40;
-                        lz -= distance >> 16;
-                    }
+            int256 lx = loadSigned(LIGHTS + LIGHT_X);
+            int256 ly = loadSigned(LIGHTS + LIGHT_Y);
+            int256 lz = loadSigned(LIGHTS + LIGHT_Z);
+            if (load(LIGHTS + LIGHT_IS_POINT) != 0) {
+                if (orthographic) {
+                    lx -= x >> 16;
+                    ly -= y >> 16;
+                    lz -= (int256(load(DEPTH_SCALE) << 8) - int256(depth)) >> 16;
+                } else {
+                    int256 distance = int256((load(DEPTH_SCALE) << 8) / depth);
+                    lx -= (x * distance) >> 40;
+                    ly -= (y * distance) >> 40;
+                    lz -= distance >> 16;
                 }
-                int256 far = int256(sqrt(uint256(lx * lx + ly * ly + lz * lz)));
-                assembly ("memory-safe") {
-                    lx := sdiv(shl(20, lx), far)
-                    ly := sdiv(shl(20, ly), far)
-                    lz := sdiv(shl(20, lz), far)
-                    mstore(place, add(add(lz, shl(85, ly)), shl(170, lx)))
-                    // H = L + V
-                    lx := sub(lx, sdiv(shl(20, rayX), length))
-                    ly := sub(ly, sdiv(shl(20, rayY), length))
-                    lz := sub(lz, sdiv(0x100000000000, length))
-                    mstore(add(place, 0x20), add(add(lx, shl(85, ly)), shl(170, lz)))
-                    mstore(add(place, 0x40), add(add(lz, shl(85, ly)), shl(170, lx)))
-                }
-                place += 0x60;
+            }
+            if (orthographic) (x, y) = (0, 0);
+            int256 length = int256(sqrt(uint256(x * x + y * y + (1 << 48))));
+            int256 distanceToLight = int256(sqrt(uint256(lx * lx + ly * ly + lz * lz)));
+            assembly ("memory-safe") {
+                lx := sdiv(shl(20, lx), distanceToLight)
+                ly := sdiv(shl(20, ly), distanceToLight)
+                lz := sdiv(shl(20, lz), distanceToLight)
+                mstore(add(vertex, 0x80), add(add(lz, shl(85, ly)), shl(170, lx)))
+                // H = L + V
+                lx := sub(lx, sdiv(shl(20, x), length))
+                ly := sub(ly, sdiv(shl(20, y), length))
+                lz := sub(lz, sdiv(0x100000000000, length))
+                mstore(add(vertex, 0xa0), add(add(lx, shl(85, ly)), shl(170, lz)))
+                mstore(add(vertex, 0xc0), add(add(lz, shl(85, ly)), shl(170, lx)))
             }
         }
     }

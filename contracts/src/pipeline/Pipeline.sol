@@ -104,12 +104,11 @@ function assembleObject(Scene calldata scene, uint256 index, View memory view_, 
 }
 
 /// @dev The size of a vertex record, as a power of two: position, colour, and what the fragment shader keeps there.
-function recordShift(uint256 shading, bool hasSpecular, bool hasManyLights) pure returns (uint256 shift) {
+function recordShift(uint256 shading, bool hasSpecular, bool hasManyLights) pure returns (uint256) {
     unchecked {
-        if (shading == SMOOTH) shift = 8;
-        else if (shading == FLAT && hasSpecular) shift = 7;
-        else return 6;
-        if (hasManyLights) ++shift;
+        if (shading == SMOOTH) return 8;
+        if (shading == FLAT && hasSpecular) return hasManyLights ? 8 : 7;
+        return 6;
     }
 }
 

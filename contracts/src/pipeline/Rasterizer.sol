@@ -144,7 +144,7 @@ library Rasterizer {
             row := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), row))
             end := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), end))
             let dx := mload(DX)
-            for {} gt(row, end) {} {
+            for {} sgt(row, end) {} {
                 let p := and(shr(48, edges), 0xffff)
                 if lt(p, shr(176, edges)) {
                     let attribute := add(start, mul(dx, p))

@@ -7,7 +7,7 @@ pragma solidity 0.8.37;
 /// @dev The compiler keeps variables that do not fit the stack between 0x80 and the first free address; `reserveRegisters` checks
 /// that this is below the registers.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x24e0;
+uint256 constant REGISTERS_END = 0x2180;
 
 error RegistersOverlap();
 
@@ -78,7 +78,8 @@ uint256 constant COLUMN_END = 0x8c0;
 /// @dev First row of the band that is being drawn, and the row after its last.
 uint256 constant BAND_TOP = 0x8e0;
 uint256 constant BAND_BOTTOM = 0x900;
-/// @dev Address that the depth of row 0, column 0 would have. Rows go down in memory, as they do in a bitmap.
+/// @dev Address that the depth of row 0, column 0 would have, which may be below 0. Rows go down in memory, as they do in a
+/// bitmap.
 uint256 constant DEPTH_ORIGIN = 0x920;
 /// @dev Bytes of a row of depths.
 uint256 constant DEPTH_STRIDE = 0x940;
@@ -224,29 +225,39 @@ uint256 constant FACE_LIGHT_40 = 0x1e00;
 /// @dev Unit normal times ray, Q48: FACE_FACING + FACE_FACING_SLOPE * depth >> 47.
 uint256 constant FACE_FACING = 0x1e20;
 uint256 constant FACE_FACING_SLOPE = 0x1e40;
-/// @dev Vectors of a smooth triangle: at the first vertex (Q36), and the differences to the others (Q20). Normals, normals the other way
-/// round, and for each light three more: see FragmentShader.setVaryings.
+/// @dev Vectors of a smooth triangle: at the first vertex (Q36), and the differences to the others (Q20); see FragmentShader.setVaryings.
+/// Normals, and normals with their lanes the other way round;
 uint256 constant NORMALS_0 = 0x1e60;
 uint256 constant NORMALS_1 = 0x1e80;
 uint256 constant NORMALS_2 = 0x1ea0;
 uint256 constant REVERSED_0 = 0x1ec0;
 uint256 constant REVERSED_1 = 0x1ee0;
 uint256 constant REVERSED_2 = 0x1f00;
-uint256 constant VARYINGS = 0x1f20;
+/// @dev directions to the light, the other way round;
+uint256 constant TO_LIGHT_0 = 0x1f20;
+uint256 constant TO_LIGHT_1 = 0x1f40;
+uint256 constant TO_LIGHT_2 = 0x1f60;
+/// @dev half vectors, and those the other way round.
+uint256 constant HALF_0 = 0x1f80;
+uint256 constant HALF_1 = 0x1fa0;
+uint256 constant HALF_2 = 0x1fc0;
+uint256 constant HALF_REVERSED_0 = 0x1fe0;
+uint256 constant HALF_REVERSED_1 = 0x2000;
+uint256 constant HALF_REVERSED_2 = 0x2020;
 
 // ---------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x23a0;
-uint256 constant FRAGMENT_PLACE_Y = 0x23c0;
+uint256 constant FRAGMENT_PLACE_X = 0x2040;
+uint256 constant FRAGMENT_PLACE_Y = 0x2060;
 /// @dev Its normal, Q24, the square and the length of that, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x23e0;
-uint256 constant FRAGMENT_NORMAL_Y = 0x2400;
-uint256 constant FRAGMENT_NORMAL_Z = 0x2420;
-uint256 constant FRAGMENT_SQUARE = 0x2440;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x2460;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x2480;
+uint256 constant FRAGMENT_NORMAL_X = 0x2080;
+uint256 constant FRAGMENT_NORMAL_Y = 0x20a0;
+uint256 constant FRAGMENT_NORMAL_Z = 0x20c0;
+uint256 constant FRAGMENT_SQUARE = 0x20e0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x2100;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x2120;
 /// @dev Half the magnitude of the last square of a normal.
-uint256 constant NORMAL_HINT = 0x24a0;
+uint256 constant NORMAL_HINT = 0x2140;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x24c0;
+uint256 constant FRAGMENT_LIGHT = 0x2160;

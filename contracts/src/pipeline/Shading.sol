@@ -120,37 +120,28 @@ library Shading {
     function setVectors(uint256 a, uint256 b, uint256 c) private pure returns (bool varying) {
         unchecked {
             spread(NORMALS_0, 0x40, a, b, c);
-            if (squareSize(a, b, c) >= load(VARYING_REACH)) return false;
+            // with several lights most of the work would be done for each of them all the same
+            if (load(LIGHTS_END) != LIGHTS + LIGHT_SIZE || squareSize(a, b, c) >= load(VARYING_REACH)) return false;
             if (vertexWord(a, 0x60) == 0) FragmentShader.setVaryings(a);
             if (vertexWord(b, 0x60) == 0) FragmentShader.setVaryings(b);
             if (vertexWord(c, 0x60) == 0) FragmentShader.setVaryings(c);
             spread(REVERSED_0, 0x60, a, b, c);
-            int256 turn;
-            assembly ("memory-safe") {
-                // squares of the changes of the normal
-                turn := sar(171, shl(1, mul(mload(NORMALS_1), mload(REVERSED_1))))
-                turn := or(turn, sar(171, shl(1, mul(mload(NORMALS_2), mload(REVERSED_2)))))
-            }
-            // at most 60 degrees: 1, Q40
-            if (turn > 1099511627776) return false;
-            uint256 varyings = VARYINGS;
-            uint256 end = load(LIGHTS_END);
-            uint256 place = 0x80;
-            for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
-                spread(varyings, place, a, b, c);
-                spread(varyings + 0x60, place + 0x20, a, b, c);
-                spread(varyings + 0xc0, place + 0x40, a, b, c);
-                assembly ("memory-safe") {
-                    // squares of the changes of the half vector
-                    turn := sar(171, shl(1, mul(mload(add(varyings, 0x80)), mload(add(varyings, 0xe0)))))
-                    turn := or(turn, sar(171, shl(1, mul(mload(add(varyings, 0xa0)), mload(add(varyings, 0x100))))))
-                }
-                // 1/16, Q40
-                if (turn > 68719476736) return false;
-                varyings += 0x120;
-                place += 0x60;
-            }
+            spread(HALF_0, 0xa0, a, b, c);
+            spread(HALF_REVERSED_0, 0xc0, a, b, c);
+            // at most 60 degrees between normals: the square of a change is 1; and 1/16 for half vectors, Q40
+            if (
+                changes(NORMALS_0, REVERSED_0) > 1 << 40 || changes(HALF_0, HALF_REVERSED_0) > 1 << 36
+            ) return false;
+            spread(TO_LIGHT_0, 0x80, a, b, c);
             return true;
+        }
+    }
+
+    /// @dev At least the larger of the squares of the changes of a vector to the second and to the third vertex, Q40.
+    function changes(uint256 vectors, uint256 reversed) private pure returns (int256 squares) {
+        assembly ("memory-safe") {
+            squares := sar(171, shl(1, mul(mload(add(vectors, 0x20)), mload(add(reversed, 0x20)))))
+            squares := or(squares, sar(171, shl(1, mul(mload(add(vectors, 0x40)), mload(add(reversed, 0x40))))))
         }
     }
 

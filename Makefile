@@ -1,0 +1,80 @@
+# What can be done here; `make help` lists it. The work is done by the Python programs that are named.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PACKAGE := $(VENV)/.package
+DEV := $(VENV)/.dev
+NODE := contracts/node_modules/.package-lock.json
+
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint types contracts gas-check docs unit build gas bench fuzz pictures clean
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
+
+# ---- set-up ----
+
+$(PACKAGE): pyproject.toml tools/prepare.py
+	@$(PYTHON) tools/prepare.py package
+
+$(DEV): pyproject.toml tools/prepare.py
+	@$(PYTHON) tools/prepare.py dev
+
+$(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py node
+
+# ---- a picture ----
+
+demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
+	@$(BIN)/python examples/meshes.py --into build teapot
+	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --color '#3f8fb5' \
+		--specular 0.7 --shininess 48 --background '#1d2433,#8794ad'
+
+# ---- everything that must hold, the quick checks first ----
+
+test: lint types contracts gas-check docs unit ## all checks and tests
+	@echo "all checks and tests passed"
+
+lint: $(DEV) ## style of the Python code
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+
+types: $(DEV) ## types of the Python code
+	$(BIN)/mypy
+
+contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
+	$(BIN)/python tools/build_contracts.py --check
+
+gas-check: $(DEV) ## whether the gas of the snapshot still holds
+	$(BIN)/python benchmarks/gas.py --check
+
+docs: $(DEV) ## the documentation, in site/
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
+unit: $(DEV) $(NODE) ## the tests
+	$(BIN)/pytest -n 2
+
+# ---- what is made and kept in the repository ----
+
+build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts
+	$(BIN)/python tools/build_contracts.py
+
+gas: $(DEV) ## write the gas snapshot, benchmarks/gas.json
+	$(BIN)/python benchmarks/gas.py
+
+bench: $(DEV) ## measure, and write the tables of benchmarks/
+	$(BIN)/python benchmarks/run.py
+
+pictures: $(DEV) ## draw the pictures of the documentation
+	$(BIN)/python docs/pictures.py
+
+# ---- long runs ----
+
+fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes
+	$(BIN)/python tests/differential.py --count 2000
+
+clean: ## remove what was made here, but for the repository
+	rm -rf $(VENV) contracts/node_modules build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -prune -exec rm -rf {} +

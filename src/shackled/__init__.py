@@ -1,0 +1,36 @@
+"""A 3D renderer whose every computation runs inside Ethereum smart contracts."""
+
+from importlib.metadata import PackageNotFoundError, version
+
+from .errors import InputError, RenderError
+from .image import Image
+from .render import render
+from .scene.background import Background
+from .scene.camera import Camera
+from .scene.files.load import load
+from .scene.light import Light
+from .scene.material import Material
+from .scene.mesh import Mesh
+from .scene.object import Object
+from .scene.scene import Scene
+
+try:
+    __version__ = version("shackled")
+except PackageNotFoundError:  # from a source tree that was not installed
+    __version__ = "0+unknown"
+
+__all__ = [
+    "Background",
+    "Camera",
+    "Image",
+    "InputError",
+    "Light",
+    "Material",
+    "Mesh",
+    "Object",
+    "RenderError",
+    "Scene",
+    "__version__",
+    "load",
+    "render",
+]

@@ -1,0 +1,5 @@
+"""`python -m shackled` is the command `shackled`."""
+
+from .cli import main
+
+main()

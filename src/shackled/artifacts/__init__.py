@@ -1,0 +1,70 @@
+"""The compiled contracts; tools/build_contracts.py writes the JSON files beside this one."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from Crypto.Hash import keccak
+
+
+@dataclass(frozen=True)
+class Artifact:
+    """A compiled contract.
+
+    creation: what deploys it, to be followed by the arguments of the constructor.
+    runtime: what stands on the chain then, but for immutable values.
+    parts: the contracts whose addresses the constructor asks for.
+    selectors: of each function, by its name.
+    errors: name and parameters (name, type) of each error, by its selector.
+    """
+
+    name: str
+    abi: list[dict[str, Any]]
+    creation: bytes
+    runtime: bytes
+    parts: list[str]
+    selectors: dict[str, bytes]
+    errors: dict[bytes, tuple[str, list[tuple[str, str]]]]
+
+    @property
+    def functions(self) -> dict[bytes, str]:
+        """The name of each function, by its selector."""
+        return {selector: name for name, selector in self.selectors.items()}
+
+
+@cache
+def artifact(name: str) -> Artifact:
+    """The contract of that name."""
+    data = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
+    return Artifact(
+        name=name,
+        abi=data["abi"],
+        creation=bytes.fromhex(data["bytecode"]),
+        runtime=bytes.fromhex(data["deployedBytecode"]),
+        parts=[
+            parameter["internalType"].removeprefix("contract ")
+            for entry in data["abi"]
+            if entry["type"] == "constructor"
+            for parameter in entry["inputs"]
+        ],
+        selectors={
+            signature.split("(")[0]: bytes.fromhex(value) for signature, value in data["methodIdentifiers"].items()
+        },
+        errors=dict(map(_error, (entry for entry in data["abi"] if entry["type"] == "error"))),
+    )
+
+
+def contracts() -> list[str]:
+    """The names of all compiled contracts."""
+    names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
+    return sorted(name for name in names if name != "standard-input")
+
+
+def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:
+    parameters = [(parameter["name"], parameter["type"]) for parameter in entry["inputs"]]
+    signature = f"{entry['name']}({','.join(kind for _, kind in parameters)})"
+    return keccak.new(digest_bits=256, data=signature.encode()).digest()[:4], (entry["name"], parameters)

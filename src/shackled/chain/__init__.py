@@ -1,0 +1,6 @@
+"""Where the contracts run."""
+
+from .chain import CallResult, Chain, ContractChain, Drawing
+from .opening import CHAINS, open_chain
+
+__all__ = ["CHAINS", "CallResult", "Chain", "ContractChain", "Drawing", "open_chain"]

@@ -1,0 +1,176 @@
+"""Chains inside this process: an EVM with nothing in it but the contracts, at the rules of Cancun.
+
+Every call finds the same fresh state, so the same call always costs the same gas.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+from typing import Any
+
+from ..artifacts import artifact
+from ..errors import RenderError
+from .chain import CallResult, ContractChain
+from .refusal import out_of_gas, refusal
+
+#: Enough for any picture of 1024 x 1024 pixels; little enough that a call ends and that its memory stays below 130 MB.
+DEFAULT_GAS_LIMIT = 30_000_000_000
+
+SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
+
+
+def intrinsic_gas(data: bytes) -> int:
+    """What a transaction with this data costs before anything is executed, in Cancun."""
+    zeros = data.count(0)
+    return 21000 + 4 * zeros + 16 * (len(data) - zeros)
+
+
+class EmbeddedChain(ContractChain):
+    """Sets up each contract when it is first called, after those whose addresses its constructor asks for."""
+
+    def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
+        """`gas_limit` is for calls that name none."""
+        self.gas_limit = gas_limit
+        self._codes: dict[bytes, bytes] = {}
+        self._addresses: dict[str, bytes] = {}
+
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+
+        RenderError if the contract refuses or the gas does not suffice.
+        """
+        return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
+
+    def address(self, contract: str) -> bytes:
+        """Where a contract stands."""
+        if contract not in self._addresses:
+            built = artifact(contract)
+            code = built.runtime
+            if built.parts:
+                arguments = b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
+                code = self._create(contract, built.creation + arguments)
+            self._addresses[contract] = bytes.fromhex("c0de") + bytes(17) + bytes([len(self._addresses) + 1])
+            self._codes[self._addresses[contract]] = code
+        return self._addresses[contract]
+
+    @abstractmethod
+    def _create(self, contract: str, creation: bytes) -> bytes:
+        """The runtime code that creation code leaves."""
+
+    @abstractmethod
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        """Calls the code at an address."""
+
+
+class PyrevmChain(EmbeddedChain):
+    """The EVM of pyrevm, compiled Rust."""
+
+    name = "embedded EVM (pyrevm)"
+
+    def _evm(self) -> Any:
+        import pyrevm
+
+        # a new one each time: it keeps addresses warm from call to call, and takes no more calls after one that failed
+        evm = pyrevm.EVM(spec_id="Cancun")
+        for address, code in self._codes.items():
+            evm.insert_account_info(_hex(address), pyrevm.AccountInfo(code=code))
+        return evm
+
+    def _create(self, contract: str, creation: bytes) -> bytes:
+        evm = self._evm()
+        try:
+            address = evm.deploy(_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
+        except RuntimeError as error:
+            raise RenderError(f"the contract {contract} could not be deployed: {error}") from None
+        return bytes(evm.get_code(address))
+
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        evm, intrinsic = self._evm(), intrinsic_gas(data)
+        try:
+            output = bytes(evm.message_call(_hex(SENDER), _hex(address), data, None, gas_limit + intrinsic))
+        except RuntimeError as error:
+            raise _pyrevm_error(str(error), gas_limit) from None
+        return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
+
+
+def _pyrevm_error(message: str, gas_limit: int) -> RenderError:
+    if message.startswith("Revert"):
+        return refusal(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
+    if "OutOfGas" in message:
+        return out_of_gas(gas_limit)
+    return RenderError(f"the call failed: {message}")
+
+
+class PyEvmChain(EmbeddedChain):
+    """The EVM of py-evm, pure Python: some hundred times slower, and runs everywhere."""
+
+    name = "embedded EVM (py-evm)"
+
+    def _create(self, contract: str, creation: bytes) -> bytes:
+        from eth.constants import CREATE_CONTRACT_ADDRESS
+
+        address = bytes.fromhex("c0de") + bytes(18)
+        state = self._state()
+        message = self._message(creation, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=address)
+        computation = state.computation_class.apply_create_message(state, message, self._transaction)
+        if computation.is_error:
+            raise RenderError(f"the contract {contract} could not be deployed: {computation.error!r}")
+        return bytes(state.get_code(address))
+
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        from eth.exceptions import OutOfGas, Revert
+
+        state = self._state()
+        for warm in (SENDER, address):
+            state.mark_address_warm(warm)
+        message = self._message(self._codes[address], data, address, gas_limit)
+        computation = state.computation_class.apply_message(state, message, self._transaction)
+        if computation.is_error:
+            if isinstance(computation.error, Revert):
+                raise refusal(bytes(computation.output), gas_limit)
+            if isinstance(computation.error, OutOfGas):
+                raise out_of_gas(gas_limit)
+            raise RenderError(f"the call failed: {computation.error!r}")
+        return CallResult(bytes(computation.output), computation.get_gas_used(), intrinsic_gas(data))
+
+    def _state(self) -> Any:
+        from eth.constants import BLANK_ROOT_HASH
+        from eth.db.atomic import AtomicDB
+        from eth.vm.execution_context import ExecutionContext
+        from eth.vm.forks.cancun.state import CancunState
+        from eth_typing import Address, BlockNumber, Hash32
+
+        context = ExecutionContext(
+            coinbase=Address(bytes(20)),
+            timestamp=1,
+            block_number=BlockNumber(1),
+            difficulty=0,
+            mix_hash=Hash32(bytes(32)),
+            gas_limit=DEFAULT_GAS_LIMIT,
+            prev_hashes=(),
+            chain_id=1,
+            base_fee_per_gas=0,
+            excess_blob_gas=0,
+        )
+        state = CancunState(AtomicDB(), context, BLANK_ROOT_HASH)
+        for address, code in self._codes.items():
+            state.set_code(Address(address), code)
+        return state
+
+    def _message(self, code: bytes, data: bytes, to: bytes, gas: int, **options: Any) -> Any:
+        from eth.vm.message import Message
+        from eth_typing import Address
+
+        return Message(gas=gas, to=Address(to), sender=Address(SENDER), value=0, data=data, code=code, **options)
+
+    @cached_property
+    def _transaction(self) -> Any:
+        from eth.vm.transaction_context import BaseTransactionContext
+        from eth_typing import Address
+
+        return BaseTransactionContext(gas_price=0, origin=Address(SENDER))
+
+
+def _hex(address: bytes) -> str:
+    return "0x" + address.hex()

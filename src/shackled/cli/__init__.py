@@ -1,0 +1,5 @@
+"""The command `shackled`."""
+
+from .app import main
+
+__all__ = ["main"]

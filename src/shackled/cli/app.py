@@ -1,0 +1,59 @@
+"""The command and its exit codes: 0 done, 2 wrong usage or bad input, 1 anything else."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Annotated, NoReturn
+
+import typer
+
+from .. import __version__
+from ..errors import InputError, RenderError
+from .render import render
+
+#: What typer makes of a keyboard interrupt.
+INTERRUPTED = 130
+
+app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+app.command()(render)
+
+
+@app.callback(invoke_without_command=True)
+def shackled(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+) -> None:
+    """Pictures of 3D scenes, computed by Ethereum smart contracts."""
+    if version:
+        print(f"shackled {__version__}")
+    elif context.invoked_subcommand is None:
+        print(context.get_help())
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; the exit code. What went wrong is said in one line on stderr."""
+    try:
+        code = app(args=None if arguments is None else list(arguments), standalone_mode=False, prog_name="shackled")
+        return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
+    except InputError as error:
+        return _fail(error, 2)
+    except RenderError as error:
+        return _fail(error, 1)
+    except (KeyboardInterrupt, typer.Abort):
+        return _fail("stopped", 1)
+    except Exception as error:
+        # errors of usage, whose class depends on the version of typer
+        if not hasattr(error, "format_message"):
+            raise
+        return _fail(error.format_message(), getattr(error, "exit_code", 2))
+
+
+def _fail(message: object, code: int) -> int:
+    print(f"shackled: {' '.join(str(message).split())}", file=sys.stderr)
+    return code
+
+
+def main() -> NoReturn:
+    """The entry point."""
+    sys.exit(run())

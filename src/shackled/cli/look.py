@@ -1,0 +1,155 @@
+"""What the command line changes about a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene.background import Background
+from ..scene.camera import Camera, Projection, half_height_of
+from ..scene.files.load import load
+from ..scene.files.mesh_file import READERS
+from ..scene.light import Light
+from ..scene.material import Shading
+from ..scene.object import Object
+from ..scene.rotation import from_euler, multiply, rotate
+from ..scene.scene import Scene
+from ..scene.staging import Look
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What is to be different from the scene as it is loaded; None leaves it.
+
+    rotation: degrees about x, then y, then z, about the middle of the scene.
+    """
+
+    size: tuple[int, int] | None = None
+    rotation: Vector | None = None
+    eye: Vector | None = None
+    target: Vector | None = None
+    up: Vector | None = None
+    projection: Projection | None = None
+    fov: float | None = None
+    half_height: float | None = None
+    near: float | None = None
+    lights: Sequence[Light] = ()
+    shading: Shading | None = None
+    ambient: float | None = None
+    diffuse: float | None = None
+    specular: float | None = None
+    shininess: int | None = None
+    color: tuple[int, int, int] | None = None
+    background: Background | None = None
+    cull: bool | None = None
+    wireframe: bool | None = None
+    invert: bool | None = None
+
+
+def load_changed(path: str, changes: Changes) -> Scene:
+    """The scene of a file, with the changes. A mesh is framed as it will be seen."""
+    if Path(path).suffix.lower() in READERS:
+        scene = load(path, _look(changes))
+    else:
+        scene = load(path)
+        if changes.rotation is not None:
+            scene = turn(scene, changes.rotation)
+    if changes.size is not None:
+        scene = replace(scene, width=changes.size[0], height=changes.size[1])
+    return replace(
+        scene,
+        objects=[_change_object(o, changes) for o in scene.objects],
+        camera=_change_camera(scene, changes),
+        lights=changes.lights or scene.lights,
+        background=scene.background if changes.background is None else changes.background,
+        invert=scene.invert if changes.invert is None else changes.invert,
+    )
+
+
+def turn(scene: Scene, degrees: Vector) -> Scene:
+    """The scene with all objects turned together about their middle; camera and lights stay."""
+    rotation, middle = from_euler(degrees), _middle(scene)
+    return replace(
+        scene,
+        objects=[
+            replace(
+                o,
+                position=middle + rotate(rotation, np.asarray(o.position) - middle),
+                rotation=multiply(rotation, o.rotation),
+            )
+            for o in scene.objects
+        ],
+    )
+
+
+def _look(changes: Changes) -> Look:
+    chosen: dict[str, Any] = {}
+    if changes.size is not None:
+        chosen["width"], chosen["height"] = changes.size
+    if changes.rotation is not None:
+        chosen["rotation"] = from_euler(changes.rotation)
+    if changes.projection is not None:
+        chosen["projection"] = changes.projection
+    half_height = _half_height(changes, changes.projection or "perspective")
+    if half_height is not None and changes.projection != "orthographic":
+        chosen["half_height"] = half_height
+    return Look(**chosen)
+
+
+def _middle(scene: Scene) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """The middle of the box around all objects."""
+    corners = []
+    for o in scene.objects:
+        points = np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions))
+        corners += [points.min(axis=0), points.max(axis=0)]
+    return (np.min(corners, axis=0) + np.max(corners, axis=0)) / 2 if corners else np.zeros(3)
+
+
+def _change_object(o: Object, changes: Changes) -> Object:
+    material = replace(o.material, **_given(changes, "shading", "ambient", "diffuse", "specular", "shininess"))
+    mesh = o.mesh
+    if changes.color is not None:
+        mesh = replace(mesh, colors=np.tile(changes.color, (len(np.asarray(mesh.positions)), 1)))
+    return replace(o, mesh=mesh, material=material, **_given(changes, "cull", "wireframe"))
+
+
+def _change_camera(scene: Scene, changes: Changes) -> Camera:
+    camera = replace(scene.camera, **_given(changes, "eye", "target", "up"))
+    half_height, near = camera.half_height, camera.near
+    projection = changes.projection or camera.projection
+    if projection != camera.projection:
+        # what the camera looks at keeps its size
+        near = None
+        forward = np.asarray(camera.target) - np.asarray(camera.eye)
+        length = np.linalg.norm(forward)
+        distance = (_middle(scene) - np.asarray(camera.eye)) @ forward / length if length else 0.0
+        if distance > 0:
+            half_height *= distance if projection == "orthographic" else 1 / distance
+    chosen = _half_height(changes, projection)
+    return replace(
+        camera,
+        projection=projection,
+        half_height=half_height if chosen is None else chosen,
+        near=near if changes.near is None else changes.near,
+    )
+
+
+def _half_height(changes: Changes, projection: Projection) -> float | None:
+    if changes.fov is None:
+        return changes.half_height
+    if changes.half_height is not None:
+        raise InputError("--fov and --half-height say the same in two ways: give one of them")
+    if projection == "orthographic":
+        raise InputError("an orthographic camera has no field of view: give --half-height instead of --fov")
+    return half_height_of(changes.fov)
+
+
+def _given(changes: Changes, *names: str) -> dict[str, Any]:
+    return {name: value for name in names if (value := getattr(changes, name)) is not None}

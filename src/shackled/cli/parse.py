@@ -1,0 +1,57 @@
+"""What is written on the command line, as values."""
+
+from __future__ import annotations
+
+import re
+
+from ..errors import InputError
+from ..scene.background import Background
+from ..scene.light import Light
+from ..scene.scene import MAX_SIDE
+
+Color = tuple[int, int, int]
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """Width and height, of "128" or "320x200"."""
+    match = re.fullmatch(r"(\d{1,9})(?:[xX](\d{1,9}))?", text)
+    if not match:
+        raise InputError(f"--size must be a side such as 128 or WIDTHxHEIGHT such as 320x200, not {text!r}")
+    width, height = int(match[1]), int(match[2] or match[1])
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise InputError(f"--size must be from 1 to {MAX_SIDE} pixels a side, not {text!r}")
+    return width, height
+
+
+def parse_vector(text: str, name: str) -> tuple[float, float, float]:
+    """Three numbers, of "x,y,z"."""
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(f"{name} must be three numbers x,y,z such as 0,1.5,-2, not {text!r}") from None
+    return x, y, z
+
+
+def parse_color(text: str, name: str) -> Color:
+    """Red, green and blue, of "#rrggbb"."""
+    if not re.fullmatch(r"#?[0-9a-fA-F]{6}", text):
+        raise InputError(f"{name} must be a colour #rrggbb such as #ff8800, not {text!r}")
+    red, green, blue = bytes.fromhex(text.removeprefix("#"))
+    return red, green, blue
+
+
+def parse_background(text: str) -> Background:
+    """A colour, or the top and the bottom of a gradient, of "#rrggbb" or "#rrggbb,#rrggbb"."""
+    parts = text.split(",")
+    if len(parts) > 2:
+        raise InputError(f"--background must be one colour or two, #rrggbb,#rrggbb, not {text!r}")
+    return Background(*(parse_color(part.strip(), "--background") for part in parts))
+
+
+def parse_light(text: str) -> Light:
+    """A light, of "directional:x,y,z" or "point:x,y,z", either with ":#rrggbb" after it."""
+    kind, *rest = text.split(":")
+    if kind not in ("directional", "point") or not 1 <= len(rest) <= 2:
+        raise InputError(f"--light must be directional:x,y,z or point:x,y,z, with :#rrggbb if wanted, not {text!r}")
+    color = parse_color(rest[1], "--light") if len(rest) == 2 else (255, 255, 255)
+    return Light("point" if kind == "point" else "directional", parse_vector(rest[0], "--light"), color)

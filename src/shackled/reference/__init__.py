@@ -1,0 +1,36 @@
+"""The renderer once more, in Python and NumPy: what the contracts must equal byte for byte.
+
+Each file mirrors one of contracts/src and is meant to be read beside it. The numbers are those of the contract: Python
+integers where it computes vertices, faces and light, arrays of 64-bit integers where it walks over the pixels of a face.
+"""
+
+from __future__ import annotations
+
+from ..artifacts import artifact
+from ..scene.codec import Rectangle, encode
+from ..scene.scene import Scene
+from .bmp import encode_bmp
+from .call import read_call
+from .pipeline import Picture, draw
+
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "render"]
+
+
+def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
+    """The picture of a scene, or of a part of its canvas, as the bytes of a BMP file.
+
+    Raises RenderError where the contract refuses.
+    """
+    selector = artifact("Renderer").selectors["render" if tile is None else "renderTile"]
+    return encode_bmp(draw_call(encode(selector, scene, tile)).pixels)
+
+
+def count(scene: Scene) -> tuple[int, int]:
+    """The triangles that survive culling and clipping, and the pixels that any of them covers."""
+    picture = draw_call(encode(artifact("Renderer").selectors["renderCounted"], scene))
+    return picture.triangles, picture.lit_pixels
+
+
+def draw_call(data: bytes) -> Picture:
+    """The picture that a call of `render`, `renderTile` or `renderCounted` of the Renderer contract asks for."""
+    return draw(*read_call(data))

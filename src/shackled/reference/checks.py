@@ -1,0 +1,159 @@
+"""Every bound that the pipeline relies on, and the errors of the contract."""
+
+from __future__ import annotations
+
+from ..errors import RenderError
+from .mesh import NORMALS, WIDE
+from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
+from .vector import Vector
+
+MAX_CANVAS = 1024
+MAX_LIGHTS = 4
+MAX_SHININESS = 128
+MAX_COORDINATE = 1 << 58
+MAX_EXTENT = 1 << 59
+MAX_COEFFICIENT = 4 << 32
+
+
+class Reverted(RenderError):
+    """The call reverts with a custom error of the contract: its name and values."""
+
+    def __init__(self, error: str, **values: int) -> None:
+        described = ", ".join(f"{name}={value}" for name, value in values.items())
+        super().__init__(f"the contract refused: {error}({described})")
+
+
+def check_layout(data: bytes, base: int) -> None:
+    """Follows the offsets and lengths of the call before anything is read through them; the scene begins at `base`."""
+    # words of a scene before its arrays, and of a light and an object
+    check_tail(data, base, base + 32 * 18, 32 * 5)
+    objects = check_tail(data, base, base + 32 * 19, 32)
+    count = word(data, objects)
+    objects += 32
+    for position in range(objects, objects + 32 * count, 32):
+        obj = objects + word(data, position)
+        if obj + 32 * 15 > len(data):
+            raise Reverted("MalformedScene", position=position)
+        check_tail(data, obj, obj, 1)
+
+
+def check_tail(data: bytes, base: int, position: int, size: int) -> int:
+    """Checks that the offset at `position`, which counts from `base`, leads to an array that lies within the call.
+
+    size: bytes of an element. Returns where the length of the array is.
+    """
+    tail = base + word(data, position)
+    if tail + 32 > len(data):
+        raise Reverted("MalformedScene", position=position)
+    if tail + 32 + word(data, tail) * size > len(data):
+        raise Reverted("MalformedScene", position=tail)
+    return tail
+
+
+def word(data: bytes, position: int) -> int:
+    """The word at that place of the call, which zeros follow."""
+    return int.from_bytes(data[position : position + 32].ljust(32, b"\0"), "big")
+
+
+def check_scene(scene: Scene, tile: Rectangle) -> None:
+    """Everything but the vertex numbers of the faces, which the primitive assembly checks."""
+    width, height = scene.canvas.width, scene.canvas.height
+    if not (1 <= width <= MAX_CANVAS and 1 <= height <= MAX_CANVAS):
+        raise Reverted("CanvasSize", width=width, height=height)
+    if (
+        not (1 <= tile.width <= width and 1 <= tile.height <= height)
+        or tile.x > width - tile.width
+        or tile.y > height - tile.height
+    ):
+        raise Reverted("RectangleOutsideCanvas", x=tile.x, y=tile.y, width=tile.width, height=tile.height)
+    check_camera(scene.camera)
+    check_color(scene.background_top)
+    check_color(scene.background_bottom)
+    check_color(scene.ambient_light)
+    if scene.invert > 1:
+        raise Reverted("NotAFlag", value=scene.invert)
+    if len(scene.lights) > MAX_LIGHTS:
+        raise Reverted("TooManyLights", count=len(scene.lights))
+    for index, light in enumerate(scene.lights):
+        check_light(light, index)
+    for index, obj in enumerate(scene.objects):
+        check_object(obj, index)
+
+
+def check_camera(camera: Camera) -> None:
+    """All numbers of the camera."""
+    if camera.projection > ORTHOGRAPHIC:
+        raise Reverted("UnknownProjection", projection=camera.projection)
+    perspective = camera.projection == PERSPECTIVE
+    lowest, highest = (1 << 22, 1 << 42) if perspective else (1 << 20, 1 << 58)
+    if not lowest <= camera.half_height <= highest:
+        raise Reverted("HalfHeightOutOfRange", halfHeight=camera.half_height)
+    if not (1 if perspective else -MAX_COORDINATE) <= camera.near <= MAX_COORDINATE:
+        raise Reverted("NearOutOfRange", near=camera.near)
+    check_vector(camera.eye)
+    check_vector(camera.target)
+    check_vector(camera.up)
+
+
+def check_light(light: Light, index: int) -> None:
+    """All numbers of a light."""
+    if light.kind > POINT:
+        raise Reverted("UnknownLight", light=index, kind=light.kind)
+    check_vector(light.vector)
+    check_color(light.color)
+    if light.kind == DIRECTIONAL and not any(light.vector):
+        raise Reverted("LightWithoutDirection", light=index)
+
+
+def check_object(obj: Object, index: int) -> None:
+    """All numbers of an object."""
+    bits, has_normals = check_mesh(obj.mesh_header, len(obj.mesh), index)
+    check_vector(obj.position)
+    material = obj.material
+    if material.shading > SMOOTH:
+        raise Reverted("UnknownShading", object=index, shading=material.shading)
+    if material.shading == SMOOTH and not has_normals:
+        raise Reverted("NoNormals", object=index)
+    for coefficient in (material.ambient, material.diffuse, material.specular):
+        if not 0 <= coefficient <= MAX_COEFFICIENT:
+            raise Reverted("CoefficientOutOfRange", object=index, value=coefficient)
+    if not 1 <= material.shininess <= MAX_SHININESS:
+        raise Reverted("ShininessOutOfRange", object=index, shininess=material.shininess)
+    if obj.flags > 3:
+        raise Reverted("UnknownFlags", object=index, flags=obj.flags)
+    if not 0 <= obj.scale <= MAX_EXTENT >> (bits - 1):
+        raise Reverted("ScaleOutOfRange", object=index, scale=obj.scale)
+    if not all(map(in_range, obj.rotation)):
+        raise Reverted("CoordinateOutOfRange", x=obj.rotation[0], y=obj.rotation[1], z=obj.rotation[2])
+    if not any(obj.rotation):
+        raise Reverted("RotationIsZero", object=index)
+
+
+def check_mesh(header: int, length: int, index: int) -> tuple[int, bool]:
+    """Header and length of a mesh; returns the bits of a coordinate, and whether it has normals."""
+    kind = header >> 32
+    if length < 5 or kind > NORMALS + WIDE:
+        raise Reverted("MeshHeader", object=index, format=kind, length=length)
+    bits, has_normals = (24 if kind & WIDE else 16), bool(kind & NORMALS)
+    vertex_size = 3 * bits // 8 + (7 if has_normals else 3)
+    expected = 5 + ((header >> 16) & 0xFFFF) * vertex_size + (header & 0xFFFF) * 6
+    if length != expected:
+        raise Reverted("MeshLength", object=index, expected=expected, actual=length)
+    return bits, has_normals
+
+
+def check_color(value: int) -> None:
+    """0xRRGGBB."""
+    if value > 0xFFFFFF:
+        raise Reverted("NotAColor", value=value)
+
+
+def check_vector(v: Vector) -> None:
+    """Coordinates within 2^26 units."""
+    if not all(map(in_range, v)):
+        raise Reverted("CoordinateOutOfRange", x=v[0], y=v[1], z=v[2])
+
+
+def in_range(value: int) -> bool:
+    """Whether a coordinate is within 2^26 units."""
+    return -MAX_COORDINATE <= value <= MAX_COORDINATE

@@ -1,0 +1,128 @@
+"""Triangles that leave the guard band or reach behind the near plane are cut there, in homogeneous coordinates.
+
+Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
+
+An edge is always cut from its inner end, and each end is put on the same side of a plane in all faces, so that faces that
+share an edge share the cut as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .mesh import Mesh
+from .registers import GUARD_BITS, Registers
+from .vertex_shader import Vertex, clip_coordinates, screen_vertex
+from .words import LANES_24, MASK, divide_signed
+
+#: Near, left, right, top, bottom.
+PLANES = 5
+#: Each plane adds one corner at most to the three of a face.
+MAX_CORNERS = 8
+
+#: Keeps the lanes of a normal positive, and what remains of them when 32 bits are dropped.
+NORMAL_LANES_BIAS = 0x40000000000000000000020000000000000000000010000000000
+NORMAL_LANES = 0xFFFFFFFFFFFFFC00000003FFFFFFFFFFFFE00000001FFFFFFFFFFFFF
+
+
+@dataclass(slots=True)
+class Corner:
+    """A corner of a polygon.
+
+    x, y, w: clip coordinates, Q32. color: lanes of Q10. normal: as in a vertex.
+    is_edge: whether the edge to the next corner is one of the face; a cut has made it if not.
+    """
+
+    x: int
+    y: int
+    w: int
+    color: int
+    normal: int
+    is_edge: bool
+
+
+def read_face(mesh: Mesh, vertices: list[Vertex], face: int, registers: Registers) -> tuple[list[Corner], bool]:
+    """The three corners of a face, and whether all of it lies beyond one plane."""
+    outcodes = 0b11111
+    corners = []
+    for number in mesh.faces[face]:
+        vertex = vertices[number]
+        outcodes &= vertex.attributes if vertex.must_clip else 0
+        corners.append(Corner(*clip_coordinates(mesh, number, registers), vertex.normal, True))
+    return corners, outcodes != 0
+
+
+def cut(corners: list[Corner], registers: Registers) -> list[Corner]:
+    """What remains of a triangle within all planes."""
+    for plane in range(PLANES):
+        kept = []
+        distances = [distance_inside(corner, plane, registers) for corner in corners]
+        for i, corner in enumerate(corners):
+            following = (i + 1) % len(corners)
+            distance, next_distance = distances[i], distances[following]
+            if distance >= 0:
+                kept.append(replace(corner))
+            if (distance < 0) != (next_distance < 0):
+                if distance < 0:
+                    new = intersect(corners[following], corner, next_distance, distance)
+                else:
+                    new = intersect(corner, corners[following], distance, next_distance)
+                # inward the rest of the edge follows, outward the edge of the cut
+                new.is_edge = corner.is_edge if distance < 0 else False
+                if plane == 0:
+                    new.w = registers.near
+                kept.append(new)
+        corners = kept[:MAX_CORNERS]
+    return corners
+
+
+def distance_inside(corner: Corner, plane: int, registers: Registers) -> int:
+    """A measure of the distance from a plane: not negative inside."""
+    if plane == 0:
+        return corner.w - registers.near
+    value = corner.x if plane < 3 else corner.y
+    if plane & 1:
+        return value
+    return (divisor(corner.w, registers) << GUARD_BITS) - value - 1
+
+
+def divisor(w: int, registers: Registers) -> int:
+    """What clip coordinates are divided by."""
+    return 1 << 32 if registers.frame_is_orthographic else w
+
+
+def intersect(inside: Corner, outside: Corner, inner: int, outer: int) -> Corner:
+    """The point between two corners where the distance is zero."""
+    whole = inner - outer
+
+    def between(a: int, b: int) -> int:
+        return a + divide_signed((b - a) * inner, whole)
+
+    # colours and normals keep 32 more bits until the sum is made
+    part = (inner << 32) // whole
+    color = (inside.color << 32) + (outside.color - inside.color) * part
+    normal = (inside.normal << 32) + (outside.normal - inside.normal) * part + (NORMAL_LANES_BIAS << 32)
+    return Corner(
+        between(inside.x, outside.x),
+        between(inside.y, outside.y),
+        between(inside.w, outside.w),
+        (color >> 32) & LANES_24,
+        ((((normal & MASK) >> 32) & NORMAL_LANES) - NORMAL_LANES_BIAS) & MASK,
+        False,
+    )
+
+
+def project(corner: Corner, number: int, registers: Registers) -> Vertex:
+    """Makes a vertex from a corner."""
+    w = corner.w
+    x = in_guard_band(divide_signed(corner.x, divisor(w, registers)))
+    y = in_guard_band(divide_signed(corner.y, divisor(w, registers)))
+    depth = registers.depth_scale - (w >> 8) if registers.frame_is_orthographic else registers.depth_scale // w
+    vertex = screen_vertex(x, y, number, (depth << 168) | corner.color, registers)
+    vertex.normal = corner.normal
+    return vertex
+
+
+def in_guard_band(value: int) -> int:
+    """Rounding may have put a point on the border a little outside."""
+    return min(max(value, 0), (1 << GUARD_BITS) - 1)

@@ -1,0 +1,215 @@
+"""What the fragment shader needs to know of lights and material, prepared once for the scene, an object, or a face."""
+
+from __future__ import annotations
+
+from .mesh import Mesh
+from .registers import (
+    HAS_SPECULAR,
+    IS_DIFFUSE,
+    IS_FLAT,
+    IS_GREY,
+    IS_LIT,
+    IS_ORTHOGRAPHIC,
+    IS_SMOOTH,
+    LightRecord,
+    Registers,
+)
+from .roots import sqrt
+from .structs import FLAT, POINT, UNLIT, Light, Material, Object, Scene
+from .vector import Matrix, Vector, normalize, subtract, transposed_times
+from .view import View
+from .words import LANES_32, MASK, ONES, color_lanes, divide_signed, signed
+
+
+def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> None:
+    """Lights in camera space."""
+    registers.lights = []
+    for light in lights:
+        is_point = light.kind == POINT
+        v = view.to_camera(subtract(light.vector, view.eye) if is_point else normalize(light.vector))
+        x, y, z = (component >> (16 if is_point else 8) for component in v)
+        registers.lights.append(LightRecord(is_point, x, y, z, color=color_lanes(light.color)))
+
+
+def scaled(color: int, coefficient: int) -> int:
+    """Colour bytes times a coefficient (Q32), lanes of Q16 where 255 is one."""
+    k = coefficient >> 16
+    return sum(((color >> (8 * i)) & 0xFF) * k // 255 << (56 * i) for i in range(3))
+
+
+def set_object(view: View, scene: Scene, obj: Object, rotation: Matrix, registers: Registers) -> None:
+    """Material, and eye and lights in the space of the mesh."""
+    material = obj.material
+    mode = IS_ORTHOGRAPHIC if view.orthographic else 0
+    registers.object_mode = mode
+    if material.shading == UNLIT:
+        return
+    set_reach(view, scene.lights, material, registers)
+    registers.ambient = scaled(scene.ambient_light, material.ambient)
+    grey = is_grey(registers.ambient)
+    for record, light in zip(registers.lights, scene.lights, strict=True):
+        record.diffuse = scaled(light.color, material.diffuse)
+        grey = grey and is_grey(record.diffuse)
+    if material.specular != 0:
+        mode |= HAS_SPECULAR
+    set_specular(material.specular, material.shininess, registers)
+    # without lights the normal makes no difference
+    if material.shading == FLAT or not scene.lights:
+        mode |= IS_FLAT
+        registers.fragment_square = 1 << 48
+        registers.fragment_normal_length = 1 << 24
+        set_mesh_space(view, scene, obj, rotation, registers)
+    else:
+        registers.face_light = registers.ambient
+        registers.face_light_40 = registers.ambient << 24
+        focal = view.focal >> 32
+        registers.varying_reach = 1 << 60 if view.orthographic else focal * focal // 16
+        mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (IS_GREY if grey else 0)
+    registers.object_mode = mode
+
+
+def is_grey(light: int) -> bool:
+    """Whether all lanes are equal."""
+    return light == (light & 0xFFFFFFFF) * ONES
+
+
+def set_reach(view: View, lights: tuple[Light, ...], material: Material, registers: Registers) -> None:
+    """The square of the distance, in sub-pixels, over which light is as good as linear."""
+    focal = view.focal >> 32
+    strength = material.shininess * material.specular
+    point = any(light.kind == POINT for light in lights)
+    registers.has_point_light = point
+    if point:
+        strength += 2 * material.diffuse
+    strength *= len(lights)
+    if view.orthographic:
+        registers.reach = 0 if point else 1 << 60
+    else:
+        registers.reach = 1 << 60 if strength == 0 else ((48 * focal * focal << 32) & MASK) // (255 * strength)
+
+
+def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, registers: Registers) -> None:
+    """Eye and lights in the space of the mesh."""
+    if obj.scale == 0:
+        return
+    registers.scale = obj.scale
+    if not view.orthographic:
+        registers.scale_per_near = divide_signed(obj.scale << 32, registers.near)
+
+    def to_mesh(v: Vector, factor: int) -> Vector:
+        x, y, z = transposed_times(rotation, v)
+        return (x * factor) >> 32, (y * factor) >> 32, (z * factor) >> 32
+
+    place_factor, direction_factor = (1 << 48) // obj.scale, 1 << 24
+    if view.orthographic:
+        eye = to_mesh(view.forward, direction_factor)
+    else:
+        eye = to_mesh(subtract(view.eye, obj.position), place_factor)
+    registers.eye_x, registers.eye_y, registers.eye_z = eye
+    for record, light in zip(registers.lights, scene.lights, strict=True):
+        if light.kind == POINT:
+            v = to_mesh(subtract(light.vector, obj.position), place_factor)
+        else:
+            v = to_mesh(normalize(light.vector), direction_factor)
+        record.mesh_x, record.mesh_y, record.mesh_z = v
+
+
+def set_specular(coefficient: int, shininess: int, registers: Registers) -> None:
+    """Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level."""
+    if coefficient == 0:
+        # no square is greater than this
+        registers.specular_begin = MASK
+        return
+    width = 13
+    k = 1 << 32
+    while k < coefficient:
+        width += 2
+        k <<= 1
+    width = min((width << 24) // shininess, 1 << 24)
+    begin = (1 << 24) - width
+    registers.specular_begin = begin
+    registers.specular_scale = (64 << 40) // width
+    last = (coefficient * power(1 << 24, shininess)) >> 48
+    table = [0] * 64 + [last << 128]
+    for i in reversed(range(64)):
+        value = (coefficient * power(begin + width * i // 64, shininess)) >> 48
+        table[i] = ((value << 128) | ((last - value) & MASK)) & MASK
+        last = value
+    registers.specular_table = table
+
+
+def power(square: int, exponent: int) -> int:
+    """square^(exponent / 2), where square is Q24 and the result Q32."""
+    base = square << 8
+    result = sqrt(base << 32) if exponent & 1 else 1 << 32
+    exponent >>= 1
+    while exponent:
+        if exponent & 1:
+            result = (result * base) >> 32
+        base = (base * base) >> 32
+        exponent >>= 1
+    return result
+
+
+def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
+    """Normal and light of a flat face, from its corners in the mesh; returns its mode."""
+    r = registers
+    length = sqrt(set_face_normal(mesh, face, r))
+    mode = r.object_mode
+    r.face_reach = r.reach
+    total = r.ambient
+    nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
+    for record in r.lights:
+        if not record.is_point:
+            # normal * direction
+            lambert = nx * record.mesh_x + ny * record.mesh_y + nz * record.mesh_z
+            record.facing = divide_signed(lambert << 16, length)
+            if record.facing > 0:
+                total += ((record.diffuse * record.facing) >> 24) & LANES_32
+                # a highlight wants the light of each fragment
+                if mode & HAS_SPECULAR:
+                    mode |= IS_LIT
+        else:
+            mode |= face_point_light(record, length, r)
+    r.face_light = total
+    if mode & IS_ORTHOGRAPHIC == 0:
+        # normal * (corner - eye)
+        product = nx * (r.face_corner_x - r.eye_x) + ny * (r.face_corner_y - r.eye_y) + nz * (r.face_corner_z - r.eye_z)
+        r.face_facing_slope = divide_signed(signed(product * r.scale_per_near), length)
+        r.face_facing = 0
+    else:
+        # normal * line of sight
+        product = nx * r.eye_x + ny * r.eye_y + nz * r.eye_z
+        r.face_facing_slope = 0
+        r.face_facing = divide_signed(signed(product << 40), length)
+    return mode
+
+
+def face_point_light(record: LightRecord, length: int, registers: Registers) -> int:
+    """How a point light meets the face; returns what it adds to the mode."""
+    r = registers
+    x = record.mesh_x - r.face_corner_x
+    y = record.mesh_y - r.face_corner_y
+    z = record.mesh_z - r.face_corner_z
+    lambert = r.face_normal_x * x + r.face_normal_y * y + r.face_normal_z * z
+    record.facing = divide_signed(signed(lambert * r.scale) >> 16, length)
+    if record.facing <= 0:
+        return 0
+    # the light turns as well, by as much as V where it is as near as the eye
+    total = record.facing + r.face_distance
+    reach = ((r.reach * record.facing) & MASK) // total
+    reach = ((reach * record.facing) & MASK) // total
+    r.face_reach = min(r.face_reach, reach)
+    return IS_LIT | IS_DIFFUSE
+
+
+def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
+    """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square, Q32."""
+    p, a, b = (mesh.positions[number] for number in mesh.faces[face])
+    registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 16 for component in p)
+    ax, ay, az = a[0] - p[0], a[1] - p[1], a[2] - p[2]
+    bx, by, bz = b[0] - p[0], b[1] - p[1], b[2] - p[2]
+    registers.face_normal_x = x = ay * bz - az * by
+    registers.face_normal_y = y = az * bx - ax * bz
+    registers.face_normal_z = z = ax * by - ay * bx
+    return (x * x + y * y + z * z) << 32

@@ -1,0 +1,98 @@
+"""From vertices and faces to triangles that are to be drawn: those that face the viewer (or all), cut where they leave
+the guard band.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from . import clipper
+from .checks import Reverted
+from .mesh import Mesh
+from .registers import Registers
+from .vertex_shader import Vertex
+
+ALL_EDGES = 7
+
+
+class Triangle(NamedTuple):
+    """A triangle on the screen.
+
+    a, b, c: counter-clockwise on the screen, the topmost first.
+    top, bottom: the first row that may be covered, and the row after the last.
+    face: number of the face in its mesh.
+    edges: which edges belong to the face, the sum of 1 (first to second vertex), 2 (second to third), 4 (third to first).
+    outside: whether it reaches beyond the left or right border of the tile.
+    """
+
+    a: Vertex
+    b: Vertex
+    c: Vertex
+    top: int
+    bottom: int
+    face: int
+    edges: int
+    outside: bool
+
+
+def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: Registers) -> tuple[list[Triangle], int]:
+    """The triangles to draw; and of how many faces, which face the viewer, something is inside the guard band."""
+    triangles: list[Triangle] = []
+    clipped = []
+    drawn = 0
+    for face, numbers in enumerate(mesh.faces):
+        if max(numbers) >= len(vertices):
+            raise Reverted("IndexOutOfRange", object=index, face=face, vertexCount=len(vertices))
+        a, b, c = (vertices[number] for number in numbers)
+        if a.must_clip or b.must_clip or c.must_clip:
+            clipped.append(face)
+            continue
+        area = area_of(a, b, c)
+        if area == 0 or (cull and area < 0):
+            continue
+        drawn += 1
+        append(triangles, a, b, c, ALL_EDGES, face, cull, registers)
+    for face in clipped:
+        corners, is_outside = clipper.read_face(mesh, vertices, face, registers)
+        if is_outside:
+            continue
+        corners = clipper.cut(corners, registers)
+        if len(corners) < 3:
+            continue
+        # numbers only order vertices at the same place, so those of later polygons may go on from here
+        fan = [clipper.project(corner, len(vertices) + i, registers) for i, corner in enumerate(corners)]
+        count = len(triangles)
+        for i in range(1, len(fan) - 1):
+            edges = corners[i].is_edge << 1
+            if i == 1:
+                edges |= corners[0].is_edge
+            if i == len(fan) - 2:
+                edges |= corners[i + 1].is_edge << 2
+            append(triangles, fan[0], fan[i], fan[i + 1], edges, face, cull, registers)
+        drawn += len(triangles) > count
+    return triangles, drawn
+
+
+def append(
+    triangles: list[Triangle], a: Vertex, b: Vertex, c: Vertex, edges: int, face: int, cull: bool, registers: Registers
+) -> None:
+    """Appends a triangle to the list, if it is to be drawn."""
+    area = area_of(a, b, c)
+    if area == 0 or (cull and area < 0):
+        return
+    if area < 0:
+        b, c = c, b
+        edges = (edges >> 2) | (edges & 2) | ((edges & 1) << 2)
+    # the topmost first, without changing the sense of rotation
+    while a.word > b.word or a.word > c.word:
+        a, b, c = b, c, a
+        edges = (edges >> 1) | ((edges & 1) << 2)
+    top = (a.word + registers.round_top) >> 136
+    bottom = (max(b.word, c.word) + registers.round_bottom) >> 136
+    if top < bottom:
+        triangles.append(Triangle(a, b, c, top, bottom, face, edges, a.outside or b.outside or c.outside))
+
+
+def area_of(a: Vertex, b: Vertex, c: Vertex) -> int:
+    """Twice the area of a triangle on the screen, positive if it faces the viewer."""
+    return (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)

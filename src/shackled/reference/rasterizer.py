@@ -1,0 +1,100 @@
+"""From triangles to fragments, by a digital differential analyzer."""
+
+from __future__ import annotations
+
+from . import fragment_shader, shading
+from .mesh import Mesh
+from .primitive_assembly import Triangle
+from .registers import Registers
+from .vertex_shader import Vertex
+from .words import MASK, divide_signed
+
+LANE_128 = (1 << 128) - 1
+
+
+def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
+    """Draws the triangles of a list."""
+    for triangle in triangles:
+        top = max(triangle.top, registers.band_top)
+        bottom = min(triangle.bottom, registers.band_bottom)
+        if top < bottom:
+            draw_triangle(triangle, top, bottom, mesh, registers)
+
+
+def draw_triangle(triangle: Triangle, top: int, bottom: int, mesh: Mesh, registers: Registers) -> None:
+    """Draws the rows from `top` to before `bottom`."""
+    r = registers
+    shading.prepare(triangle, mesh, r)
+    a, b, c = triangle.a, triangle.b, triangle.c
+    set_plane(a, b, c, top, r)
+    spans = []
+    # the first row below the upper of the two lower vertices, where one edge ends and another begins
+    middle = min(row_of(c if c.word < b.word else b), bottom)
+    edges, slopes = upper_edges(a, b, c, top)
+    if top < middle:
+        spans = fragment_shader.spans_between(edges, slopes, r.start, top, middle, r)
+    else:
+        middle = top
+    if middle < bottom:
+        edges, slopes = lower_edges(edges, slopes, b, c, top, middle)
+        start = r.start + r.dy * (middle - top)
+        spans += fragment_shader.spans_between(edges, slopes, start, middle, bottom, r)
+    fragment_shader.draw(spans, r)
+
+
+def row_of(vertex: Vertex) -> int:
+    """The first row of pixels whose centres are not above the vertex."""
+    return (vertex.y + 0xFF) >> 8
+
+
+def upper_edges(a: Vertex, b: Vertex, c: Vertex, top: int) -> tuple[int, int]:
+    """The left edge from a to b and the right one from a to c, at row `top`.
+
+    Columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge;
+    and their change per row.
+    """
+    left = divide_signed((b.x - a.x) << 48, b.y - a.y)
+    right = divide_signed((c.x - a.x) << 48, c.y - a.y)
+    column = (a.x << 40) + 0xFFFFFFFFC000
+    below = (top << 8) - a.y
+    edges = column + (below * left >> 8) + ((column + (below * right >> 8)) << 128)
+    return edges & MASK, (left + (right << 128)) & MASK
+
+
+def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, middle: int) -> tuple[int, int]:
+    """The same at row `middle`, where the edge between b and c takes the place of the one that has ended."""
+    edges = (upper + upper_slopes * (middle - top)) & MASK
+    is_right = c.word < b.word
+    if is_right:
+        b, c = c, b
+    slope = divide_signed((c.x - b.x) << 48, c.y - b.y)
+    column = ((b.x << 40) + 0xFFFFFFFFC000 + (((middle << 8) - b.y) * slope >> 8)) & MASK
+    left_slope = upper_slopes & LANE_128
+    left_slope -= left_slope >> 127 << 128
+    # keep the lane of the other edge
+    if is_right:
+        edges = (edges & LANE_128) | (column << 128)
+        slopes = left_slope + (slope << 128)
+    else:
+        edges = (edges >> 128 << 128) | column
+        slopes = upper_slopes - left_slope + slope
+    return edges & MASK, slopes & MASK
+
+
+def set_plane(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> None:
+    """The accumulator at column 0 of row `top`, and its change per pixel and per row."""
+    r = registers
+    x, y = a.x, a.y
+    xb, yb, xc, yc = b.x - x, b.y - y, c.x - x, c.y - y
+    area = xc * yb - xb * yc
+    # change of the barycentric coordinates per pixel, Q32
+    xb, xc = divide_signed(xb << 40, area), divide_signed(xc << 40, area)
+    yb, yc = divide_signed(yb << 40, area), divide_signed(yc << 40, area)
+    y = (top << 8) - y
+    delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
+    # from the first vertex to the centre of pixel 0 in row `top`
+    start = (r.attribute_0 << 32) + r.lane_bias
+    start += delta_b * ((y * xc + x * yc) >> 8) - delta_c * ((x * yb + y * xb) >> 8)
+    r.start = start & MASK
+    r.dx = (delta_c * yb - delta_b * yc) & MASK
+    r.dy = (delta_b * xc - delta_c * xb) & MASK

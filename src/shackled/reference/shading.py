@@ -1,0 +1,175 @@
+"""How finely a triangle has to be shaded."""
+
+from __future__ import annotations
+
+from . import lighting
+from .fragment_shader import product, set_varyings, vertex_highlights
+from .mesh import Mesh
+from .primitive_assembly import Triangle
+from .registers import (
+    IS_BARYCENTRIC,
+    IS_BLOCKED,
+    IS_CROSSING,
+    IS_DIFFUSE,
+    IS_FLAT,
+    IS_LIT,
+    IS_ORTHOGRAPHIC,
+    IS_SMOOTH,
+    IS_STEEP,
+    IS_VARYING,
+    Registers,
+    Varying,
+)
+from .roots import sqrt
+from .vertex_shader import Vertex
+from .words import LANES_24, MASK, ONES, divide, signed
+
+#: Biases of the lanes: half a level for colours.
+COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
+WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000
+EPSILON = 0x400000000000004000000000000040000
+GUARDS = 0x0040000000000000400000000000004000000000000
+#: Bits of a lane that only a colour above 255 has.
+ABOVE_255 = 0xFC000000000000FC000000000000FC0000
+
+
+def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
+    """Chooses the way to shade a triangle, and sets what that way needs."""
+    r = registers
+    a, b, c = triangle.a, triangle.b, triangle.c
+    attributes_a, attributes_b, attributes_c = a.attributes, b.attributes, c.attributes
+    mode = r.object_mode
+    crossing = IS_CROSSING if triangle.outside else 0
+    if mode & IS_FLAT:
+        if r.has_point_light:
+            r.face_distance = (r.depth_scale >> 16) // (1 + (min(attributes_a, attributes_b, attributes_c) >> 168))
+        mode = lighting.set_face(mesh, triangle.face, r)
+        if mode & IS_DIFFUSE == 0 and r.face_light != ONES << 16:
+            attributes_a = lit(attributes_a, r.face_light)
+            attributes_b = lit(attributes_b, r.face_light)
+            attributes_c = lit(attributes_c, r.face_light)
+    affine = is_affine(attributes_a, attributes_b, attributes_c)
+    if mode & IS_DIFFUSE == 0 and affine and (mode & IS_LIT == 0 or square_size(a, b, c) < r.face_reach):
+        r.lane_bias = COLOR_BIAS
+        if mode & IS_LIT:
+            attributes_a = vertex_highlights(attributes_a, a, r)
+            attributes_b = vertex_highlights(attributes_b, b, r)
+            attributes_c = vertex_highlights(attributes_c, c, r)
+        # colours above 255 need a loop that keeps them there
+        saturates = (attributes_a | attributes_b | attributes_c) & ABOVE_255 != 0
+        r.mode = saturates | crossing
+    else:
+        barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, affine, r)
+        attributes_a = attributes_a >> 168 << 168
+        attributes_b = (attributes_b >> 168 << 168) | (1 << 56)
+        attributes_c = (attributes_c >> 168 << 168) | 1
+    r.attribute_0, r.attribute_1, r.attribute_2 = attributes_a, attributes_b, attributes_c
+
+
+def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
+    """The sum of the squares of two edges, in sub-pixels."""
+    return (b.x - a.x) ** 2 + (c.x - a.x) ** 2 + (b.y - a.y) ** 2 + (c.y - a.y) ** 2
+
+
+def barycentric(
+    a: Vertex,
+    b: Vertex,
+    c: Vertex,
+    attributes_a: int,
+    attributes_b: int,
+    attributes_c: int,
+    mode: int,
+    affine: bool,
+    registers: Registers,
+) -> None:
+    """The registers of a triangle whose fragments are shaded from their barycentric coordinates."""
+    r = registers
+    color = attributes_a & LANES_24
+    if mode & IS_SMOOTH and set_vectors(a, b, c, r):
+        r.mode = mode | IS_VARYING if affine or mode & IS_ORTHOGRAPHIC else mode | IS_VARYING | IS_STEEP
+        color_0 = color << 16
+    else:
+        mode |= IS_BARYCENTRIC
+        color_0 = color << 24
+        if mode & IS_SMOOTH == 0:
+            size = block_size(
+                square_size(a, b, c), mode, attributes_a >> 168, attributes_b >> 168, attributes_c >> 168, r
+            )
+            r.block = size
+            if size > 1:
+                mode |= IS_BLOCKED
+        r.mode = mode
+    r.lane_bias = WEIGHT_BIAS
+    # a little more against rounding below zero
+    r.color_0 = color_0 + EPSILON
+    r.color_1 = (attributes_b & LANES_24) - color
+    r.color_2 = (attributes_c & LANES_24) - color
+    r.depth_1 = attributes_b >> 168 << 8
+    r.depth_2 = attributes_c >> 168 << 8
+
+
+def set_vectors(a: Vertex, b: Vertex, c: Vertex, registers: Registers) -> bool:
+    """Prepares the vectors of a smooth triangle.
+
+    Returns whether they turn so little that light and half vectors may be interpolated as well.
+    """
+    r = registers
+    r.normals = spread(a.normal, b.normal, c.normal)
+    # with several lights most of the work would be done for each of them all the same
+    if len(r.lights) != 1 or square_size(a, b, c) >= r.varying_reach:
+        return False
+    for vertex in (a, b, c):
+        if not vertex.has_varyings:
+            set_varyings(vertex, r)
+    r.reversed = spread(a.reversed, b.reversed, c.reversed)
+    r.half = spread(a.half, b.half, c.half)
+    r.half_reversed = spread(a.half_reversed, b.half_reversed, c.half_reversed)
+    # at most 60 degrees between normals: the square of a change is 1; and 1/16 for half vectors, Q40
+    if changes(r.normals, r.reversed) > 1 << 40 or changes(r.half, r.half_reversed) > 1 << 36:
+        return False
+    r.to_light = spread(a.to_light, b.to_light, c.to_light)
+    return True
+
+
+def changes(vectors: Varying, reversed_vectors: Varying) -> int:
+    """At least the larger of the squares of the changes of a vector to the second and to the third vertex, Q40."""
+    return product(vectors.to_1, reversed_vectors.to_1) | product(vectors.to_2, reversed_vectors.to_2)
+
+
+def spread(a: int, b: int, c: int) -> Varying:
+    """A value of the three vertices as the value at the first, Q36, and the differences to the others, Q20."""
+    return Varying(a << 16, b - a, c - a)
+
+
+def block_size(square: int, mode: int, za: int, zb: int, zc: int, registers: Registers) -> int:
+    """Pixels over which neither light nor perspective bends the colour by more than a level."""
+    nearest, farthest = max(za, zb, zc), min(za, zb, zc)
+    reach = square * farthest // (64 * (nearest - farthest) + 1)
+    if mode & IS_LIT:
+        reach = min(reach, registers.face_reach)
+    return min(max(sqrt(reach) >> 8, 1), 16)
+
+
+def lit(word: int, factor: int) -> int:
+    """The attribute word with the light of the face, lanes of Q16, on its colour."""
+    color = word & LANES_24
+    blue = factor & 0xFFFFFFFF
+    if factor == blue * ONES:
+        lanes = ((color * blue) >> 16) & LANES_24
+    else:
+        lanes = (blue * (color & 0xFFFFFF)) >> 16
+        lanes |= (((factor >> 56) & 0xFFFFFFFF) * ((color >> 56) & 0xFFFFFF)) >> 16 << 56
+        lanes |= ((factor >> 112) * (color >> 112)) >> 16 << 112
+    return lanes | (word ^ color)
+
+
+def is_affine(a: int, b: int, c: int) -> bool:
+    """Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones."""
+    depth = a >> 168
+    dz, dz2 = (b >> 168) - depth, (c >> 168) - depth
+    # |dz| | |dz2|: at least the larger, less than twice it
+    dz = (dz if dz >= 0 else ~dz) | (dz2 if dz2 >= 0 else ~dz2) | 0x3FFFF
+    # bound of the change of colour, Q10, in each lane, with a bit above that a difference beyond it clears
+    bound = divide(12288 * depth, dz) * ONES + GUARDS
+    b, c = b - a, c - a
+    return (bound + b) & (bound - b) & (bound + c) & (bound - c) & GUARDS & MASK == GUARDS

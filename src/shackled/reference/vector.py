@@ -1,0 +1,64 @@
+"""Vectors, quaternions and matrices of Q32 fixed-point numbers: tuples of integers."""
+
+from __future__ import annotations
+
+from .roots import sqrt
+from .words import divide_signed
+
+Vector = tuple[int, int, int]
+Quaternion = tuple[int, int, int, int]
+#: The columns: the images of the three axes.
+Matrix = tuple[Vector, Vector, Vector]
+
+
+def subtract(a: Vector, b: Vector) -> Vector:
+    """a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def scale(a: Vector, k: int) -> Vector:
+    """A vector times a Q32 number, rounded down."""
+    return (a[0] * k) >> 32, (a[1] * k) >> 32, (a[2] * k) >> 32
+
+
+def dot(a: Vector, b: Vector) -> int:
+    """The scalar product, with one rounding for the sum."""
+    return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 32
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """The cross product, each product rounded down."""
+    return (
+        (a[1] * b[2] >> 32) - (a[2] * b[1] >> 32),
+        (a[2] * b[0] >> 32) - (a[0] * b[2] >> 32),
+        (a[0] * b[1] >> 32) - (a[1] * b[0] >> 32),
+    )
+
+
+def normalize(a: Vector) -> Vector:
+    """The unit vector along `a`; zero for zero."""
+    x, y, z = a[0] << 60, a[1] << 60, a[2] << 60
+    length = sqrt(x * x + y * y + z * z)
+    if length == 0:
+        return a
+    return divide_signed(x << 32, length), divide_signed(y << 32, length), divide_signed(z << 32, length)
+
+
+def to_matrix(q: Quaternion) -> Matrix:
+    """The rotation matrix of a quaternion of any length but zero."""
+    x, y, z, w = q
+    n = x * x + y * y + z * z + w * w
+
+    def part(numerator: int) -> int:
+        return divide_signed(numerator << 32, n)
+
+    return (
+        (part(n - 2 * (y * y + z * z)), part(2 * (x * y + z * w)), part(2 * (x * z - y * w))),
+        (part(2 * (x * y - z * w)), part(n - 2 * (x * x + z * z)), part(2 * (y * z + x * w))),
+        (part(2 * (x * z + y * w)), part(2 * (y * z - x * w)), part(n - 2 * (x * x + y * y))),
+    )
+
+
+def transposed_times(m: Matrix, v: Vector) -> Vector:
+    """The inverse rotation of `v`."""
+    return dot(m[0], v), dot(m[1], v), dot(m[2], v)

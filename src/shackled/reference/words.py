@@ -1,0 +1,39 @@
+"""Words of 256 bits and the arithmetic on them that Python does otherwise.
+
+The renderer packs several numbers into a word and lets a signed number borrow from the lane above it, so the reference
+keeps the packed words too: they are Python integers, taken modulo 2^256 wherever the bits above matter.
+"""
+
+from __future__ import annotations
+
+MASK = (1 << 256) - 1
+
+#: Three lanes of 56 bits: blue at bit 0, green at 56, red at 112.
+ONES = 0x10000000000000100000000000001
+LANES_24 = 0xFFFFFF * ONES
+LANES_32 = 0xFFFFFFFF * ONES
+
+
+def signed(word: int) -> int:
+    """The word (any integer, taken modulo 2^256) as a two's complement number."""
+    word &= MASK
+    return word - (word >> 255 << 256)
+
+
+def divide(a: int, b: int) -> int:
+    """Unsigned division of words; zero by zero and by anything that is zero modulo 2^256."""
+    b &= MASK
+    return (a & MASK) // b if b else 0
+
+
+def divide_signed(a: int, b: int) -> int:
+    """Signed division, rounded toward zero; zero if `b` is."""
+    if b == 0:
+        return 0
+    quotient = abs(a) // abs(b)
+    return quotient if (a < 0) == (b < 0) else -quotient
+
+
+def color_lanes(color: int) -> int:
+    """0xRRGGBB spread to three lanes."""
+    return (color & 0xFF) | ((color & 0xFF00) << 48) | ((color & 0xFF0000) << 96)

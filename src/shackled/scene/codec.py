@@ -1,0 +1,113 @@
+"""A scene as the data of a call: the ABI encoding of contracts/src/scene/Scene.sol.
+
+Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError
+from .fit import fit
+from .light import Light
+from .object import Object
+from .packed_mesh import pack
+from .scene import Scene
+
+ONE = 1 << 32
+
+PROJECTIONS = {"perspective": 0, "orthographic": 1}
+LIGHTS = {"directional": 0, "point": 1}
+SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
+CULL_BACKFACES = 1
+WIREFRAME = 2
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A part of the canvas, in pixels from the top left corner."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None) -> bytes:
+    """The calldata of a function f(Scene), or f(Scene, Rectangle) where a tile is given."""
+    rectangle: list[int] = []
+    if tile is not None:
+        rectangle = [tile.x, tile.y, tile.width, tile.height]
+        across = 0 <= tile.x < tile.x + tile.width <= scene.width
+        if not (across and 0 <= tile.y < tile.y + tile.height <= scene.height):
+            raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
+    return selector + _words([32 * (1 + len(rectangle)), *rectangle]) + encode_scene(fit(scene))
+
+
+def encode_scene(scene: Scene) -> bytes:
+    """The struct Scene, of a scene as `fit` makes it."""
+    camera = scene.camera
+    head = _words(
+        [
+            scene.width,
+            scene.height,
+            *_q32(camera.eye),
+            *_q32(camera.target),
+            *_q32(camera.up),
+            PROJECTIONS[camera.projection],
+            *_q32([camera.half_height, camera.near or 0.0]),
+            _rgb(scene.background.top),
+            _rgb(scene.background.bottom),
+            int(scene.invert),
+            _rgb(scene.ambient_light),
+        ]
+    )
+    lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
+    objects = _array_of_dynamic([_object(o) for o in scene.objects])
+    first = len(head) + 2 * 32
+    return head + _words([first, first + len(lights)]) + lights + objects
+
+
+def _light(light: Light) -> bytes:
+    return _words([LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)])
+
+
+def _object(o: Object) -> bytes:
+    material = o.material
+    fields = [
+        *_q32(o.position),
+        *_q32(o.rotation),
+        *_q32([o.scale]),
+        SHADINGS[material.shading],
+        *_q32([material.ambient, material.diffuse, material.specular]),
+        material.shininess,
+        CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe,
+    ]
+    mesh = pack(o.mesh, smooth=material.shading == "smooth")
+    return _words([32 * (1 + len(fields)), *fields, len(mesh)]) + mesh + bytes(-len(mesh) % 32)
+
+
+def _array_of_dynamic(items: list[bytes]) -> bytes:
+    offsets, end = [], 32 * len(items)
+    for item in items:
+        offsets.append(end)
+        end += len(item)
+    return _words([len(items), *offsets]) + b"".join(items)
+
+
+def _q32(values: ArrayLike) -> list[int]:
+    """Rounded to nearest, ties to even."""
+    return [round(value * ONE) for value in np.asarray(values, dtype=np.float64).tolist()]
+
+
+def _rgb(color: ArrayLike | None) -> int:
+    red, green, blue = np.asarray(color).tolist()
+    return int(red << 16 | green << 8 | blue)
+
+
+def _words(values: Iterable[int]) -> bytes:
+    return b"".join((value % (1 << 256)).to_bytes(32, "big") for value in values)

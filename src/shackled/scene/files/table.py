@@ -1,0 +1,129 @@
+"""Tables of a TOML or JSON document, read with care: every message says where it is about and what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...checks import color
+from ...errors import InputError
+
+
+class Table:
+    """A table, and what its keys hold.
+
+    where: its place in the document for messages, such as `objects[1].material`, empty for the document itself. Each
+    reading method gives the default where the key is absent, and raises InputError where its value is of another kind.
+    """
+
+    def __init__(self, value: object, where: str, known: tuple[str, ...] | None = None) -> None:
+        """`known` are the keys that it may have, None for any."""
+        if not isinstance(value, Mapping):
+            keys = f" with keys of {', '.join(known)}" if known else ""
+            raise InputError(f"{where} must be a table{keys}, not {value!r:.60}")
+        for key in value:
+            if known is not None and key not in known:
+                place = f" in {where}" if where else ""
+                raise InputError(f"unknown key {key!r}{place}; known are {', '.join(known)}")
+        self.values = dict(value)
+        self.where = where
+
+    def __contains__(self, key: str) -> bool:
+        """Whether the key is there."""
+        return key in self.values
+
+    def place(self, key: str) -> str:
+        """The place of a key in the document."""
+        return f"{self.where}.{key}" if self.where else key
+
+    def get(self, key: str) -> Any:
+        """The value, of any kind, or None."""
+        return self.values.get(key)
+
+    def table(self, key: str, known: tuple[str, ...] | None = None) -> Table:
+        """The table inside; an empty one if the key is absent."""
+        return Table(self.values.get(key, {}), self.place(key), known)
+
+    def only_one_of(self, *keys: str) -> None:
+        """Refuses two of the keys together."""
+        given = [key for key in keys if key in self]
+        if len(given) > 1:
+            raise InputError(f"{self.place(given[0])} and {given[1]} exclude each other")
+
+    def number(self, key: str, default: float) -> float:
+        """A finite number."""
+        value = self.values.get(key, default)
+        if not is_number(value):
+            raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
+        return float(value)
+
+    def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
+        """As many numbers as the default has."""
+        value = self.values.get(key, default)
+        if (
+            not isinstance(value, list | tuple)
+            or len(value) != len(default)
+            or not all(is_number(part) for part in value)
+        ):
+            raise InputError(f"{self.place(key)} must be {len(default)} numbers, not {value!r:.60}")
+        return tuple(float(part) for part in value)
+
+    def matrix(self, key: str, whole: bool = False) -> NDArray[np.float64]:
+        """(n, 3): rows of three numbers, none if the key is absent."""
+        rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
+        for place, row in rows:
+            if not isinstance(row, list) or len(row) != 3 or not all(is_number(value) for value in row):
+                raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
+            if whole and not all(value % 1 == 0 for value in row):
+                raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
+        return np.array([row for _, row in rows], dtype=np.float64).reshape(-1, 3)
+
+    def flag(self, key: str, default: bool) -> bool:
+        """True or false."""
+        value = self.values.get(key, default)
+        if not isinstance(value, bool):
+            raise InputError(f"{self.place(key)} must be true or false, not {value!r:.60}")
+        return value
+
+    def choice(self, key: str, default: str, choices: tuple[str, ...]) -> str:
+        """One of some words."""
+        value = self.values.get(key, default)
+        if value not in choices:
+            raise InputError(f"{self.place(key)} must be one of {', '.join(choices)}, not {value!r:.60}")
+        return str(value)
+
+    def color(self, key: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
+        """Red, green and blue from 0 to 255, or "#rrggbb"."""
+        value = self.values.get(key, default)
+        if isinstance(value, str):
+            return color(value, self.place(key))
+        if not isinstance(value, list | tuple) or not all(is_number(part) for part in value):
+            raise InputError(
+                f"{self.place(key)} must be red, green and blue from 0 to 255, or #rrggbb, not {value!r:.60}"
+            )
+        return color(list(value), self.place(key))
+
+    def rows(self, key: str) -> list[tuple[str, object]]:
+        """The parts of a list, each with its place; none if the key is absent."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list):
+            raise InputError(f"{self.place(key)} must be a list, not {value!r:.60}")
+        return [(f"{self.place(key)}[{number}]", part) for number, part in enumerate(value)]
+
+
+@contextmanager
+def about(where: str) -> Iterator[None]:
+    """Puts a place before the messages of what happens inside."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
+
+
+def is_number(value: object) -> bool:
+    """Whether it is a finite number, and no truth value."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300

@@ -1,0 +1,28 @@
+"""The colours of a texture at the vertices of a mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
+
+
+def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
+    """(n, 3) colours 0..255 between the nearest four texels.
+
+    coordinates: (n, 2) float, from the left bottom (0, 0) to the right top (1, 1); beyond that the image repeats.
+    """
+    texels = np.asarray(image.convert("RGB"), dtype=np.float64)
+    height, width = texels.shape[:2]
+    uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
+    # the far border belongs to the image itself, not to its first repetition
+    uv = np.where((uv >= 0) & (uv <= 1), uv, uv % 1)
+    x = np.clip(uv[:, 0] * width - 0.5, 0, width - 1)
+    y = np.clip((1 - uv[:, 1]) * height - 0.5, 0, height - 1)
+    left, top = np.floor(x).astype(int), np.floor(y).astype(int)
+    right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
+    fx, fy = (x - left)[:, None], (y - top)[:, None]
+    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
+    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
+    result: NDArray[np.float64] = np.rint(upper * (1 - fy) + lower * fy)
+    return result

@@ -1,0 +1,84 @@
+"""Fewer triangles for the same shape."""
+
+from __future__ import annotations
+
+import numpy as np
+from fast_simplification import replay_simplification
+from fast_simplification import simplify as collapse_edges
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from .mesh import Mesh
+
+
+def simplify(mesh: Mesh, max_triangles: int) -> Mesh:
+    """A mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
+
+    Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
+    they would no longer be those of the surface. A mesh that is small enough already is returned as it is. InputError
+    where edges cannot be collapsed so far.
+    """
+    if isinstance(max_triangles, bool) or not isinstance(max_triangles, int) or max_triangles < 1:
+        raise InputError(
+            f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
+        )
+    if len(np.asarray(mesh.faces)) <= max_triangles:
+        return mesh
+    positions, faces, colors = _connect(mesh)
+    # the collapse may stop a little above its target, or far above it if it is not forceful enough
+    for agg, target in (
+        (7, max_triangles),
+        (7, 0.9 * max_triangles),
+        (10, 0.8 * max_triangles),
+        (14, 0.5 * max_triangles),
+    ):
+        if len(faces) <= max_triangles:
+            break
+        positions, faces, colors = _collapse(positions, faces, colors, int(target), agg)
+    if not 0 < len(faces) <= max_triangles:
+        found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
+        raise InputError(
+            f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {max_triangles}: {found}"
+        )
+    return Mesh(positions, faces, colors)
+
+
+_Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
+
+
+def _connect(mesh: Mesh) -> _Surface:
+    """The mesh with one vertex for each position, whatever its colour, so that edges between colours can be collapsed
+    too.
+    """
+    positions = np.asarray(mesh.positions)
+    unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
+    faces = number.reshape(-1)[np.asarray(mesh.faces)]
+    return unique, _without_slivers(faces), np.asarray(mesh.colors)[first]
+
+
+def _without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The faces that have three different vertices."""
+    a, b, c = faces.T
+    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+
+
+def _collapse(
+    positions: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8], target: int, agg: int
+) -> _Surface:
+    if len(faces) == 0:
+        return positions, faces, colors
+    _, _, collapses = collapse_edges(
+        positions, faces.astype(np.int32), target_count=min(target, len(faces)), agg=agg, return_collapses=True
+    )
+    points, triangles, number = replay_simplification(positions, faces.astype(np.int32), collapses)
+    triangles = _without_slivers(np.asarray(triangles, dtype=np.int64).reshape(-1, 3))
+    if len(triangles) == 0:
+        return positions[:0], triangles, colors[:0]
+    # of the vertices that became one, the nearest to it comes last, and so stays
+    kept = np.flatnonzero(number >= 0)
+    distance = np.linalg.norm(positions[kept] - points[number[kept]], axis=1)
+    kept = kept[np.argsort(-distance, kind="stable")]
+    nearest = np.zeros(len(points), dtype=np.int64)
+    nearest[number[kept]] = kept
+    used, compact = np.unique(triangles, return_inverse=True)
+    return np.asarray(points, dtype=np.float64)[used], compact.reshape(-1, 3), colors[nearest[used]]

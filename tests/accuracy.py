@@ -1,0 +1,304 @@
+"""How near the contracts' pictures are to those of a float64 renderer of the same formulas.
+
+    python tests/accuracy.py [NAME ...]
+
+Compares the pixels that are away from silhouettes and edges: those whose eight neighbours show the same triangle, or, on
+a surface with interpolated normals, a triangle that has a corner in common. Errors are in levels of 255: the mean over
+all channels, and for the other figures the largest of the three channels of a pixel. The exit code is 1 if the mean is
+above 0.6, or less than 99.9 % of the pixels are within 4 levels.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import float64
+import numpy as np
+from numpy.typing import NDArray
+from pictures import chain, shared_folder
+
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
+from shackled.datasets.teapot import teapot
+from shackled.image import decode_bmp
+from shackled.scene.mesh import vertex_normals
+
+MEAN_BOUND = 0.6
+LEVELS = 4
+SHARE_WITHIN = 0.999
+
+OBJECTS = (
+    "armadillo beast beetle benchy cow fandisk fertility horse max-planck nefertiti rocker-arm spot stanford-bunny"
+    " suzanne teapot"
+).split()
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """pixels: how many were compared. mean, worst: error. within: share of the pixels within 4 levels.
+    covered_differently: pixels of the whole picture, edges included, that are background in one picture only.
+    """
+
+    pixels: int
+    mean: float
+    worst: int
+    within: float
+    everywhere: float
+
+    @property
+    def is_good(self) -> bool:
+        """Whether it is within the bounds."""
+        return self.pixels == 0 or (self.mean <= MEAN_BOUND and self.within >= SHARE_WITHIN)
+
+    def __str__(self) -> str:
+        share = f"{100 * self.within:7.2f} %"
+        return f"{self.pixels:6} {self.mean:7.3f} {self.worst:5} {share} {100 * self.everywhere:7.2f} %"
+
+
+def measure(scene: Scene) -> Accuracy:
+    """Compares the contract's picture of a scene with the float64 one."""
+    expected = float64.render(scene)
+    pixels = decode_bmp(chain().draw(scene).bmp, scene.width, scene.height)
+    error = np.abs(pixels.astype(int) - expected.pixels)
+    largest = error.max(axis=2)
+    inner = interior(expected)
+    count = int(inner.sum())
+    if count == 0:
+        return Accuracy(0, 0.0, 0, 1.0, float((largest <= LEVELS).mean()))
+    return Accuracy(
+        pixels=count,
+        mean=float(error[inner].mean()),
+        worst=int(largest[inner].max()),
+        within=float((largest[inner] <= LEVELS).mean()),
+        everywhere=float((largest <= LEVELS).mean()),
+    )
+
+
+def interior(picture: float64.Picture) -> NDArray[np.bool_]:
+    """(H, W): drawn pixels away from silhouettes and edges."""
+    padded = np.pad(picture.triangle, 1, mode="edge")
+    height, width = picture.triangle.shape
+    center = picture.triangle
+    inner = center >= 0
+    if not len(picture.corners):
+        return inner
+    for dy in range(3):
+        for dx in range(3):
+            other = padded[dy : dy + height, dx : dx + width]
+            shared = (picture.corners[center][..., :, None] == picture.corners[other][..., None, :]).any(axis=(2, 3))
+            inner = inner & ((other == center) | (shared & (other >= 0) & picture.is_smooth[center]))
+    return inner
+
+
+# ---- scenes ----
+
+
+def shared_scenes() -> dict[str, Callable[[], Scene]]:
+    """Those that are made of files beside the repository; none where there are no such files."""
+    found: dict[str, Callable[[], Scene]] = {}
+    for name in OBJECTS:
+        path = shared_folder() / f"obj_{name}_cull.json"
+        found[f"{name}, as it is"] = lambda path=path: load(path)  # type: ignore[misc]
+        found[f"{name}, smooth, point light"] = lambda path=path: smooth(load(path))  # type: ignore[misc]
+        found[f"{name}, unlit"] = lambda path=path: unlit(load(path))  # type: ignore[misc]
+    names = [f"genesis_{i:03}" for i in range(24)]
+    names += ["cube_persp_128", "cube_orth_128", "cornell_cull", "cornell_nocull", "fullquad_128", "icosphere_320"]
+    for name in names:
+        found[name] = lambda path=shared_folder() / f"{name}.json": solid(load(path))  # type: ignore[misc]
+    found["fullquad_128, frontal point light"] = frontal_quad
+    return {name: make for name, make in found.items() if shared_folder().is_dir()}
+
+
+def smooth(scene: Scene) -> Scene:
+    """The scene with interpolated normals, and a point light above to the right, on the eye's side of the object."""
+    (thing,) = scene.objects
+    points = np.asarray(thing.mesh.positions) * thing.scale + thing.position
+    low, high = points.min(axis=0), points.max(axis=0)
+    light = (low + high) / 2 + (high - low).max() * np.array([1.0, 1.0, 1.5])
+    material = Material("smooth", ambient=0.3, diffuse=0.7, specular=0.5, shininess=20)
+    return replace(scene, objects=[replace(thing, material=material)], lights=[Light("point", light)])
+
+
+def solid(scene: Scene) -> Scene:
+    """The scene without wireframe, which is drawn by rules of its own."""
+    return replace(scene, objects=[replace(o, wireframe=False) for o in scene.objects])
+
+
+def unlit(scene: Scene) -> Scene:
+    """The scene without light."""
+    return replace(scene, objects=[replace(o, material=Material("unlit")) for o in scene.objects], lights=[])
+
+
+def frontal_quad() -> Scene:
+    """A quad across the whole canvas with the highlight of a point light in its middle."""
+    scene = load(shared_folder() / "fullquad_128.json")
+    material = Material("flat", ambient=0.3, diffuse=0.7, specular=0.5, shininess=20)
+    objects = [replace(o, material=material) for o in scene.objects]
+    return replace(scene, objects=objects, lights=[Light("point", (0, 0, -1500))])
+
+
+WHITE, RED, GREEN, BLUE = (255, 255, 255), (255, 60, 40), (60, 255, 90), (70, 110, 255)
+
+LIGHTS = (
+    Light("directional", (1, 2, 2), WHITE),
+    Light("point", (-8, 6, 4), RED),
+    Light("directional", (-2, 0.5, 1), BLUE),
+    Light("point", (5, 1, 6), GREEN),
+)
+
+
+def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **material: float) -> Scene:
+    """The teapot with some of the four lights."""
+    look = Material("smooth", **{"ambient": 0.25, "diffuse": 0.6, "specular": 0.5, "shininess": 30} | material)  # type: ignore[arg-type]
+    return Scene(
+        [Object(painted(teapot(5)), position=(0, -1.4, 0), material=look)],
+        Camera(eye=(0.2 * distance, 0.35 * distance, 0.92 * distance), target=(0, 0, 0)),
+        lights=[LIGHTS[(first + i) % 4] for i in range(lights)],
+        background=Background((20, 30, 60), (200, 210, 220)),
+    )
+
+
+def painted(mesh: Mesh) -> Mesh:
+    """The mesh with colours that change along its axes."""
+    points = np.asarray(mesh.positions)
+    part = (points - points.min(axis=0)) / np.maximum(np.ptp(points, axis=0), 1e-9)
+    return replace(mesh, colors=np.rint(80 + 150 * part).astype(int))
+
+
+def flat(scene: Scene) -> Scene:
+    """The scene with the normals of faces."""
+    return replace(scene, objects=[replace(o, material=replace(o.material, shading="flat")) for o in scene.objects])
+
+
+def ground(material: Material, lights: list[Light], size: float = 4000.0, step: int = 1, **camera: float) -> Scene:
+    """A plane from beneath the eye to the horizon, of 2 step^2 triangles."""
+    line = np.linspace(-1, 1, step + 1)
+    x, z = (v.ravel() for v in np.meshgrid(line, line))
+    points = size * np.stack([x, 0 * x, -z], axis=1)
+    grid = np.arange((step + 1) ** 2).reshape(step + 1, step + 1)
+    a, b, c, d = (v.ravel() for v in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
+    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    mesh = Mesh(points, faces, normals=vertex_normals(points, faces))
+    mesh = replace(mesh, colors=np.stack([200 + 50 * x, 120 + 100 * z, 150 - 100 * x], axis=1).astype(int))
+    eye = Camera(eye=(0, 10, 0), target=(0, 6, -20), near=0.5)
+    return Scene([Object(mesh, material=material)], replace(eye, **camera), lights, Background((90, 120, 250)))
+
+
+def big_triangles(material: Material, lights: list[Light]) -> Scene:
+    """Three triangles that come close to the eye and reach far beyond the picture."""
+    points = np.array(
+        [
+            [[-60, -8, -2], [90, -20, -30], [-5, 70, -100]],
+            [[-3, -3, -1.5], [3, -2, -60], [-2, 5, -12]],
+            [[40, -40, 5], [30, 50, -80], [-10, 4, -90]],
+        ],
+        dtype=np.float64,
+    )
+    colors = [[255, 40, 30], [30, 250, 60], [40, 80, 255], [250, 250, 30], [30, 240, 240], [230, 40, 250]]
+    colors += [[200, 200, 200], [0, 0, 0], [255, 255, 255]]
+    mesh = Mesh(points.reshape(-1, 3), np.arange(9).reshape(-1, 3), colors)
+    mesh = replace(mesh, normals=vertex_normals(np.asarray(mesh.positions), np.asarray(mesh.faces)))
+    return Scene([Object(mesh, material=material, cull=False)], Camera(near=0.5), lights)
+
+
+def made_scenes() -> dict[str, Callable[[], Scene]]:
+    """Scenes made by hand."""
+    near_light = Light("point", (1.2, 1.6, 2.6), WHITE)
+    matt = Material("smooth", ambient=0.2, diffuse=0.8, specular=0.0)
+    shiny = Material("smooth", ambient=0.2, diffuse=0.6, specular=0.6, shininess=40)
+    sun, lamp = Light("directional", (1, 2, -1)), Light("point", (3, 5, -18))
+    walls, shiny_walls = replace(matt, shading="flat"), replace(shiny, shading="flat")
+    found: dict[str, Callable[[], Scene]] = {}
+    for count in range(1, 5):
+        for first in range(2 if count < 4 else 1):
+            kind = "directional" if first == 0 else "point"
+            name = f"teapot, {count} lights, {kind} first"
+            found[name] = lambda count=count, first=first: teapot_scene(count, first)  # type: ignore[misc]
+            found[f"{name}, flat"] = lambda count=count, first=first: flat(teapot_scene(count, first))  # type: ignore[misc]
+    for shininess in (1, 2, 5, 128):
+        for first, kind in ((0, "directional"), (1, "point")):
+            make = lambda s=shininess, f=first: teapot_scene(1, f, shininess=s, specular=0.9)  # type: ignore[misc] # noqa: E731
+            found[f"teapot, shininess {shininess}, {kind}"] = make
+            found[f"teapot, shininess {shininess}, {kind}, flat"] = lambda make=make: flat(make())  # type: ignore[misc]
+    found |= {
+        "teapot, overexposed": lambda: teapot_scene(2, ambient=1.5, diffuse=2.5, specular=3.0, shininess=10),
+        "teapot, coarse mesh": lambda: coarse_teapot(1),
+        "teapot, coarse mesh, 4 lights": lambda: coarse_teapot(4),
+        "teapot, inverted": lambda: replace(teapot_scene(2), invert=True),
+        "teapot, turned": lambda: turned(teapot_scene(2)),
+        "teapot, both sides": lambda: both_sides(teapot_scene(1, 1)),
+        "teapot, close point light": lambda: replace(teapot_scene(), lights=[near_light]),
+        "teapot, close point light, flat": lambda: replace(flat(teapot_scene()), lights=[near_light]),
+        "teapot, wide field of view": lambda: wide(teapot_scene(1, 1, distance=3.6)),
+        "teapot, wide field of view, 4 lights": lambda: wide(teapot_scene(4, distance=3.6)),
+        "teapot, wide field of view, flat": lambda: wide(flat(teapot_scene(1, 1, distance=3.6))),
+        "teapot, very near": lambda: teapot_scene(1, 1, distance=3.4),
+        "teapot, orthographic": lambda: orthographic(teapot_scene(1)),
+        "teapot, orthographic, point light": lambda: orthographic(teapot_scene(1, 1)),
+        "teapot, orthographic, 4 lights": lambda: orthographic(teapot_scene(4)),
+        "teapot, orthographic, 4 lights, flat": lambda: orthographic(flat(teapot_scene(4))),
+        "ground, unlit": lambda: ground(Material("unlit"), []),
+        "ground, flat, directional": lambda: ground(shiny_walls, [sun]),
+        "ground, flat, point": lambda: ground(shiny_walls, [lamp]),
+        "ground, matt, point": lambda: ground(walls, [lamp]),
+        "ground, smooth, directional": lambda: ground(shiny, [sun]),
+        "ground, smooth, point": lambda: ground(shiny, [lamp]),
+        "ground, smooth, both": lambda: ground(shiny, [sun, lamp]),
+        "ground of 512 triangles, smooth, point": lambda: ground(shiny, [lamp], 300.0, 16),
+        "ground of 512 triangles, unlit": lambda: ground(Material("unlit"), [], 300.0, 16),
+        "ground, wide field of view": lambda: ground(shiny_walls, [sun, lamp], half_height=2.5),
+        "big near triangles, unlit": lambda: big_triangles(Material("unlit"), []),
+        "big near triangles, flat": lambda: big_triangles(shiny_walls, [Light("directional", (0.2, 0.5, 1)), lamp]),
+        "big near triangles, smooth": lambda: big_triangles(shiny, [Light("directional", (0.2, 0.5, 1)), lamp]),
+        "big near triangles, smooth, point": lambda: big_triangles(shiny, [Light("point", (1, 2, 1))]),
+    }
+    return found
+
+
+def coarse_teapot(lights: int) -> Scene:
+    """Of 112 triangles whose normals turn a lot."""
+    scene = teapot_scene(lights, 1)
+    return replace(scene, objects=[replace(scene.objects[0], mesh=painted(teapot(2)))])
+
+
+def turned(scene: Scene) -> Scene:
+    """The objects turned and made half as large again."""
+    objects = [replace(o, rotation=(0.3, -0.5, 0.2, 0.8), scale=1.5 * o.scale) for o in scene.objects]
+    return replace(scene, objects=objects)
+
+
+def both_sides(scene: Scene) -> Scene:
+    """The objects seen from inside as well, with faces that are turned away lit as their normals say."""
+    objects = [replace(o, cull=False) for o in scene.objects]
+    return replace(scene, objects=objects, camera=replace(scene.camera, near=8.5))
+
+
+def wide(scene: Scene) -> Scene:
+    """The scene with a field of view of 100 degrees, on a wide canvas."""
+    return replace(scene, camera=replace(scene.camera, half_height=1.19), width=160, height=100)
+
+
+def orthographic(scene: Scene) -> Scene:
+    """The scene with an orthographic camera."""
+    return replace(scene, camera=replace(scene.camera, projection="orthographic", half_height=3.5))
+
+
+def main() -> int:
+    """The command."""
+    scenes = shared_scenes() | made_scenes()
+    chosen = [name for name in scenes if not sys.argv[1:] or any(part in name for part in sys.argv[1:])]
+    print(f"{'scene':44} {'pixels':>6} {'mean':>7} {'worst':>5} {'within 4':>9} {'of all':>9}")
+    bad = 0
+    for name in chosen:
+        accuracy = measure(scenes[name]())
+        bad += not accuracy.is_good
+        print(f"{name:44} {accuracy}{'' if accuracy.is_good else '  TOO FAR'}", flush=True)
+    print(f"{len(chosen) - bad} of {len(chosen)} scenes within the bounds")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parent))
+    sys.exit(main())

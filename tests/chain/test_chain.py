@@ -1,0 +1,153 @@
+"""Where pictures are made: the same bytes everywhere, the same gas, and errors that say what was wrong."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
+from shackled.artifacts import artifact, contracts
+from shackled.chain import CHAINS, ContractChain, open_chain
+from shackled.chain.embedded import EmbeddedChain, PyEvmChain, PyrevmChain, intrinsic_gas
+from shackled.image import decode_bmp
+from shackled.scene.codec import Rectangle, encode
+
+TETRAHEDRON = Mesh(
+    [[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]],
+    [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+    [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 0]],
+)
+SCENE = Scene(
+    [Object(TETRAHEDRON, material=Material("smooth")), Object(TETRAHEDRON, (2, 0, -3), wireframe=True)],
+    Camera(eye=(1, 2, 5), target=(0, 0, 0)),
+    [Light("point", (3, 4, 5)), Light("directional", (1, 0, 0), (90, 0, 0))],
+    width=24,
+    height=17,
+)
+
+
+@pytest.fixture(params=["pyrevm", "pyevm"])
+def chain(request: pytest.FixtureRequest) -> EmbeddedChain:
+    if request.param == "pyrevm":
+        pytest.importorskip("pyrevm")
+    chain = open_chain(request.param)
+    assert isinstance(chain, EmbeddedChain)
+    return chain
+
+
+def test_both_machines_agree_on_bytes_and_gas() -> None:
+    pytest.importorskip("pyrevm")
+    fast, slow = PyrevmChain(), PyEvmChain()
+    for scene in (SCENE, replace(SCENE, objects=[], invert=True)):
+        assert fast.draw(scene) == slow.draw(scene)
+        assert fast.count(scene) == slow.count(scene)
+    tile = Rectangle(3, 2, 10, 9)
+    assert fast.draw(SCENE, tile) == slow.draw(SCENE, tile)
+
+
+def test_every_call_finds_the_same_state(chain: EmbeddedChain) -> None:
+    first = chain.draw(SCENE)
+    with pytest.raises(RenderError):
+        chain.call("Renderer", b"")
+    assert chain.draw(SCENE) == first
+    assert type(chain)().draw(SCENE) == first
+
+
+def test_the_picture_and_the_counts(chain: EmbeddedChain) -> None:
+    pixels = decode_bmp(chain.draw(SCENE).bmp, 24, 17)
+    triangles, lit = chain.count(SCENE)
+    assert 0 < triangles <= 8
+    assert 0 < lit <= 24 * 17
+    assert np.count_nonzero(pixels.any(axis=2)) <= lit
+    assert chain.count(replace(SCENE, objects=[])) == (0, 0)
+
+
+def test_a_tile_is_a_part_of_the_picture(chain: EmbeddedChain) -> None:
+    whole = decode_bmp(chain.draw(SCENE).bmp, 24, 17)
+    tile = decode_bmp(chain.draw(SCENE, Rectangle(3, 2, 10, 9)).bmp, 10, 9)
+    assert (tile == whole[2:11, 3:13]).all()
+
+
+def test_intrinsic_gas_is_that_of_cancun(chain: EmbeddedChain) -> None:
+    assert intrinsic_gas(bytes(10) + b"\1\2\3") == 21000 + 40 + 48
+    data = encode(artifact("Renderer").selectors["render"], SCENE)
+    assert chain.draw(SCENE).intrinsic_gas == intrinsic_gas(data)
+
+
+def test_refusals_are_read_from_the_abi(chain: EmbeddedChain) -> None:
+    data = bytearray(encode(artifact("Renderer").selectors["render"], SCENE))
+    data[4 + 32 : 4 + 64] = bytes(32)
+    with pytest.raises(RenderError, match=r"^the contract refused: CanvasSize\(width=0, height=17\)$"):
+        chain.call("Renderer", bytes(data))
+    data[4 + 32 : 4 + 64] = (24).to_bytes(32, "big")
+    data[4 + 96 : 4 + 128] = (-(2**100)).to_bytes(32, "big", signed=True)
+    with pytest.raises(RenderError, match=rf"^the contract refused: CoordinateOutOfRange\(x={-(2**100)}, y="):
+        chain.call("Renderer", bytes(data))
+
+
+def test_calls_that_are_no_scenes(chain: EmbeddedChain) -> None:
+    for data in (b"", b"\1\2\3\4", artifact("Renderer").selectors["render"]):
+        with pytest.raises(RenderError, match="the contract refused: the data of the call is not a scene"):
+            chain.call("Renderer", data)
+
+
+def test_out_of_gas_says_the_limit(chain: EmbeddedChain) -> None:
+    data = encode(artifact("Renderer").selectors["render"], SCENE)
+    used = chain.call("Renderer", data).gas
+    for limit in (5_000, used // 2):
+        with pytest.raises(RenderError, match=f"^the call ran out of gas: {limit:,} did not suffice$"):
+            chain.call("Renderer", data, limit)
+    assert type(chain)(2 * used).call("Renderer", data).gas == used
+
+
+def test_chains_by_name() -> None:
+    assert isinstance(open_chain(), ContractChain)
+    assert open_chain() is open_chain()
+    assert open_chain("pyevm").name == "embedded EVM (py-evm)"
+    assert set(CHAINS) == {"pyrevm", "pyevm", "reference"}
+    with pytest.raises(InputError, match="there is no chain 'hardhat'; the chains are pyrevm, pyevm, reference"):
+        open_chain("hardhat")
+
+
+def test_the_fallback_without_pyrevm(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.chain.opening.find_spec", lambda name: name != "pyrevm" or None)
+    open_chain.cache_clear()
+    try:
+        assert open_chain().name == "embedded EVM (py-evm)"
+        with pytest.raises(InputError, match="'pyrevm' needs a package that is not installed"):
+            open_chain("pyrevm")
+    finally:
+        open_chain.cache_clear()
+
+
+def test_artifacts_are_whole() -> None:
+    assert "Renderer" in contracts()
+    request = json.loads(files("shackled.artifacts").joinpath("standard-input.json").read_text("utf-8"))
+    for name in contracts():
+        data = json.loads(files("shackled.artifacts").joinpath(f"{name}.json").read_text("utf-8"))
+        assert data["sources"].keys() <= request["sources"].keys()
+        assert len(artifact(name).runtime) <= 24576
+        assert data["compiler"].startswith("0.8.37")
+    assert artifact("Renderer").functions[artifact("Renderer").selectors["render"]] == "render"
+
+
+def test_selectors_of_errors() -> None:
+    errors = [error for contract in contracts() for error in artifact(contract).errors.items()]
+    by_name = {name: selector for selector, (name, _) in errors}
+    eth_utils = pytest.importorskip("eth_utils")
+    assert by_name["CanvasSize"] == eth_utils.keccak(text="CanvasSize(uint256,uint256)")[:4]
+
+
+def test_the_reference_makes_the_same_picture_and_counts_no_gas() -> None:
+    reference, machine = open_chain("reference"), open_chain()
+    for scene in (SCENE, replace(SCENE, invert=True, width=9, height=30)):
+        drawing = reference.draw(scene)
+        assert drawing.bmp == machine.draw(scene).bmp
+        assert (drawing.gas, drawing.intrinsic_gas) == (None, None)
+        assert reference.count(scene) == machine.count(scene)
+    tile = Rectangle(3, 2, 10, 9)
+    assert reference.draw(SCENE, tile).bmp == machine.draw(SCENE, tile).bmp

@@ -1,0 +1,290 @@
+"""The command `shackled render`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import __version__, load, render
+from shackled.cli.app import run
+
+OBJ = """\
+v -1 -1 0.5
+v 1 -1 0.25
+v 0 1 0
+v 0 0 -1
+f 1 2 3
+f 2 1 4
+f 3 2 4
+f 1 3 4
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("shape.obj").write_text(OBJ, "utf-8")
+    return tmp_path
+
+
+def pixels(path: str) -> np.ndarray:
+    with PillowImage.open(path) as picture:
+        return np.array(picture.convert("RGB"))
+
+
+def rendered(*options: str) -> np.ndarray:
+    """The pixels of the shape at 32 x 32 with these options."""
+    assert run(["render", "shape.obj", "-o", "out.png", "--size", "32", *options]) == 0
+    return pixels("out.png")
+
+
+def test_a_mesh_becomes_a_picture(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj"]) == 0
+    output, messages = capsys.readouterr()
+    expected = render(load("shape.obj"))
+    assert (pixels("shape.png") == expected.pixels).all()
+    assert len(np.unique(expected.pixels.reshape(-1, 3), axis=0)) > 50
+    assert "shape.png, 128 x 128 pixels" in output
+    assert f"{expected.gas:,} (and {expected.intrinsic_gas:,} to send the scene)" in output
+    assert f"{expected.triangles:,} triangles, {expected.lit_pixels:,} lit pixels" in output
+    assert expected.chain in output
+    assert messages == ""
+
+
+def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj", "-o", "a.bmp", "--size", "30x20", "--json"]) == 0
+    output, messages = capsys.readouterr()
+    report = json.loads(output)
+    image = pixels("a.bmp")
+    assert " ".join(report) == "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256"
+    assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")
+    assert (report["width"], report["height"]) == (30, 20)
+    assert report["sha256"] == hashlib.sha256(image.tobytes()).hexdigest()
+    assert report["gas"] > report["intrinsic_gas"] > 21000
+    assert 0 < report["triangles"] <= 4
+    assert 0 < report["lit_pixels"] <= 600
+    assert 0 < report["seconds"] < 60
+    assert messages == ""
+
+
+def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) -> None:
+    reports = {}
+    for chain in ("pyrevm", "pyevm", "reference"):
+        assert run(["render", "shape.obj", "--size", "16", "--json", "--chain", chain]) == 0
+        reports[chain] = json.loads(capsys.readouterr().out)
+    assert len({report["sha256"] for report in reports.values()}) == 1
+    assert len({report["lit_pixels"] for report in reports.values()}) == 1
+    assert reports["pyrevm"]["gas"] == reports["pyevm"]["gas"]
+    assert reports["reference"]["gas"] is None
+    assert reports["reference"]["intrinsic_gas"] is None
+    assert len({report["chain"] for report in reports.values()}) == 3
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ["--rotate", "-30,45,10"],
+        ["--eye", "-1,-2,3"],
+        ["--target", "0.5,0,0"],
+        ["--up", "1,1,0"],
+        ["--fov", "20", "--eye", "0,0,5", "--target", "0,0,0"],
+        ["--near", "2.5"],
+        ["--half-height", "3", "--orthographic"],
+        ["--orthographic"],
+        ["--light", "point:1,2,3:#ff0000"],
+        ["--light", "directional:0,0,1", "--light", "directional:1,0,0:00ff00"],
+        ["--ambient", "1.5"],
+        ["--diffuse", "0"],
+        ["--specular", "2", "--shininess", "3"],
+        ["--color", "#336699"],
+        ["--background", "#ffffff"],
+        ["--background", "#ff0000,#0000ff"],
+        ["--shading", "smooth"],
+        ["--unlit"],
+        ["--wireframe"],
+        ["--invert"],
+    ],
+    ids=" ".join,
+)
+def test_every_option_changes_the_picture(options: list[str]) -> None:
+    assert (rendered(*options) != rendered()).any()
+
+
+def test_options_mean_what_they_say() -> None:
+    plain = rendered()
+    assert (rendered("--invert") == 255 - plain).all()
+    assert (rendered("--smooth") == rendered("--shading", "smooth")).all()
+    assert (rendered("--perspective") == plain).all()
+    gradient = rendered("--background", "#ff0000,#0000ff", "--eye", "0,0,5", "--target", "0,0,9")
+    assert gradient[0].tolist() == [[255, 0, 0]] * 32
+    assert gradient[-1].tolist() == [[0, 0, 255]] * 32
+    colors = rendered("--unlit", "--color", "#336699", "--background", "#000000").reshape(-1, 3)
+    assert set(map(tuple, colors.tolist())) == {(0, 0, 0), (0x33, 0x66, 0x99)}
+    # seen from behind, what turns away is left out
+    behind = ("--eye", "0,0,0", "--target", "0,0,-1", "--background", "#000000", "--unlit")
+    assert not rendered(*behind, "--cull").any()
+    assert rendered(*behind, "--no-cull").any()
+
+
+def test_a_scene_turns_about_its_middle() -> None:
+    # a triangle on the axis of view, far from the origin: half a turn leaves it where it is
+    scene = {
+        "canvasDim": 32,
+        "verts": [[-300, -300, 0], [300, -300, 0], [0, 300, 0]],
+        "faces": [[0, 1, 2]],
+        "cols": [[255, 255, 255]] * 3,
+        "renderParams": {"objPosition": [100, 0, -2500], "objScale": 1, "backgroundColor": [[0, 0, 0], [0, 0, 0]]},
+    }
+    Path("scene.json").write_text(json.dumps(scene), "utf-8")
+    options = ["render", "scene.json", "-o", "out.png", "--no-cull", "--unlit"]
+    assert run(options) == 0
+    plain = pixels("out.png")
+    assert run([*options, "--rotate", "0,180,0"]) == 0
+    turned = pixels("out.png")
+    assert plain.any()
+    assert np.count_nonzero(plain[:, :, 0] != turned[:, :, 0]) <= 8
+    assert run([*options, "--rotate", "0,0,180"]) == 0
+    upside_down = pixels("out.png")
+    assert np.count_nonzero(upside_down[:16]) > np.count_nonzero(plain[:16])
+
+
+def test_meshes_are_simplified_on_request(capsys: pytest.CaptureFixture[str]) -> None:
+    side = 40
+    lines = [f"v {x} {y} {(x * y) % 7 / 20}" for y in range(side) for x in range(side)]
+    for y in range(side - 1):
+        for x in range(side - 1):
+            a = y * side + x + 1
+            lines += [f"f {a} {a + 1} {a + side}", f"f {a + 1} {a + side + 1} {a + side}"]
+    Path("grid.obj").write_text("\n".join(lines), "utf-8")
+    assert run(["render", "grid.obj", "--json", "--max-triangles", "200"]) == 0
+    assert 0 < json.loads(capsys.readouterr().out)["triangles"] <= 200
+
+
+def test_a_gif_says_when_colours_are_lost(capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--size", "300", "--smooth", "--background", "#000000,#ffffff"]
+    assert run(["render", "shape.obj", "-o", "a.gif", *options]) == 0
+    output, messages = capsys.readouterr()
+    assert "a.gif" in output
+    assert "a GIF holds 256 colours" in messages
+
+
+WRONG = [
+    (["render"], "INPUT"),
+    (["render", "missing.obj"], "missing.obj"),
+    (["render", "."], "directory"),
+    (["render", "folder.obj"], "folder.obj"),
+    (["render", "empty.obj"], "empty.obj"),
+    (["render", "binary.obj"], "binary.obj"),
+    (["render", "shape.xyz"], "shape.xyz"),
+    (["render", "shape.obj", "-o", "a.jpg"], "must end in one of .png .bmp .svg .gif"),
+    (["render", "shape.obj", "-o", "missing/a.png"], "the folder missing"),
+    (["render", "shape.obj", "-o", "folder.obj"], "must end in one of"),
+    (["render", "shape.obj", "--size", "0"], "from 1 to 1024 pixels a side"),
+    (["render", "shape.obj", "--size", "100x0"], "from 1 to 1024 pixels a side"),
+    (["render", "shape.obj", "--size", "2000"], "from 1 to 1024 pixels a side"),
+    (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
+    (["render", "shape.obj", "--size", "-5"], "--size"),
+    (["render", "shape.obj", "--chain", "moon"], "the chains are pyrevm, pyevm, reference"),
+    (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
+    (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
+    (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),
+    (["render", "shape.obj", "--eye", "0,0,0", "--target", "0,0,0"], "same point"),
+    (["render", "shape.obj", "--eye", "0,5,0", "--target", "0,0,0"], "choose another up"),
+    (["render", "shape.obj", "--fov", "180"], "field of view"),
+    (["render", "shape.obj", "--fov", "wide"], "--fov"),
+    (["render", "shape.obj", "--fov", "40", "--half-height", "1"], "give one of them"),
+    (["render", "shape.obj", "--fov", "40", "--orthographic"], "--half-height instead"),
+    (["render", "shape.obj", "--near", "-1"], "near"),
+    (["render", "shape.obj", "--light", "lamp:1,2,3"], "--light must be directional:x,y,z"),
+    (["render", "shape.obj", "--light", "directional:0,0,0"], "must not be zero"),
+    (["render", "shape.obj", "--light", "point:1,2,3:red"], "#rrggbb"),
+    (["render", "shape.obj", *(["--light", "point:1,2,3"] * 5)], "up to 4 lights"),
+    (["render", "shape.obj", "--ambient", "-1"], "ambient"),
+    (["render", "shape.obj", "--shininess", "0"], "shininess"),
+    (["render", "shape.obj", "--shininess", "2.5"], "--shininess"),
+    (["render", "shape.obj", "--color", "#12345"], "#rrggbb"),
+    (["render", "shape.obj", "--background", "#000000,#111111,#222222"], "--background"),
+    (["render", "shape.obj", "--shading", "toon"], "unlit, flat, smooth"),
+    (["render", "shape.obj", "--smooth", "--unlit"], "smooth and unlit at once"),
+    (["render", "shape.obj", "--max-triangles", "0"], "0"),
+    (["render", "shape.obj", "--bogus"], "--bogus"),
+    (["render", "shape.obj", "more.obj"], "more.obj"),
+    (["draw", "shape.obj"], "draw"),
+    (["--bogus"], "--bogus"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), WRONG, ids=[" ".join(arguments) for arguments, _ in WRONG])
+def test_wrong_usage_is_one_line(
+    arguments: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "folder.obj").mkdir()
+    (folder / "empty.obj").write_text("")
+    (folder / "binary.obj").write_bytes(bytes(range(256)) * 20)
+    (folder / "shape.xyz").write_text("1 2 3")
+    before = sorted(folder.iterdir())
+    assert run(arguments) == 2
+    output, messages = capsys.readouterr()
+    assert output == ""
+    assert messages.startswith("shackled: ")
+    assert messages.count("\n") == 1
+    assert message in messages
+    assert sorted(folder.iterdir()) == before
+
+
+def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) -> None:
+    rng = np.random.default_rng(3)
+    vertices = "\n".join(f"v {x:.4f} {y:.4f} {z:.4f}" for x, y, z in rng.normal(size=(70000, 3)))
+    faces = "\n".join(f"f {a} {b} {c}" for a, b, c in rng.permutation(70000)[:69999].reshape(-1, 3) + 1)
+    Path("large.obj").write_text(f"{vertices}\n{faces}\n", "utf-8")
+    assert run(["render", "large.obj"]) == 2
+    assert "use --max-triangles N" in capsys.readouterr().err
+
+
+def test_refusals_and_interrupts_exit_with_1(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from shackled.chain.embedded import EmbeddedChain, PyrevmChain
+
+    monkeypatch.setattr("shackled.cli.render.open_chain", lambda name: PyrevmChain(gas_limit=50_000))
+    assert run(["render", "shape.obj"]) == 1
+    assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(EmbeddedChain, "call", interrupt)
+    assert run(["render", "shape.obj"]) == 1
+    assert capsys.readouterr().err == "shackled: stopped\n"
+
+
+def test_help_and_version(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["--version"]) == 0
+    assert capsys.readouterr().out == f"shackled {__version__}\n"
+    for arguments in ([], ["--help"]):
+        assert run(arguments) == 0
+        assert "render" in capsys.readouterr().out
+    assert run(["render", "--help"]) == 0
+    assert "--max-triangles" in capsys.readouterr().out
+
+
+def test_as_a_process(folder: Path) -> None:
+    def process(*arguments: str) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "shackled", *arguments]
+        return subprocess.run(command, capture_output=True, text=True, cwd=folder)
+
+    done = process("render", "shape.obj", "--json", "--size", "16")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["output"] == "shape.png"
+    for arguments in (["render", "missing.obj"], ["render", "shape.obj", "--size", "0"], ["render", "--bogus"]):
+        failed = process(*arguments)
+        assert (failed.returncode, failed.stdout) == (2, "")
+        assert failed.stderr.count("\n") == 1
+        assert "Traceback" not in failed.stderr

@@ -1,0 +1,330 @@
+"""A renderer in float64, written from the formulas that the pictures are to follow, not from how the contracts compute them.
+
+It reads the same calldata as the contracts, so that both see the same numbers. Every triangle is projected, cut at the
+near plane and rasterised by evaluating the edge functions at the centre of every pixel, with the top-left rule; what is
+seen is then shaded pixel by pixel:
+
+    colour = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i) + sum_i specular * max(0, N.H_i)^shininess * C_i
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import eth_abi
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled.artifacts import artifact
+from shackled.scene.codec import encode
+from shackled.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+UNLIT, FLAT, SMOOTH = 0, 1, 2
+CULL_BACKFACES, WIREFRAME = 1, 2
+POINT = 1
+
+#: Projected vertices are laid on a grid of so many steps a pixel, as the contracts do, so that coverage can be compared.
+SUBPIXELS = 256
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture, and what is seen in it.
+
+    pixels: (H, W, 3) uint8. exact: the same before it was rounded. triangle: (H, W) number of the triangle that is seen,
+    counted through all objects, -1 for the background. corners: (n, 3) numbers of the vertices of each triangle, counted
+    through all objects. is_smooth: (n,) whether its normals are interpolated.
+    """
+
+    pixels: NDArray[np.uint8]
+    exact: Array
+    triangle: Integers
+    corners: Integers
+    is_smooth: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """The camera: its place, its axes (right, up, back as rows), and pixels per unit."""
+
+    eye: Array
+    axes: Array
+    perspective: bool
+    focal: float
+    near: float
+    width: int
+    height: int
+
+    def to_camera(self, points: Array) -> Array:
+        """Points of the world as (right, up, distance)."""
+        out: Array = (points - self.eye) @ self.axes.T
+        return out
+
+
+@dataclass(frozen=True)
+class _Surface:
+    """An object in the world. positions, colors, normals: of its vertices; faces: (m, 3)."""
+
+    positions: Array
+    colors: Array
+    normals: Array
+    faces: Integers
+    material: tuple[int, float, float, float, int]
+    cull: bool
+
+
+def render(scene: Scene) -> Picture:
+    """The picture of a scene in the numbers that the contracts get for it."""
+    return render_call(encode(artifact("Renderer").selectors["render"], scene))
+
+
+def render_call(data: bytes) -> Picture:
+    """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it."""
+    (scene,) = eth_abi.decode([_scene_type()], data[4:])  # type: ignore[attr-defined]
+    (width, height), camera, (top, bottom), invert, ambient, lights, objects = scene
+    frame = _frame(camera, width, height)
+    surfaces = [_surface(o) for o in objects]
+    triangle, bary = _rasterise(frame, surfaces)
+    picture = _background(_rgb(top), _rgb(bottom), width, height)
+    first = 0
+    for surface in surfaces:
+        seen = (triangle >= first) & (triangle < first + len(surface.faces))
+        if seen.any():
+            face = triangle[seen] - first
+            picture[seen] = _shade(frame, surface, face, bary[seen], _rgb(ambient), lights)
+        first += len(surface.faces)
+    if invert:
+        picture = 255 - picture
+    exact = np.clip(picture, 0, 255)
+    offsets = np.cumsum([0] + [len(s.positions) for s in surfaces])
+    corners = [s.faces + offset for s, offset in zip(surfaces, offsets, strict=False)]
+    smooth = [np.full(len(s.faces), s.material[0] == SMOOTH) for s in surfaces]
+    return Picture(
+        pixels=np.floor(exact + 0.5).astype(np.uint8),
+        exact=exact,
+        triangle=triangle,
+        corners=np.concatenate([np.empty((0, 3), np.int64), *corners]),
+        is_smooth=np.concatenate([np.empty(0, bool), *smooth]),
+    )
+
+
+# ---- what the calldata says ----
+
+
+@cache
+def _scene_type() -> str:
+    function = next(entry for entry in artifact("Renderer").abi if entry.get("name") == "render")
+    return _type_of(function["inputs"][0])
+
+
+def _type_of(parameter: dict[str, Any]) -> str:
+    if not parameter["type"].startswith("tuple"):
+        return str(parameter["type"])
+    return f"({','.join(map(_type_of, parameter['components']))}){parameter['type'].removeprefix('tuple')}"
+
+
+def _q32(value: Any) -> Array:
+    return np.array(value, dtype=np.float64) / 2.0**32
+
+
+def _rgb(color: int) -> Array:
+    return np.array([color >> 16, color >> 8 & 0xFF, color & 0xFF], dtype=np.float64)
+
+
+def _frame(camera: Any, width: int, height: int) -> _Frame:
+    eye, target, up, projection, half_height, near = camera
+    back = _unit(_q32(eye) - _q32(target))
+    right = _unit(np.cross(_unit(_q32(up)), back))
+    axes = np.array([right, np.cross(back, right), -back])
+    focal = height / 2 / float(_q32(half_height))
+    return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height)
+
+
+def _surface(o: Any) -> _Surface:
+    mesh, position, rotation, scale, (shading, ambient, diffuse, specular, shininess), flags = o
+    assert not flags & WIREFRAME
+    points, colors, normals, faces = unpack(mesh)
+    turn = rotation_matrix(_q32(rotation))
+    return _Surface(
+        positions=_q32(position) + float(_q32(scale)) * points @ turn.T,
+        colors=colors,
+        normals=normals @ turn.T,
+        faces=faces,
+        material=(shading, float(_q32(ambient)), float(_q32(diffuse)), float(_q32(specular)), shininess),
+        cull=bool(flags & CULL_BACKFACES),
+    )
+
+
+def unpack(mesh: bytes) -> tuple[Array, Array, Array, Integers]:
+    """Positions, colours, normals (zero where there are none) and faces of a packed mesh."""
+    kind, count = mesh[0], int.from_bytes(mesh[1:3], "big")
+    size = 3 if kind & 2 else 2
+    rows = np.frombuffer(mesh, np.uint8, count * (3 * size + 3 + 4 * (kind & 1)), 5).reshape(count, -1)
+    points = np.zeros((count, 3), np.int64)
+    for byte in range(size):
+        points = points << 8 | rows[:, byte : 3 * size : size]
+    points = (points ^ 1 << 8 * size - 1) - (1 << 8 * size - 1)
+    normals = np.zeros((count, 3), np.int64)
+    if kind & 1:
+        words = np.ascontiguousarray(rows[:, -4:]).view(">u4").astype(np.int64)
+        normals = np.hstack([words >> 22, words >> 12, words >> 2]) & 1023
+        normals = (normals ^ 512) - 512
+    faces = np.frombuffer(mesh, ">u2", offset=5 + rows.size).astype(np.int64).reshape(-1, 3)
+    colors = rows[:, 3 * size : 3 * size + 3]
+    return points.astype(np.float64), colors.astype(np.float64), normals / 511, faces
+
+
+def rotation_matrix(quaternion: Array) -> Array:
+    """Of a quaternion (x, y, z, w) of any length: the images of the axes are its columns."""
+    x, y, z, w = quaternion / np.linalg.norm(quaternion)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    out: Array = np.eye(3) + 2 * w * cross + 2 * cross @ cross
+    return out
+
+
+def _unit(v: Array) -> Array:
+    """Unit vectors along the last axis; zero for zero."""
+    length = np.linalg.norm(v, axis=-1, keepdims=True)
+    return np.divide(v, length, out=np.zeros_like(v), where=length > 0)
+
+
+# ---- which triangle is seen where ----
+
+
+def _rasterise(frame: _Frame, surfaces: list[_Surface]) -> tuple[Integers, Array]:
+    """The triangle that each pixel shows, and its weights (H, W, 3), perspective-correct."""
+    shape = (frame.height, frame.width)
+    triangle, weights = np.full(shape, -1, np.int64), np.zeros((*shape, 3))
+    # larger is nearer
+    depth = np.full(shape, -np.inf)
+    number = 0
+    for surface in surfaces:
+        corners = frame.to_camera(surface.positions)[surface.faces]
+        kept = [_clip(frame, face) for face in corners]
+        # what had to be cut comes after the rest of its object
+        for is_cut in (False, True):
+            for index, (face, pieces) in enumerate(zip(corners, kept, strict=True)):
+                if is_cut == (face[:, 2] < frame.near).any():
+                    for piece in pieces:
+                        _draw(frame, face, piece, surface.cull, number + index, triangle, weights, depth)
+        number += len(surface.faces)
+    return triangle, weights
+
+
+def _clip(frame: _Frame, face: Array) -> list[Array]:
+    """What of a face is not nearer than the near plane, as triangles: (3, 3) weights of the corners each."""
+    inside = face[:, 2] - frame.near
+    if (inside >= 0).all():
+        return [np.eye(3)]
+    if (inside < 0).all():
+        return []
+    polygon = []
+    for i in range(3):
+        j = (i + 1) % 3
+        if inside[i] >= 0:
+            polygon.append(np.eye(3)[i])
+        if (inside[i] >= 0) != (inside[j] >= 0):
+            part = inside[i] / (inside[i] - inside[j])
+            polygon.append((1 - part) * np.eye(3)[i] + part * np.eye(3)[j])
+    return [np.array([polygon[0], polygon[i], polygon[i + 1]]) for i in range(1, len(polygon) - 1)]
+
+
+def _draw(
+    frame: _Frame,
+    face: Array,
+    piece: Array,
+    cull: bool,
+    number: int,
+    triangle: Integers,
+    weights: Array,
+    depth: Array,
+) -> None:
+    """Draws a piece of a face where it is nearer than what is there."""
+    points = piece @ face
+    divisor = points[:, 2] if frame.perspective else np.ones(3)
+    x = frame.width / 2 + frame.focal * points[:, 0] / divisor
+    y = frame.height / 2 - frame.focal * points[:, 1] / divisor
+    # in steps, relative to the centre of the first pixel
+    x = np.floor((x - 0.5) * SUBPIXELS + 0.5)
+    y = np.floor((y - 0.5) * SUBPIXELS + 0.5)
+    area = (x[2] - x[0]) * (y[1] - y[0]) - (x[1] - x[0]) * (y[2] - y[0])
+    if area == 0 or (cull and area < 0):
+        return
+    order = [0, 1, 2]
+    if area < 0:
+        order = [0, 2, 1]
+        x, y, points, piece, divisor = x[order], y[order], points[order], piece[order], divisor[order]
+        area = -area
+    left, right = (int(np.clip(v, 0, frame.width)) for v in (np.ceil(x.min() / 256), np.floor(x.max() / 256) + 1))
+    top, bottom = (int(np.clip(v, 0, frame.height)) for v in (np.ceil(y.min() / 256), np.floor(y.max() / 256) + 1))
+    if left >= right or top >= bottom:
+        return
+    column, row = 256.0 * np.arange(left, right)[None], 256.0 * np.arange(top, bottom)[:, None]
+    inside = np.ones((bottom - top, right - left), bool)
+    screen = []
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        # the edge across from corner i; positive within
+        edge = (column - x[j]) * (y[k] - y[j]) + (row - y[j]) * (x[j] - x[k])
+        screen.append(edge / area)
+        # rows run down and corners counter-clockwise: a left edge goes down, a top edge to the left
+        owned = y[k] > y[j] or (y[k] == y[j] and x[k] < x[j])
+        inside &= edge >= 0 if owned else edge > 0
+    flat = np.stack(screen, axis=-1)
+    # linear on the screen: 1 / distance of a perspective camera, -distance of an orthographic one
+    nearness = flat @ (1 / divisor) if frame.perspective else -(flat @ points[:, 2])
+    window = np.s_[top:bottom, left:right]
+    wins = inside & (nearness > depth[window])
+    depth[window][wins] = nearness[wins]
+    triangle[window][wins] = number
+    correct = flat / divisor
+    correct /= correct.sum(axis=-1, keepdims=True)
+    weights[window][wins] = (correct @ piece)[wins]
+
+
+# ---- the colour of what is seen ----
+
+
+def _background(top: Array, bottom: Array, width: int, height: int) -> Array:
+    part = (np.arange(height) / max(height - 1, 1))[:, None, None]
+    return np.array(np.broadcast_to(top + (bottom - top) * part, (height, width, 3)))
+
+
+def _shade(frame: _Frame, surface: _Surface, face: Integers, weights: Array, ambient_light: Array, lights: Any) -> Array:
+    """The colours of points of a surface; `face` (n,) and `weights` (n, 3) say which."""
+    corners = surface.faces[face]
+    color = _mix(surface.colors[corners], weights)
+    shading, ambient, diffuse, specular, shininess = surface.material
+    if shading == UNLIT:
+        return color
+    places = surface.positions[corners]
+    point = _mix(places, weights)
+    if shading == FLAT:
+        normal = _unit(np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]))
+    else:
+        normal = _unit(_mix(surface.normals[corners], weights))
+    # the direction to the eye
+    view = _unit(frame.eye - point) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
+    modulate = np.broadcast_to(ambient * ambient_light / 255, point.shape).copy()
+    add = np.zeros_like(point)
+    for kind, vector, hue in lights:
+        toward = _unit(_q32(vector) - point if kind == POINT else np.broadcast_to(_q32(vector), point.shape))
+        facing = _dot(normal, toward)
+        gloss = np.maximum(0, _dot(normal, _unit(toward + view))) ** shininess
+        modulate += diffuse * np.maximum(0, facing) * _rgb(hue) / 255
+        add += specular * np.where(facing > 0, gloss, 0) * _rgb(hue)
+    return color * modulate + add
+
+
+def _mix(values: Array, weights: Array) -> Array:
+    """(n, 3, 3) values of the corners as (n, 3) values of the points."""
+    return np.einsum("nij,ni->nj", values, weights)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return (a * b).sum(axis=-1, keepdims=True)

@@ -1,0 +1,126 @@
+"""What the tests ask of the contracts, and the scenes that they share."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike, NDArray
+
+from shackled import Camera, Material, Mesh, Object, Scene
+from shackled.artifacts import artifact
+from shackled.chain import ContractChain, open_chain
+from shackled.chain.chain import CallResult
+from shackled.image import decode_bmp
+from shackled.scene.codec import Rectangle, encode_scene
+
+Pixels = NDArray[np.uint8]
+
+UNLIT = Material("unlit")
+WHITE = (255, 255, 255)
+
+
+def shared_folder() -> Path:
+    """Where files of scenes may be that do not come with the repository."""
+    return Path(os.environ.get("SHACKLED_SHARED", Path(__file__).parents[2] / "shared")) / "scenes"
+
+
+def shared_scene(name: str) -> Path:
+    """The file of a scene; skips the test where there is none."""
+    path = shared_folder() / f"{name}.json"
+    if not path.is_file():
+        pytest.skip(f"there is no {path}: set SHACKLED_SHARED")
+    return path
+
+
+@cache
+def chain() -> ContractChain:
+    """Where the contracts run."""
+    found = open_chain()
+    assert isinstance(found, ContractChain)
+    return found
+
+
+def words(*values: int) -> bytes:
+    """ABI words."""
+    return b"".join((value % (1 << 256)).to_bytes(32, "big") for value in values)
+
+
+def call_data(function: str, scene: Scene, tile: Rectangle | None = None) -> bytes:
+    """A call of the Renderer with the numbers of the scene as they are: its meshes must have whole coordinates, and its
+    camera a near distance.
+    """
+    head = words(0x20) if tile is None else words(0xA0, tile.x, tile.y, tile.width, tile.height)
+    return artifact("Renderer").selectors[function] + head + encode_scene(scene)
+
+
+def call(function: str, scene: Scene, tile: Rectangle | None = None) -> CallResult:
+    """Calls the Renderer."""
+    return chain().call("Renderer", call_data(function, scene, tile))
+
+
+def dynamic(output: bytes, word: int = 0) -> bytes:
+    """The bytes or string that a word of an output points to."""
+    start = int.from_bytes(output[32 * word : 32 * word + 32], "big")
+    size = int.from_bytes(output[start : start + 32], "big")
+    assert start + 32 + size <= len(output)
+    return output[start + 32 : start + 32 + size]
+
+
+def draw(scene: Scene, tile: Rectangle | None = None) -> Pixels:
+    """The picture of a scene, or of a part of its canvas: (H, W, 3)."""
+    bmp = dynamic(call("render" if tile is None else "renderTile", scene, tile).output)
+    return decode_bmp(bmp, tile.width if tile else scene.width, tile.height if tile else scene.height)
+
+
+def counts(scene: Scene) -> tuple[int, int]:
+    """How many triangles the contract drew, and how many pixels they cover."""
+    output = call("renderCounted", scene).output
+    return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
+
+
+def covered(scene: Scene) -> NDArray[np.bool_]:
+    """(H, W): where anything is drawn, of whatever colour."""
+    white = [
+        replace(o, mesh=recolored(o.mesh, WHITE), material=UNLIT if o.material.shading != "unlit" else o.material)
+        for o in scene.objects
+    ]
+    return draw(replace(scene, objects=white))[:, :, 0] > 0
+
+
+def recolored(mesh: Mesh, color: ArrayLike) -> Mesh:
+    """The mesh in one colour."""
+    return replace(mesh, colors=np.tile(np.asarray(color), (len(np.asarray(mesh.positions)), 1)))
+
+
+def soup(corners: ArrayLike, colors: ArrayLike = WHITE) -> Mesh:
+    """A mesh of (n, 3, 3) corners; `colors` is one colour, or one for each triangle."""
+    points = np.asarray(corners, dtype=np.float64).reshape(-1, 3)
+    each = np.repeat(np.broadcast_to(np.asarray(colors), (len(points) // 3, 3)), 3, axis=0)
+    return Mesh(points, np.arange(len(points)).reshape(-1, 3), each)
+
+
+def pixel_grid_camera(height: int, near: float = 0.0) -> Camera:
+    """An orthographic camera for which one unit is 1/256 of a pixel, on a canvas of so many rows."""
+    return Camera(projection="orthographic", half_height=128.0 * height, near=near)
+
+
+def on_pixel_grid(points: ArrayLike, width: int, height: int, z: float = -1.0) -> NDArray[np.float64]:
+    """(..., 2) columns and rows in 1/256 of a pixel, from the top left corner, as points that `pixel_grid_camera` puts
+    there.
+    """
+    grid = np.asarray(points, dtype=np.float64)
+    x, y = grid[..., 0] - 128 * width, 128 * height - grid[..., 1]
+    return np.stack([x, y, np.full_like(x, z)], axis=-1)
+
+
+def unlit_scene(objects: Any, camera: Camera, width: int, height: int | None = None, **more: Any) -> Scene:
+    """A scene on a canvas; one mesh stands for an unlit object of which both sides are seen."""
+    if isinstance(objects, Mesh):
+        objects = [Object(objects, material=UNLIT, cull=False)]
+    return Scene(objects, camera, width=width, height=height or width, **more)

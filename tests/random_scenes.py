@@ -1,0 +1,280 @@
+"""Random scenes: every feature of the renderer, mixed, on small canvases."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled.scene.background import Background
+from shackled.scene.camera import Camera
+from shackled.scene.codec import Rectangle
+from shackled.scene.light import Light
+from shackled.scene.material import Material, Shading
+from shackled.scene.mesh import Mesh, vertex_normals
+from shackled.scene.object import Object
+from shackled.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Rng = np.random.Generator
+
+#: Tame: everything is before the camera and within the contract's guard band. Close: around the camera, through the near
+#: plane and far beyond the borders. Wild: of any size and place that the contract takes.
+Kind = Literal["tame", "close", "wild"]
+KINDS: tuple[Kind, ...] = ("tame", "close", "wild")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene whose numbers are in the ranges of the contract, on whose meshes all coordinates are whole; and a part of it."""
+
+    scene: Scene
+    tile: Rectangle
+
+
+def random_cases(seed: int, count: int, kinds: tuple[Kind, ...] = KINDS) -> Iterator[Case]:
+    """The cases of the seeds from `seed` on."""
+    return (random_case(number, kinds) for number in range(seed, seed + count))
+
+
+def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
+    """The case of one seed."""
+    rng = np.random.default_rng(seed)
+    kind = kinds[rng.integers(len(kinds))]
+    width, height = _canvas(rng)
+    objects = [_object(rng, kind) for _ in range(rng.choice([0, 1, 2, 3], p=[0.02, 0.68, 0.2, 0.1]))]
+    scene = Scene(
+        objects=objects,
+        camera=_camera(rng, kind, objects),
+        lights=[_light(rng, kind) for _ in range(rng.choice(5, p=[0.1, 0.5, 0.2, 0.1, 0.1]))],
+        background=Background(_color(rng), _color(rng) if rng.random() < 0.5 else None),
+        ambient_light=(255, 255, 255) if rng.random() < 0.5 else _color(rng),
+        invert=bool(rng.random() < 0.2),
+        width=width,
+        height=height,
+    )
+    x, y = int(rng.integers(width)), int(rng.integers(height))
+    tile = Rectangle(x, y, int(rng.integers(1, width - x + 1)), int(rng.integers(1, height - y + 1)))
+    return Case(scene, tile)
+
+
+def _canvas(rng: Rng) -> tuple[int, int]:
+    choice = rng.random()
+    if choice < 0.05:
+        return int(rng.integers(1, 4)), int(rng.integers(1, 200))
+    if choice < 0.1:
+        return int(rng.integers(1, 200)), int(rng.integers(1, 4))
+    if choice < 0.13:
+        return int(rng.integers(100, 300)), int(rng.integers(60, 160))
+    if choice < 0.16:
+        return int(rng.integers(300, 1025)), int(rng.integers(1, 60))
+    return int(rng.integers(1, 64)), int(rng.integers(1, 64))
+
+
+def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
+    """A camera that looks toward one of the objects, from about where it fills the picture."""
+    center, size = np.zeros(3), 1000.0
+    if objects:
+        seen = objects[rng.integers(len(objects))]
+        center = np.asarray(seen.position)
+        size = max(seen.scale * float(np.abs(np.asarray(seen.mesh.positions)).max()), 2.0**-16)
+    perspective = rng.random() < 0.65
+    if kind == "tame":
+        distance = 3000.0 + 2 * size
+    elif kind == "close":
+        distance = size * rng.uniform(0, 3)
+    else:
+        distance = size * 2.0 ** rng.uniform(-4, 4)
+    if rng.random() < 0.3:
+        # the numbers of an ordinary scene, with all their zeros
+        eye, target, up = center + np.array([0, 0, distance]), center, np.array([0.0, 1.0, 0.0])
+    else:
+        eye, up = center + distance * _direction(rng), _direction(rng)
+        target = center + rng.normal(size=3) * size * 0.1
+    if perspective:
+        half_height = 1 / 2.145 if rng.random() < 0.5 else rng.uniform(0.3, 1.5)
+        near = distance * 2.0 ** -rng.uniform(5, 10)
+        if kind != "tame" and rng.random() < 0.5:
+            near = distance * 2.0 ** rng.uniform(-4, 0.5)
+    else:
+        half_height = size * rng.uniform(0.5, 3)
+        near = -(2.0**26) if rng.random() < 0.5 else distance - 2 * size
+        if kind != "tame" and rng.random() < 0.5:
+            near = distance + size * rng.uniform(-1.5, 0.8)
+    if kind == "wild" and rng.random() < 0.3:
+        half_height = _spread(rng, -10, 10) if perspective else _spread(rng, -12, 26)
+    if kind == "wild" and rng.random() < 0.3:
+        near = _spread(rng, -32, 26) if perspective else _signed(rng, -20, 26)
+    if kind == "wild" and rng.random() < 0.1:
+        eye, target = _place(rng), _place(rng)
+    near = min(max(near, 2.0**-32 if perspective else -(2.0**26)), 2.0**26)
+    return Camera(
+        tuple(_inside(eye)),
+        tuple(_inside(target)),
+        tuple(_q32(up)),
+        "perspective" if perspective else "orthographic",
+        float(_q32(np.clip(half_height, 2.0**-10 if perspective else 2.0**-12, 2.0**10 if perspective else 2.0**26))),
+        float(_q32(near)),
+    )
+
+
+def _light(rng: Rng, kind: Kind) -> Light:
+    color = (255, 255, 255) if rng.random() < 0.4 else _color(rng)
+    if rng.random() < 0.5:
+        length = 2.0 ** rng.uniform(-20, 20) if kind == "wild" else 1000.0
+        return Light("directional", _q32(length * _direction(rng)), color)
+    if kind == "wild" and rng.random() < 0.5:
+        return Light("point", _place(rng), color)
+    return Light("point", _q32(rng.normal(size=3) * 2.0 ** rng.uniform(4, 13)), color)
+
+
+def _object(rng: Rng, kind: Kind) -> Object:
+    wide = rng.random() < 0.2
+    # half the extent of a mesh, in its units
+    extent = rng.choice([1, 10, 1000, 30000]) if not wide else 2**23 - 1
+    mesh = _mesh(rng, float(extent))
+    size = 2.0 ** rng.uniform(8, 11) if kind == "tame" else 2.0 ** rng.uniform(5, 14)
+    scale = size / extent if extent > 1 else size / 4
+    position = rng.normal(size=3) * (100 if kind == "tame" else 1000)
+    if kind == "wild" and rng.random() < 0.5:
+        scale = _spread(rng, -32, 4 if wide else 12) if rng.random() < 0.95 else 0.0
+        if rng.random() < 0.5:
+            position = _place(rng)
+    shadings: tuple[Shading, ...] = ("unlit", "flat", "flat", "smooth", "smooth")
+    bright = rng.random() < 0.15
+    material = Material(
+        shadings[rng.integers(len(shadings))],
+        ambient=_coefficient(rng, bright),
+        diffuse=_coefficient(rng, bright),
+        specular=_coefficient(rng, bright),
+        shininess=int(rng.choice([1, 2, 3, 5, 10, 20, 33, 64, 127, 128])),
+    )
+    return Object(
+        mesh,
+        position=_q32(position),
+        rotation=(0, 0, 0, 1) if rng.random() < 0.3 else _q32(rng.normal(size=4)),
+        scale=float(_q32(scale)),
+        material=material,
+        cull=bool(rng.random() < 0.6),
+        wireframe=bool(rng.random() < 0.15),
+    )
+
+
+def _mesh(rng: Rng, extent: float) -> Mesh:
+    shapes = (_soup, _box, _sphere, _patch, _fan)
+    positions, faces = shapes[rng.integers(len(shapes))](rng)
+    positions = np.rint(positions * extent)
+    if rng.random() < 0.05:
+        # degenerate faces
+        faces[rng.integers(len(faces))] = rng.integers(len(positions))
+    if rng.random() < 0.5:
+        faces = faces[:, ::-1] if rng.random() < 0.3 else faces[rng.permutation(len(faces))]
+    choice = rng.random()
+    colors = rng.integers(0, 256, (len(positions), 3))
+    if choice < 0.3:
+        colors[:] = colors[0]
+    elif choice < 0.5:
+        colors = np.where(colors < 128, 0, 255)
+    elif choice < 0.6:
+        colors = np.minimum(colors[:1] + colors // 8, 255)
+    choice = rng.random()
+    normals = None
+    if choice < 0.2:
+        normals = rng.normal(size=positions.shape)
+    elif choice < 0.25:
+        normals = np.zeros_like(positions)
+    elif choice < 0.5:
+        normals = vertex_normals(positions, faces) + 0.2 * rng.normal(size=positions.shape)
+    return Mesh(positions, faces, colors, normals)
+
+
+def _soup(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+    """Triangles of many sizes, anywhere."""
+    count = int(rng.integers(1, 30))
+    centers = rng.uniform(-0.5, 0.5, (count, 1, 3))
+    corners = centers + rng.uniform(-0.5, 0.5, (count, 3, 3)) * 2.0 ** -rng.uniform(0, 5, (count, 1, 1))
+    return corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3)
+
+
+def _box(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * rng.uniform(0.2, 1, 3)
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, np.array([(a, b, c) for a, b, c, _ in quads] + [(a, c, d) for a, _, c, d in quads])
+
+
+def _sphere(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+    rings, sides = int(rng.integers(3, 9)), int(rng.integers(3, 12))
+    theta = np.pi * np.arange(rings + 1)[:, None] / rings
+    phi = 2 * np.pi * np.arange(sides)[None] / sides
+    points = np.stack([np.sin(theta) * np.cos(phi), np.cos(theta) + 0 * phi, np.sin(theta) * np.sin(phi)], axis=-1)
+    return points.reshape(-1, 3), _grid(rings, sides, closed=True)
+
+
+def _patch(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+    """Hills, whose faces share their edges."""
+    n, m = int(rng.integers(1, 8)), int(rng.integers(1, 8))
+    points = np.empty((n + 1, m + 1, 3))
+    points[..., 0] = np.linspace(-1, 1, n + 1)[:, None]
+    points[..., 1] = rng.uniform(-0.3, 0.3, (n + 1, m + 1)) * rng.integers(0, 2)
+    points[..., 2] = np.linspace(-1, 1, m + 1)[None]
+    return points.reshape(-1, 3), _grid(n, m, closed=False)
+
+
+def _fan(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+    """Long thin triangles around a point."""
+    sides = int(rng.integers(3, 40))
+    angles = np.sort(rng.uniform(0, 2 * np.pi, sides))
+    rim = np.stack([np.cos(angles), np.sin(angles), rng.uniform(-0.2, 0.2, sides)], axis=1)
+    numbers = np.arange(sides) + 1
+    return np.vstack([np.zeros(3), rim]), np.stack([np.zeros(sides, np.int64), numbers, np.roll(numbers, -1)], axis=1)
+
+
+def _grid(rows: int, columns: int, closed: bool) -> NDArray[np.int64]:
+    """Faces of rows of quadrangles, which meet again at the end if `closed`."""
+    stride = columns if closed else columns + 1
+    row, column = (part.ravel() for part in np.mgrid[:rows, :columns])
+    following = (column + 1) % stride
+    a, b = row * stride + column, row * stride + following
+    c, d = a + stride, b + stride
+    return np.vstack([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
+
+
+def _color(rng: Rng) -> tuple[int, int, int]:
+    red, green, blue = rng.integers(0, 256, 3).tolist()
+    return red, green, blue
+
+
+def _coefficient(rng: Rng, bright: bool) -> float:
+    return float(rng.choice([0, 1, rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 4) if bright else 0.5]))
+
+
+def _direction(rng: Rng) -> Array:
+    v = rng.normal(size=3)
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def _place(rng: Rng) -> Array:
+    """Anywhere in the space of the contract, near the middle as likely as far out."""
+    return _inside(rng.choice([-1, 1], 3) * 2.0 ** rng.uniform(-33, 26.5, 3))
+
+
+def _inside(v: Array) -> Array:
+    """In the space of the contract."""
+    return _q32(np.clip(v, -(2.0**26), 2.0**26))
+
+
+def _spread(rng: Rng, low: float, high: float) -> float:
+    """A power of two, sometimes one of the bounds."""
+    return float(2.0 ** np.clip(rng.uniform(low - 1, high + 1), low, high))
+
+
+def _signed(rng: Rng, low: float, high: float) -> float:
+    return float(rng.choice([-1, 1])) * _spread(rng, low, high)
+
+
+def _q32(values: Array | float) -> Array:
+    """Rounded to what the contract takes."""
+    return np.rint(np.asarray(values, np.float64) * 2.0**32) / 2.0**32

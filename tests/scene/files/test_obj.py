@@ -1,0 +1,147 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from shackled.errors import InputError
+from shackled.scene.files import read_mesh, write_obj
+from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+
+TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+
+def read(folder: Path, text: str) -> Mesh:
+    path = folder / "model.obj"
+    path.write_text(text)
+    return read_mesh(path)
+
+
+def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
+    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    return colors
+
+
+def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
+    positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
+    return positions
+
+
+def test_without_colors_it_is_grey(tmp_path: Path) -> None:
+    mesh = read(tmp_path, TRIANGLE + "f 1 2 3\n")
+    assert corner_positions(mesh) == [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]
+    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3]
+    assert mesh.normals is None
+
+
+def test_vertex_colors_in_fractions(tmp_path: Path) -> None:
+    mesh = read(tmp_path, "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 0 1 0 0 0 0.2\nf 1 2 3\n")
+    assert corner_colors(mesh) == [[[255, 0, 0], [0, 128, 0], [0, 0, 51]]]
+
+
+def test_vertex_colors_in_bytes(tmp_path: Path) -> None:
+    mesh = read(tmp_path, "v 0 0 0 255 0 0\nv 1 0 0 0 17 0\nv 0 1 0 0 0 1\nf 1 2 3\n")
+    assert corner_colors(mesh) == [[[255, 0, 0], [0, 17, 0], [0, 0, 1]]]
+
+
+def test_only_some_vertices_have_colors(tmp_path: Path) -> None:
+    mesh = read(tmp_path, "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert corner_colors(mesh) == [[[255, 0, 0], list(DEFAULT_COLOR), list(DEFAULT_COLOR)]]
+
+
+def test_relative_numbers_count_back_from_the_line(tmp_path: Path) -> None:
+    second = "v 5 0 0\nv 6 0 0\nv 5 1 0\n"
+    mesh = read(tmp_path, TRIANGLE + "f -3 -2 -1\n" + second + "f -3 -2 -1\n")
+    assert corner_positions(mesh) == [[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[5, 0, 0], [6, 0, 0], [5, 1, 0]]]
+
+
+def test_polygons_groups_comments_tabs_and_continued_lines(tmp_path: Path) -> None:
+    mesh = read(
+        tmp_path, "# a square\no one\n" + SQUARE + "g side # here\ns off\nf\t1 2 \\\n3 4 # all\ng other\nf 4 3 2\n"
+    )
+    assert len(np.asarray(mesh.faces)) == 3
+    assert len(np.asarray(mesh.positions)) == 4
+
+
+def test_normals_of_the_file_are_kept(tmp_path: Path) -> None:
+    mesh = read(tmp_path, TRIANGLE + "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//2\n")
+    assert np.asarray(mesh.normals).tolist() == [[0, 0, 1], [0, 0, 1], [0, 1, 0]]
+
+
+def test_normals_that_not_every_face_has_are_dropped(tmp_path: Path) -> None:
+    assert read(tmp_path, SQUARE + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\n").normals is None
+
+
+def test_materials_color_their_faces(tmp_path: Path) -> None:
+    (tmp_path / "two colours.mtl").write_text("newmtl warm\nKd 1 0.5 0\nNs 3\n\nnewmtl cold one\n\tKd 0 0 1\n")
+    mesh = read(tmp_path, "mtllib two colours.mtl\n" + SQUARE + "usemtl warm\nf 1 2 3\nusemtl cold one\nf 1 3 4\n")
+    assert corner_colors(mesh) == [[[255, 128, 0]] * 3, [[0, 0, 255]] * 3]
+    assert len(np.asarray(mesh.positions)) == 6
+
+
+def test_faces_before_a_material_and_missing_materials_are_grey(tmp_path: Path) -> None:
+    mesh = read(tmp_path, "mtllib nowhere.mtl\n" + SQUARE + "f 1 2 3\nusemtl lost\nf 1 3 4\n")
+    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
+
+
+def test_vertex_colors_come_before_materials(tmp_path: Path) -> None:
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 0 0 1\n")
+    mesh = read(tmp_path, "mtllib m.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n")
+    assert corner_colors(mesh) == [[[255, 0, 0], [255, 0, 0], [0, 0, 255]]]
+
+
+def test_textures_are_sampled(tmp_path: Path) -> None:
+    image = Image.new("RGB", (2, 1), (255, 0, 0))
+    image.putpixel((1, 0), (0, 0, 255))
+    image.save(tmp_path / "wood.png")
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 0.1 0.1 0.1\nmap_Kd -s 1 1 1 wood.png\n")
+    mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n")
+    assert corner_colors(mesh) == [[[255, 0, 0], [0, 0, 255], [255, 0, 0]]]
+
+
+def test_a_broken_texture_leaves_the_color(tmp_path: Path) -> None:
+    (tmp_path / "wood.png").write_bytes(b"not a picture")
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 0 1 0\nmap_Kd wood.png\n")
+    mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
+    assert corner_colors(mesh) == [[[0, 255, 0]] * 3]
+
+
+def test_written_files_read_back(tmp_path: Path) -> None:
+    colors = [[0, 1, 2], [127, 128, 129], [253, 254, 255]]
+    mesh = Mesh(
+        np.array([[0, 0.25, 1e-3], [1 / 3, 0, 0], [0, 1, 7]]), [[0, 1, 2]], colors, [[0, 0, 1], [0, 1, 0], [1, 0, 0]]
+    )
+    write_obj(mesh, tmp_path / "out.obj")
+    back = read_mesh(tmp_path / "out.obj")
+    np.testing.assert_allclose(np.asarray(back.positions), np.asarray(mesh.positions), rtol=1e-8)
+    assert np.asarray(back.colors).tolist() == colors
+    assert np.asarray(back.normals).tolist() == np.asarray(mesh.normals).tolist()
+    assert np.asarray(back.faces).tolist() == [[0, 1, 2]]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (TRIANGLE, "it has no faces (3 vertices)"),
+        ("hello\nworld\n", "it has no faces (0 vertices)"),
+        (TRIANGLE + "f 1 2 4\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
+        (TRIANGLE + "f 0 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
+        (TRIANGLE + "f -4 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
+        (
+            TRIANGLE + "f 1 2 3\nf 1//1 2//1 3//1\n",
+            "the face in line 5 names a normal that does not exist; there are no vn lines",
+        ),
+        (TRIANGLE + "f 1 2\n", "line 4 is not one of an OBJ file: 'f 1 2'"),
+        (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),
+        ("v 0 0\n" + TRIANGLE + "f 1 2 3\n", "line 1 is not one of an OBJ file: 'v 0 0'"),
+        (
+            "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+            "vertex 0 has a coordinate that is not a finite number: [0.0, 0.0, nan]",
+        ),
+    ],
+)
+def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, text: str, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        read(tmp_path, text)
+    assert str(error.value) == f"{tmp_path / 'model.obj'}: {message}"

@@ -1,0 +1,122 @@
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shackled.errors import InputError
+from shackled.scene.files import read_mesh
+from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+
+SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
+
+
+def header(encoding: str, vertex: str, faces: int, face: str = "") -> str:
+    properties = "property float x\nproperty float y\nproperty float z\n" + vertex
+    return (
+        f"ply\nformat {encoding} 1.0\ncomment made by hand\nelement vertex 4\n{properties}"
+        f"element face {faces}\nproperty list uchar int vertex_indices\n{face}end_header\n"
+    )
+
+
+def read(folder: Path, content: str | bytes) -> Mesh:
+    path = folder / "model.ply"
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+    return read_mesh(path)
+
+
+def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
+    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    return colors
+
+
+VERTICES = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
+COLOR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+
+
+def test_text(tmp_path: Path) -> None:
+    mesh = read(tmp_path, header("ascii", "", 2) + VERTICES + "3 0 1 2\n3 0 2 3\n")
+    assert np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist() == [
+        [list(SQUARE[0]), list(SQUARE[1]), list(SQUARE[2])],
+        [list(SQUARE[0]), list(SQUARE[2]), list(SQUARE[3])],
+    ]
+    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
+
+
+def test_windows_line_ends(tmp_path: Path) -> None:
+    text = (header("ascii", "", 1) + VERTICES + "4 0 1 2 3\n").replace("\n", "\r\n")
+    assert len(np.asarray(read(tmp_path, text).faces)) == 2
+
+
+@pytest.mark.parametrize(("encoding", "order"), [("binary_little_endian", "<"), ("binary_big_endian", ">")])
+def test_binary_with_triangles_and_quads(tmp_path: Path, encoding: str, order: str) -> None:
+    content = header(encoding, COLOR, 2).encode()
+    for number, (x, y, z) in enumerate(SQUARE):
+        content += struct.pack(order + "fffBBB", x, y, z, number, 100, 255)
+    content += struct.pack(order + "Biii", 3, 0, 1, 2) + struct.pack(order + "Biiii", 4, 0, 1, 2, 3)
+    mesh = read(tmp_path, content)
+    assert corner_colors(mesh) == [[[a, 100, 255] for a in face] for face in ((0, 1, 2), (0, 1, 2), (0, 2, 3))]
+
+
+def test_face_colors(tmp_path: Path) -> None:
+    mesh = read(tmp_path, header("ascii", "", 2, COLOR) + VERTICES + "3 0 1 2 255 0 0\n3 0 2 3 0 0 9\n")
+    assert corner_colors(mesh) == [[[255, 0, 0]] * 3, [[0, 0, 9]] * 3]
+
+
+def test_vertex_colors_beside_texture_coordinates(tmp_path: Path) -> None:
+    more = COLOR + "property float s\nproperty float t\n"
+    rows = "".join(f"{x} {y} {z} 1 2 3 0.5 0.5\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[1, 2, 3]] * 3]
+
+
+def test_colors_as_fractions(tmp_path: Path) -> None:
+    more = COLOR.replace("uchar", "float")
+    rows = "".join(f"{x} {y} {z} 1 0.5 0\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[255, 128, 0]] * 3]
+
+
+def test_a_nearly_black_color_in_bytes_stays_so(tmp_path: Path) -> None:
+    rows = "".join(f"{x} {y} {z} 1 0 1\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", COLOR, 1) + rows + "3 0 1 2\n")) == [[[1, 0, 1]] * 3]
+
+
+def test_normals_are_kept(tmp_path: Path) -> None:
+    more = "property float nx\nproperty float ny\nproperty float nz\n"
+    rows = "".join(f"{x} {y} {z} 0 1 0\n" for x, y, z in SQUARE)
+    mesh = read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")
+    assert np.asarray(mesh.normals).tolist() == [[0, 1, 0]] * 3
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("plx\n", "a PLY file begins with the line ply"),
+        ("ply\nformat ascii 1.0\n", "its header has no line end_header"),
+        ("ply\nend_header\n", "its header has no line format"),
+        ("ply\nformat ascii 1.0\nelement vertex many\nend_header\n",
+         "its header has a line that means nothing: 'element vertex many'"),
+        ("ply\nformat ascii 1.0\nproperty float x\nend_header\n",
+         "its header has a line that means nothing: 'property float x'"),
+        ("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n",
+         "a mesh needs the elements vertex and face; this file has vertex"),
+        (header("ascii", "", 1) + "0 0 0\n1 0 0\n", "it ends before its 4 elements vertex are complete"),
+        (header("ascii", "", 2) + VERTICES + "3 0 1 2\n", "it ends before its 2 elements face are complete"),
+        (header("binary_little_endian", "", 1) + "short", "it ends before its 4 elements vertex are complete"),
+        (header("ascii", "", 1) + VERTICES.replace("1 1", "1 x") + "3 0 1 2\n", "a value in it is not a number"),
+        (header("ascii", "", 1) + VERTICES.replace("1 1", "1 nan") + "3 0 1 2\n",
+         "vertex 2 has a coordinate that is not a finite number: [1.0, nan, 0.0]"),
+        (header("ascii", "", 1) + VERTICES + "3 0 1 4\n",
+         "face 0 names the vertices [0, 1, 4], but they are numbered 0 to 3"),
+        (header("ascii", "", 0) + VERTICES, "a mesh needs vertices and faces; this one has 4 and 0"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, content: str, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        read(tmp_path, content)
+    assert str(error.value) == f"{tmp_path / 'model.ply'}: {message}"
+
+
+def test_a_count_without_bounds_ends_at_once(tmp_path: Path) -> None:
+    content = header("binary_little_endian", "", 1).replace("vertex 4", "vertex 4000000000").encode() + bytes(200)
+    with pytest.raises(InputError, match=r"it ends before its 4000000000 elements vertex are complete$"):
+        read(tmp_path, content)

@@ -1,0 +1,75 @@
+import numpy as np
+import pytest
+
+from shackled.datasets.teapot import teapot
+from shackled.errors import InputError
+from shackled.scene.mesh import Mesh
+from shackled.scene.simplify import simplify
+from shackled.scene.staging import is_closed, signed_volume
+
+
+def sphere(rings: int = 24) -> Mesh:
+    """A closed sphere, red above and blue below."""
+    heights, turns = np.linspace(0, np.pi, rings), np.linspace(0, 2 * np.pi, 2 * rings, endpoint=False)
+    points = [(np.sin(h) * np.sin(t), np.cos(h), np.sin(h) * np.cos(t)) for h in heights[1:-1] for t in turns]
+    points += [(0, 1, 0), (0, -1, 0)]
+    n, faces = len(turns), []
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(len(points) - 2, i, j), (len(points) - 1, len(points) - 2 - n + j, len(points) - 2 - n + i)]
+        for ring in range(0, (rings - 3) * n, n):
+            faces += [(ring + i, ring + n + i, ring + n + j), (ring + i, ring + n + j, ring + j)]
+    colors = [(255, 0, 0) if y > 0 else (0, 0, 255) for _, y, _ in points]
+    return Mesh(points, faces, colors, points)
+
+
+def test_the_shape_stays() -> None:
+    whole = sphere()
+    assert is_closed(whole)
+    small = simplify(whole, 300)
+    assert 250 <= len(np.asarray(small.faces)) <= 300
+    assert signed_volume(small) == pytest.approx(signed_volume(whole), rel=0.05)
+    assert is_closed(small)
+    assert small.normals is None
+
+
+def test_colors_stay_where_they_are() -> None:
+    small = simplify(sphere(), 300)
+    positions, colors = np.asarray(small.positions), np.asarray(small.colors)
+    assert (colors[positions[:, 1] > 0.1] == (255, 0, 0)).all()
+    assert (colors[positions[:, 1] < -0.1] == (0, 0, 255)).all()
+
+
+def test_a_mesh_that_is_small_enough_is_returned_as_it_is() -> None:
+    whole = sphere()
+    assert simplify(whole, len(np.asarray(whole.faces))) is whole
+
+
+def test_triangles_without_common_vertices_are_connected_first() -> None:
+    whole = sphere()
+    corners = np.asarray(whole.faces).reshape(-1)
+    loose = Mesh(
+        np.asarray(whole.positions)[corners], np.arange(len(corners)).reshape(-1, 3), np.asarray(whole.colors)[corners]
+    )
+    small = simplify(loose, 300)
+    assert is_closed(small)
+    assert len(np.asarray(small.faces)) <= 300
+
+
+@pytest.mark.parametrize("limit", [1000, 200, 60])
+def test_the_limit_holds(limit: int) -> None:
+    small = simplify(teapot(6), limit)
+    assert limit * 0.8 <= len(np.asarray(small.faces)) <= limit
+
+
+@pytest.mark.parametrize("limit", [0, -3, 1.5, True])
+def test_limits_that_are_none(limit: int) -> None:
+    with pytest.raises(
+        InputError, match=r"^the number of triangles to simplify to must be a whole number, at least 1, not "
+    ):
+        simplify(sphere(), limit)
+
+
+def test_what_cannot_be_simplified_so_far() -> None:
+    with pytest.raises(InputError, match=r"^a mesh of 2112 triangles cannot be simplified to 1: "):
+        simplify(sphere(), 1)

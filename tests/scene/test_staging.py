@@ -1,0 +1,144 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from shackled.errors import InputError
+from shackled.scene.light import Light
+from shackled.scene.material import Material
+from shackled.scene.mesh import Mesh
+from shackled.scene.rotation import from_euler, rotate
+from shackled.scene.scene import Scene
+from shackled.scene.staging import Look, is_closed, painted, signed_volume, stage
+
+CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+FACES = [face for a, b, c, d in SIDES for face in ((a, b, c), (a, c, d))]
+BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
+
+
+def world(scene: Scene) -> NDArray[np.float64]:
+    thing = scene.objects[0]
+    return np.asarray(thing.position) + rotate(thing.rotation, thing.scale * np.asarray(thing.mesh.positions))
+
+
+def picture(scene: Scene) -> NDArray[np.float64]:
+    """(n, 2): where the vertices are in the picture, -1..1 to the right and upward; all must be before the eye."""
+    camera = scene.camera
+    eye, back = np.asarray(camera.eye), np.asarray(camera.eye) - np.asarray(camera.target)
+    back = back / np.linalg.norm(back)
+    right = np.cross(np.asarray(camera.up), back)
+    right /= np.linalg.norm(right)
+    seen = world(scene) - eye
+    depth = -seen @ back
+    assert (depth > 0).all()
+    size = camera.half_height * (depth if camera.projection == "perspective" else 1)
+    return np.stack([seen @ right / size * scene.height / scene.width, seen @ np.cross(back, right) / size], axis=1)
+
+
+def test_the_mesh_comes_into_the_unit_sphere() -> None:
+    scene = stage(BOX)
+    assert scene.objects[0].mesh is BOX
+    assert np.linalg.norm(world(scene), axis=1).max() == pytest.approx(1)
+    np.testing.assert_allclose(world(scene).min(axis=0), -world(scene).max(axis=0), atol=1e-12)
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize("size", [(128, 128), (300, 100), (50, 200)])
+@pytest.mark.parametrize("turn", [(0, 0, 0), (30, 100, -70)])
+@pytest.mark.parametrize("view", [(30, 20), (200, -60), (0, 90), (10, -90)])
+def test_the_mesh_fills_the_picture(
+    projection: str, size: tuple[int, int], turn: tuple[int, ...], view: tuple[int, int]
+) -> None:
+    look = Look(
+        *size, rotation=from_euler(turn), azimuth=view[0], elevation=view[1], projection="perspective", margin=0.1
+    )
+    if projection == "orthographic":
+        look = replace(look, projection="orthographic")
+    scene = stage(BOX, look)
+    places = picture(scene)
+    assert np.abs(places).max() == pytest.approx(0.9)
+    # the side that decides is filled on both ends
+    axis = np.abs(places).max(axis=0).argmax()
+    assert (places[:, axis].min(), places[:, axis].max()) == pytest.approx((-0.9, 0.9))
+    assert (scene.width, scene.height) == size
+
+
+def test_the_viewer_stands_before_it_above_and_to_the_right() -> None:
+    x, y, z = np.asarray(stage(BOX).camera.eye)
+    assert 0 < y < x < z
+    assert stage(BOX).camera.half_height == pytest.approx(1 / 2.145)
+
+
+def test_the_key_light_comes_from_the_upper_left_of_the_viewer() -> None:
+    for azimuth in (0, 90, 200):
+        scene = stage(BOX, Look(azimuth=azimuth, elevation=10))
+        back = np.asarray(scene.camera.eye) - np.asarray(scene.camera.target)
+        right = np.cross(np.asarray(scene.camera.up), back)
+        key, fill = scene.lights
+        assert np.asarray(key.vector) @ right < 0 < np.asarray(key.vector) @ np.cross(back, right)
+        assert np.asarray(key.vector) @ back > 0
+        assert np.asarray(fill.vector) @ right > 0
+        assert np.sum(fill.color) < np.sum(key.color) / 2
+
+
+def test_what_may_be_chosen_is_taken() -> None:
+    look = Look(
+        color="#ff0000",
+        material=Material("smooth"),
+        lights=[Light("point", (1, 2, 3))],
+        ambient_light=(1, 2, 3),
+        wireframe=True,
+        invert=True,
+        cull=False,
+    )
+    scene = stage(BOX, look)
+    thing = scene.objects[0]
+    assert np.asarray(thing.mesh.colors).tolist() == [[255, 0, 0]] * 8
+    assert (thing.material.shading, thing.wireframe, thing.cull) == ("smooth", True, False)
+    assert (scene.lights[0].kind, scene.ambient_light, scene.invert) == ("point", (1, 2, 3), True)
+
+
+def test_only_closed_meshes_are_culled() -> None:
+    assert stage(BOX).objects[0].cull
+    assert not stage(Mesh(BOX.positions, FACES[1:])).objects[0].cull
+    assert stage(Mesh(BOX.positions, FACES[1:]), Look(cull=True)).objects[0].cull
+
+
+def test_closed_whatever_the_colors() -> None:
+    split = Mesh(CORNERS[np.array(FACES)].reshape(-1, 3), np.arange(36).reshape(-1, 3))
+    assert is_closed(split)
+    assert not is_closed(Mesh(CORNERS, [face[::-1] for face in FACES]))
+    assert not is_closed(Mesh(CORNERS, [FACES[0][::-1], *FACES[1:]]))
+
+
+def test_volume() -> None:
+    assert signed_volume(BOX) == pytest.approx(2 * 4 * 6 * 1e6)
+    assert signed_volume(Mesh(CORNERS, [face[::-1] for face in FACES])) == pytest.approx(-8)
+
+
+def test_painted_keeps_the_rest() -> None:
+    mesh = painted(Mesh(CORNERS, FACES, normals=CORNERS), (1, 2, 3))
+    assert np.asarray(mesh.colors).tolist() == [[1, 2, 3]] * 8
+    assert np.asarray(mesh.normals).tolist() == CORNERS.tolist()
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_flat_thin_and_pointlike_meshes(projection: str) -> None:
+    look = Look(projection="orthographic") if projection == "orthographic" else Look()
+    for points in ([[0, 0, 0]] * 3, [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [0, 0, 1], [1, 0, 0]]):
+        assert np.abs(picture(stage(Mesh(points, [[0, 1, 2]]), look))).max() <= 0.92 + 1e-9
+
+
+def test_what_cannot_be() -> None:
+    with pytest.raises(InputError, match=r"^the coordinates of the mesh are too large or too small to be scaled$"):
+        stage(Mesh(np.array([[0, 0, 0], [1e308, 0, 0], [-1e308, 1e308, 0]]), [[0, 1, 2]]))
+    with pytest.raises(InputError, match=r"^the margin around the mesh must be a finite number from 0 to 0\.9, not 1$"):
+        stage(BOX, Look(margin=1))
+    with pytest.raises(InputError, match="zero quaternion"):
+        stage(BOX, Look(rotation=(0, 0, 0, 0)))
+    with pytest.raises(InputError, match=r"^the height of a picture must be from 1 to 1024 pixels, not 0$"):
+        stage(BOX, Look(height=0))
+    with pytest.raises(InputError, match=r"^the colour of a mesh must be red, green and blue from 0 to 255"):
+        stage(BOX, Look(color="red"))

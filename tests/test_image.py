@@ -1,0 +1,157 @@
+"""Pictures as files."""
+
+from __future__ import annotations
+
+import io
+import os
+import xml.etree.ElementTree as ElementTree
+from base64 import b64decode
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import Camera, Image, InputError, Light, Mesh, Object, RenderError, Scene, render
+from shackled.artifacts import artifact
+from shackled.chain import ContractChain, open_chain
+from shackled.image import decode_bmp
+from shackled.scene.codec import encode
+
+SCENE = Scene(
+    [Object(Mesh([[-2, -1, 0], [2, -1, 0], [0, 2, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]]))],
+    Camera(eye=(0, 0, 4), target=(0, 0, 0)),
+    [Light("point", (1, 2, 3))],
+    width=37,
+    height=21,
+)
+
+
+@pytest.fixture(scope="module")
+def image() -> Image:
+    return render(SCENE)
+
+
+def bmp_of(pixels: np.ndarray, **options: Any) -> bytes:
+    stream = io.BytesIO()
+    PillowImage.fromarray(pixels).save(stream, "BMP", **options)
+    return stream.getvalue()
+
+
+def test_render_fills_every_field(image: Image) -> None:
+    assert image.pixels.shape == (21, 37, 3)
+    assert image.pixels.dtype == np.uint8
+    assert (image.width, image.height) == (37, 21)
+    assert image.gas is not None
+    assert image.gas > 100_000
+    assert image.intrinsic_gas is not None
+    assert image.intrinsic_gas > 21_000
+    assert image.triangles == 1
+    assert image.lit_pixels == np.count_nonzero(image.pixels.any(axis=2))
+    assert image.chain.startswith("embedded EVM (")
+    assert image.seconds > 0
+
+
+def test_the_gas_is_that_of_render_alone(image: Image) -> None:
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    assert image.gas == chain.call("Renderer", encode(artifact("Renderer").selectors["render"], SCENE)).gas
+
+
+def test_sizes(image: Image) -> None:
+    assert render(SCENE, size=8).pixels.shape == (8, 8, 3)
+    assert (render(SCENE, size=(37, 21)).pixels == image.pixels).all()
+    for size in (0, 1025, (5, 0), "big", (1, 2, 3), 1.5):
+        with pytest.raises(InputError):
+            render(SCENE, size=size)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("extension", [".png", ".bmp", ".gif", ".PNG"])
+def test_files_hold_the_pixels_of_the_contract(image: Image, tmp_path: Path, extension: str) -> None:
+    few = replace(image, pixels=image.pixels & np.uint8(0xC0))
+    few = replace(few, bmp=bmp_of(few.pixels))
+    path = tmp_path / f"picture{extension}"
+    few.save(path)
+    with PillowImage.open(path) as picture:
+        assert (np.array(picture.convert("RGB")) == few.pixels).all()
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+
+
+def test_a_bmp_is_what_the_contract_returned(image: Image, tmp_path: Path) -> None:
+    image.save(tmp_path / "a.bmp")
+    assert (tmp_path / "a.bmp").read_bytes() == image.bmp
+
+
+def test_a_gif_of_many_colours_is_near(image: Image) -> None:
+    rng = np.random.default_rng(0)
+    pixels = rng.integers(0, 256, (40, 40, 3)).astype(np.uint8) // 8
+    with PillowImage.open(io.BytesIO(replace(image, pixels=pixels).encode(".gif"))) as picture:
+        difference = np.abs(np.array(picture.convert("RGB")).astype(int) - pixels)
+    assert 0 < difference.max() < 16
+
+
+def test_an_svg_is_that_of_the_contract(image: Image, tmp_path: Path) -> None:
+    image.save(tmp_path / "a.svg")
+    text = (tmp_path / "a.svg").read_text("utf-8")
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    output = chain.call("Renderer", encode(artifact("Renderer").selectors["renderSVG"], SCENE)).output
+    assert text.encode() == output[64 : 64 + int.from_bytes(output[32:64], "big")]
+    element = ElementTree.fromstring(text)[0]
+    assert b64decode(element.attrib["href"].partition(",")[2]) == image.bmp
+    assert "pixelated" in element.attrib["style"]
+
+
+def test_a_notebook_shows_it(image: Image) -> None:
+    with PillowImage.open(io.BytesIO(image._repr_png_())) as picture:
+        assert (np.array(picture) == image.pixels).all()
+
+
+@pytest.mark.parametrize("name", ["picture.jpg", "picture", "picture.png.txt", ".png"])
+def test_unknown_formats(image: Image, tmp_path: Path, name: str) -> None:
+    with pytest.raises(InputError, match=r"must end in one of \.png \.bmp \.svg \.gif"):
+        image.save(tmp_path / name)
+    assert not list(tmp_path.iterdir())
+
+
+def test_places_that_are_not_there(image: Image, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        image.save(tmp_path / "missing" / "a.png")
+    (tmp_path / "folder.png").mkdir()
+    with pytest.raises(InputError, match="is a folder"):
+        image.save(tmp_path / "folder.png")
+
+
+def test_nothing_is_left_of_a_failed_write(image: Image, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.png").write_bytes(b"before")
+
+    def refuse(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(InputError, match="cannot be written: No space left on device"):
+        image.save(tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes() == b"before"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_only_the_right_bitmap_is_taken(image: Image) -> None:
+    assert (decode_bmp(image.bmp, 37, 21) == image.pixels).all()
+    png = io.BytesIO()
+    PillowImage.fromarray(image.pixels).save(png, "PNG")
+    wrong = [
+        b"",
+        b"BM",
+        png.getvalue(),
+        image.bmp[:-1],
+        image.bmp + b"\0",
+        image.bmp[:2] + bytes(4) + image.bmp[6:],
+        image.bmp[:18] + b"\x26" + image.bmp[19:],
+        bmp_of(image.pixels[:, :, 0]),
+        bmp_of(image.pixels[:20]),
+    ]
+    for data in wrong:
+        with pytest.raises(RenderError, match="the contract "):
+            decode_bmp(data, 37, 21)

@@ -1,0 +1,197 @@
+"""Compile the contracts into src/shackled/artifacts.
+
+    python tools/build_contracts.py            writes the artifacts
+    python tools/build_contracts.py --check    writes nothing; fails, and says what differs, if they are not up to date
+
+Needs Node and `npm ci` in contracts/. The compiler is npm's solc, a JavaScript build: the same bytes on every machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+CONTRACTS = ROOT / "contracts"
+SOURCES = CONTRACTS / "src"
+LIBRARIES = CONTRACTS / "node_modules"
+ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
+STANDARD_INPUT = "standard-input.json"
+
+#: EIP-170: the largest contract that a chain takes.
+MAX_RUNTIME_SIZE = 24576
+#: What verifiers of sources accept.
+MAX_STANDARD_INPUT_SIZE = 1 << 20
+
+#: No licence or pragma in a file (libraries), and the size of a contract, which is checked here with a plainer message.
+HARMLESS = {"1878", "3420", "5574"}
+
+#: Chosen by measuring: without the compiler's full inliner, which undoes the splitting of hot loops into functions that
+#: fit the stack.
+OPTIMIZER_STEPS = (
+    "dhfoDgvulfnTUtnIf[exa[r]EescLMVcul [j]Trpeulxa[r]ecLgvefMCTUca[r]LSsTFOtfDnca[r]eIulcescCTUtgvefM]"
+    "jmul[jul] VcTOcul jmul:fDnTOcmu"
+)
+SETTINGS: dict[str, Any] = {
+    "viaIR": True,
+    "evmVersion": "cancun",
+    "optimizer": {
+        "enabled": True,
+        "runs": 20000,
+        "details": {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}},
+    },
+    "metadata": {"appendCBOR": False},
+}
+OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.object", "evm.methodIdentifiers"]
+
+
+def read_sources(folder: Path) -> dict[str, str]:
+    """Every .sol file under the folder, named by its path in it, and what these import from the libraries."""
+    sources = {path.relative_to(folder).as_posix(): path.read_text("utf-8") for path in sorted(folder.rglob("*.sol"))}
+    waiting = list(sources)
+    while waiting:
+        name = waiting.pop()
+        for target in re.findall(r'^\s*import\b[^;"]*"([^"]+)"\s*;', sources[name], re.MULTILINE):
+            if target.startswith("."):
+                target = _join(name, target)
+            if target not in sources:
+                path = LIBRARIES / target
+                if not path.is_file():
+                    raise SystemExit(f"{name} imports {target}: neither in contracts/src nor in contracts/node_modules")
+                sources[target] = path.read_text("utf-8")
+                waiting.append(target)
+    return dict(sorted(sources.items()))
+
+
+def _join(name: str, relative: str) -> str:
+    parts = name.split("/")[:-1]
+    for part in relative.split("/"):
+        if part == "..":
+            parts.pop()
+        elif part != ".":
+            parts.append(part)
+    return "/".join(parts)
+
+
+def standard_input(sources: dict[str, str]) -> dict[str, Any]:
+    """The input of the compiler; outputs are asked for the contracts at the top of the source folder only."""
+    selection = {name: {"*": OUTPUTS} for name in sources if "/" not in name}
+    return {
+        "language": "Solidity",
+        "sources": {name: {"content": content} for name, content in sources.items()},
+        "settings": SETTINGS | {"outputSelection": selection},
+    }
+
+
+def run_compiler(request: str) -> dict[str, Any]:
+    """The compiler's answer. Files, not pipes, on both sides: the compiler cuts off what it writes to a pipe."""
+    with tempfile.TemporaryFile("w+") as stdin, tempfile.TemporaryFile("w+") as stdout:
+        stdin.write(request)
+        stdin.seek(0)
+        command = ["node", str(LIBRARIES / "solc" / "solc.js"), "--standard-json"]
+        subprocess.run(command, stdin=stdin, stdout=stdout, check=True, cwd=CONTRACTS)
+        stdout.seek(0)
+        answer = stdout.read()
+    result = json.loads(answer[answer.index("{") :])
+    faults = [e for e in result.get("errors", []) if e["severity"] == "error" or e.get("errorCode") not in HARMLESS]
+    if faults:
+        raise SystemExit("\n".join(fault["formattedMessage"] for fault in faults))
+    return dict(result)
+
+
+def build(folder: Path = SOURCES) -> dict[str, str]:
+    """The text of every artifact file, by name."""
+    sources = read_sources(folder)
+    request = standard_input(sources)
+    request_text = _text(request)
+    if len(request_text) > MAX_STANDARD_INPUT_SIZE:
+        raise SystemExit(f"{STANDARD_INPUT} has {len(request_text):,} bytes, more than {MAX_STANDARD_INPUT_SIZE:,}")
+    files = {STANDARD_INPUT: request_text}
+    for source, contracts in run_compiler(request_text)["contracts"].items():
+        for name, output in contracts.items():
+            if not output["evm"]["bytecode"]["object"]:
+                continue  # an interface
+            if f"{name}.json" in files:
+                raise SystemExit(f"two contracts are called {name}")
+            metadata = json.loads(output["metadata"])
+            used = sorted(metadata["sources"])
+            files[f"{name}.json"] = _text(
+                {
+                    "contract": name,
+                    "source": source,
+                    "compiler": metadata["compiler"]["version"],
+                    "settings": SETTINGS,
+                    "sources": {path: hashlib.sha256(sources[path].encode()).hexdigest() for path in used},
+                    "methodIdentifiers": output["evm"]["methodIdentifiers"],
+                    "abi": output["abi"],
+                    "bytecode": output["evm"]["bytecode"]["object"],
+                    "deployedBytecode": output["evm"]["deployedBytecode"]["object"],
+                }
+            )
+    return files
+
+
+def _text(value: object) -> str:
+    return json.dumps(value, indent=1, sort_keys=True) + "\n"
+
+
+def differences(files: dict[str, str]) -> list[str]:
+    """What of the artifacts on disk is not as it should be, one line each."""
+    found = {path.name for path in ARTIFACTS.glob("*.json")}
+    lines = [f"{name} is there, but nothing builds it" for name in sorted(found - files.keys())]
+    for name, text in files.items():
+        if name not in found:
+            lines.append(f"{name} is missing")
+        elif (actual := (ARTIFACTS / name).read_bytes()) != text.encode():
+            try:
+                old, new = json.loads(actual), json.loads(text)
+                keys = [key for key in sorted(old.keys() | new.keys()) if old.get(key) != new.get(key)]
+            except ValueError:
+                keys = []
+            lines.append(f"{name} differs: {', '.join(keys) or 'not as this tool writes it'}")
+    return lines
+
+
+def report_sizes(files: dict[str, str]) -> bool:
+    """Prints the size of every contract; whether all are within the limit."""
+    fits = True
+    for name, text in files.items():
+        if name != STANDARD_INPUT:
+            size = len(json.loads(text)["deployedBytecode"]) // 2
+            fits &= size <= MAX_RUNTIME_SIZE
+            remark = "" if size <= MAX_RUNTIME_SIZE else ", TOO LARGE"
+            print(f"{name.removesuffix('.json')}: {size:,} of {MAX_RUNTIME_SIZE:,} bytes{remark}")
+    return fits
+
+
+def main() -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(description="Compile the contracts into src/shackled/artifacts.")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
+    options = parser.parse_args()
+    files = build()
+    fits = report_sizes(files)
+    if options.check:
+        lines = differences(files)
+        for line in lines:
+            print(line, file=sys.stderr)
+        if lines:
+            print("the artifacts are not those of the sources: run tools/build_contracts.py", file=sys.stderr)
+        return 0 if fits and not lines else 1
+    for path in ARTIFACTS.glob("*.json"):
+        if path.name not in files:
+            path.unlink()
+    for name, text in files.items():
+        (ARTIFACTS / name).write_text(text, "utf-8", newline="\n")
+    return 0 if fits else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

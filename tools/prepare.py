@@ -1,0 +1,104 @@
+"""Set up what the Makefile needs; runs on a bare Python.
+
+    python3 tools/prepare.py package    .venv with the package in it
+    python3 tools/prepare.py dev        and with what tests and documentation need
+    python3 tools/prepare.py node       contracts/node_modules: the compiler, and a node for the tests
+
+Packages of the system that are missing are installed by apt-get, if that is there and we are root.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / ".venv"
+PYTHON = VENV / "bin" / "python"
+CONTRACTS = ROOT / "contracts"
+
+OLDEST_PYTHON = (3, 11)
+#: The first pip that installs dependency groups.
+PIP = "pip>=25.1"
+
+
+def main() -> int:
+    """The command."""
+    targets = {"package": prepare_package, "dev": prepare_dev, "node": prepare_node}
+    if len(sys.argv) != 2 or sys.argv[1] not in targets:
+        print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
+        return 2
+    try:
+        targets[sys.argv[1]]()
+    except subprocess.CalledProcessError as error:
+        print(f"failed: {' '.join(map(str, error.cmd))}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def prepare_package() -> None:
+    """The package in .venv, from the sources where they are."""
+    make_venv()
+    say("installing the package")
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ROOT)
+    (VENV / ".package").touch()
+
+
+def prepare_dev() -> None:
+    """The package and the dependency group "dev"."""
+    make_venv()
+    say("installing the package and the tools of development")
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", PIP)
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
+    for stamp in (".package", ".dev"):
+        (VENV / stamp).touch()
+
+
+def prepare_node() -> None:
+    """contracts/node_modules as package-lock.json says."""
+    if not (shutil.which("node") and shutil.which("npm")):
+        apt_install("Node.js and npm", "nodejs", "npm")
+    say("installing the compiler and the node for tests")
+    run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=CONTRACTS)
+    (CONTRACTS / "node_modules" / ".package-lock.json").touch()
+
+
+def make_venv() -> None:
+    """An empty .venv, if there is none that works."""
+    if sys.version_info < OLDEST_PYTHON:
+        found, needed = (".".join(map(str, v[:2])) for v in (sys.version_info, OLDEST_PYTHON))
+        raise SystemExit(f"Python {needed} or newer is needed, this is {found}: make PYTHON=python{needed} ...")
+    if PYTHON.exists() and subprocess.run([PYTHON, "-m", "pip", "--version"], capture_output=True).returncode == 0:
+        return
+    if not importlib.util.find_spec("ensurepip"):
+        apt_install("the venv module of Python", f"python{sys.version_info[0]}-venv")
+    say("creating .venv")
+    run(sys.executable, "-m", "venv", "--clear", VENV)
+
+
+def apt_install(what: str, *packages: str) -> None:
+    """Installs packages of the system."""
+    if not shutil.which("apt-get") or os.geteuid() != 0:
+        raise SystemExit(f"{what} is missing: install it, for instance by: sudo apt-get install {' '.join(packages)}")
+    say(f"{what} is missing: installing {' '.join(packages)}")
+    environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
+    run("apt-get", "update", "-qq", env=environment)
+    run("apt-get", "install", "-y", "-qq", "--no-install-recommends", *packages, env=environment)
+
+
+def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:
+    """Runs a command; CalledProcessError if it fails."""
+    subprocess.run([str(part) for part in command], cwd=cwd, env=env, check=True)
+
+
+def say(text: str) -> None:
+    """Tells what is going on."""
+    print(f"{text} ...", flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
