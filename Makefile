@@ -9,7 +9,7 @@ NODE := contracts/node_modules/.package-lock.json
 
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types contracts gas-check docs unit build gas bench fuzz pictures clean
+.PHONY: help demo test lint types contracts docs unit build gas bench fuzz pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -29,12 +29,13 @@ $(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
 
 demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
-	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --color '#3f8fb5' \
-		--specular 0.7 --shininess 48 --background '#1d2433,#8794ad'
+	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --rotate 0,12,0 --color '#c8553d' \
+		--light 'directional:-0.2,0.8,0.9:#fff6ea' --ambient 0.25 --diffuse 0.85 --specular 0.6 --shininess 30 \
+		--background '#f3e9dc,#c7b8a6'
 
 # ---- everything that must hold, the quick checks first ----
 
-test: lint types contracts gas-check docs unit ## all checks and tests
+test: lint types contracts docs unit ## all checks and tests
 	@echo "all checks and tests passed"
 
 lint: $(DEV) ## style of the Python code
@@ -47,14 +48,11 @@ types: $(DEV) ## types of the Python code
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
 
-gas-check: $(DEV) ## whether the gas of the snapshot still holds
-	$(BIN)/python benchmarks/gas.py --check
-
 docs: $(DEV) ## the documentation, in site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 
-unit: $(DEV) $(NODE) ## the tests
-	$(BIN)/pytest -n 2
+unit: $(DEV) $(NODE) ## the tests, the gas snapshot among them
+	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
 
@@ -62,10 +60,10 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts
 	$(BIN)/python tools/build_contracts.py
 
 gas: $(DEV) ## write the gas snapshot, benchmarks/gas.json
-	$(BIN)/python benchmarks/gas.py
+	$(BIN)/python -m benchmarks.snapshot
 
-bench: $(DEV) ## measure, and write the tables of benchmarks/
-	$(BIN)/python benchmarks/run.py
+bench: $(DEV) ## measure, and print the tables of benchmarks/
+	$(BIN)/python -m benchmarks
 
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python docs/pictures.py

@@ -66,8 +66,7 @@ def ball() -> Mesh:
         triangles /= np.linalg.norm(triangles, axis=2, keepdims=True)
     outward = np.einsum("ij,ij->i", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) > 0
     triangles[~outward] = triangles[~outward][:, ::-1]
-    positions, number = np.unique(np.round(triangles.reshape(-1, 3), 9), axis=0, return_inverse=True)
-    return Mesh(positions, number.reshape(-1, 3))
+    return _welded(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
 
 
 def floor(side: int = 12) -> Mesh:
@@ -91,7 +90,7 @@ def lathe(radius: Points, height: Points, around: int) -> Mesh:
         ],
         axis=-1,
     )
-    return Mesh(points.reshape(-1, 3), _grid_faces(len(radius), around, closed=False))
+    return _welded(points.reshape(-1, 3), _grid_faces(len(radius), around, closed=False))
 
 
 def _grid_faces(rows: int, columns: int, closed: bool) -> NDArray[np.int64]:
@@ -100,6 +99,13 @@ def _grid_faces(rows: int, columns: int, closed: bool) -> NDArray[np.int64]:
     below, right = (row + 1) % rows, (column + 1) % columns
     a, b, c, d = (r * columns + q for r, q in ((row, column), (below, column), (below, right), (row, right)))
     return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
+
+
+def _welded(points: Points, faces: NDArray[np.int64]) -> Mesh:
+    """Points in one place, but for rounding, become one vertex; faces without an area are left out."""
+    positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
+    one, two, three = (faces := number.reshape(-1)[faces]).T
+    return Mesh(positions, faces[(one != two) & (two != three) & (three != one)])
 
 
 MESHES: dict[str, Callable[[], Mesh]] = {

@@ -29,7 +29,7 @@ CULL_BACKFACES, WIREFRAME = 1, 2
 POINT = 1
 
 #: Projected vertices are laid on a grid of so many steps a pixel, as the contracts do, so that coverage can be compared.
-SUBPIXELS = 256
+SUBPIXELS = 256.0
 
 
 @dataclass(frozen=True)
@@ -260,11 +260,11 @@ def _draw(
         order = [0, 2, 1]
         x, y, points, piece, divisor = x[order], y[order], points[order], piece[order], divisor[order]
         area = -area
-    left, right = (int(np.clip(v, 0, frame.width)) for v in (np.ceil(x.min() / 256), np.floor(x.max() / 256) + 1))
-    top, bottom = (int(np.clip(v, 0, frame.height)) for v in (np.ceil(y.min() / 256), np.floor(y.max() / 256) + 1))
+    left, right = (int(np.clip(v, 0, frame.width)) for v in (np.ceil(x.min() / SUBPIXELS), np.floor(x.max() / SUBPIXELS) + 1))
+    top, bottom = (int(np.clip(v, 0, frame.height)) for v in (np.ceil(y.min() / SUBPIXELS), np.floor(y.max() / SUBPIXELS) + 1))
     if left >= right or top >= bottom:
         return
-    column, row = 256.0 * np.arange(left, right)[None], 256.0 * np.arange(top, bottom)[:, None]
+    column, row = SUBPIXELS * np.arange(left, right)[None], SUBPIXELS * np.arange(top, bottom)[:, None]
     inside = np.ones((bottom - top, right - left), bool)
     screen = []
     for i in range(3):

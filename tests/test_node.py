@@ -1,11 +1,13 @@
-"""A real node: the contracts deployed from their artifacts, called as an outside client would, against the embedded EVM.
+"""A real node: the contracts deployed from their artifacts, called as an outside client would.
 
-Needs anvil, which `npm ci` in contracts/ installs.
+Needs anvil, which `npm ci` in contracts/ installs on Linux (x86-64); elsewhere one on the path is taken.
 """
 
 from __future__ import annotations
 
 import base64
+import os
+import shutil
 import socket
 import subprocess
 import time
@@ -19,6 +21,7 @@ import numpy as np
 import pytest
 from web3 import HTTPProvider, Web3
 from web3.contract import Contract
+from web3.types import Wei
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
@@ -29,11 +32,12 @@ from shackled.scene.codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encod
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
 
-ANVIL = Path(__file__).resolve().parent.parent / "contracts" / "node_modules" / ".bin" / "anvil"
+BINARIES = Path(__file__).resolve().parent.parent / "contracts" / "node_modules" / ".bin"
+ANVIL = shutil.which("anvil", path=f"{BINARIES}{os.pathsep}{os.environ.get('PATH', '')}")
 PATIENCE = 30
 GAS_LIMIT = 1_000_000_000
 
-pytestmark = pytest.mark.skipif(not ANVIL.exists(), reason="anvil is not installed: npm ci in contracts/")
+pytestmark = pytest.mark.skipif(ANVIL is None, reason="anvil is not installed: npm ci in contracts/")
 
 POT = teapot(2)
 SQUARE = Mesh(
@@ -85,18 +89,21 @@ class Node:
         built = artifact(name)
         factory = self.w3.eth.contract(abi=built.abi, bytecode=built.creation)
         parts = [self.contracts[part].address for part in built.parts]
-        receipt = self.send({"data": factory.constructor(*parts).data_in_transaction})
+        receipt = self.send(factory.constructor(*parts).data_in_transaction)
         address = receipt["contractAddress"]
         assert len(self.w3.eth.get_code(address)) == len(built.runtime)
-        return self.w3.eth.contract(address=address, abi=built.abi)
+        deployed: Contract = self.w3.eth.contract(address=address, abi=built.abi)
+        return deployed
 
     def call(self, name: str, data: bytes) -> bytes:
         """An eth_call with data of our own making."""
         return bytes(self.w3.eth.call({"to": self.contracts[name].address, "data": data, "gas": GAS_LIMIT}))
 
-    def send(self, transaction: dict[str, Any]) -> Any:
-        """The receipt of a transaction that succeeds."""
-        sent = self.w3.eth.send_transaction({"from": self.sender, "gas": GAS_LIMIT, "gasPrice": 0, **transaction})
+    def send(self, data: Any, to: Any = b"") -> Any:
+        """The receipt of a transaction that succeeds; without an address it creates a contract."""
+        sent = self.w3.eth.send_transaction(
+            {"from": self.sender, "to": to, "data": data, "gas": GAS_LIMIT, "gasPrice": Wei(0)}
+        )
         receipt = self.w3.eth.wait_for_transaction_receipt(sent, timeout=PATIENCE, poll_latency=0.02)
         assert receipt["status"] == 1
         return receipt
@@ -112,7 +119,7 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Node]:
     rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
     with log.open("wb") as output:
         process = subprocess.Popen(
-            [ANVIL, "--host", "127.0.0.1", "--port", str(port), *rules], stdout=output, stderr=subprocess.STDOUT
+            [str(ANVIL), "--host", "127.0.0.1", "--port", str(port), *rules], stdout=output, stderr=subprocess.STDOUT
         )
         try:
             url = f"http://127.0.0.1:{port}"
@@ -220,7 +227,7 @@ def test_a_node_draws_tiles(node: Node, embedded: ContractChain) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_a_transaction_uses_the_same_gas(node: Node, embedded: ContractChain, name: str) -> None:
     data = encode(artifact("Renderer").selectors["render"], SCENES[name])
-    receipt = node.send({"to": node.contracts["Renderer"].address, "data": data})
+    receipt = node.send(data, node.contracts["Renderer"].address)
     assert receipt["gasUsed"] - intrinsic_gas(data) == embedded.draw(SCENES[name]).gas
 
 
@@ -253,5 +260,5 @@ def test_the_interface_of_the_original(node: Node, embedded: ContractChain, lit:
     data = bytes.fromhex(original.encode_abi("render", [parameters, 32, False]).removeprefix("0x"))
     here = embedded.call("Original", data)
     assert here.output == node.call("Original", data)
-    receipt = node.send({"to": original.address, "data": data})
+    receipt = node.send(data, original.address)
     assert receipt["gasUsed"] - intrinsic_gas(data) == here.gas

@@ -83,16 +83,17 @@ library PrimitiveAssembly {
                     continue
                 }
                 {
-                    // twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya); the biases 2^63 and 2^127 keep columns and rows
-                    // from borrowing from the lanes below
-                    let ab := add(sub(b, a), 0x8000000000000000)
-                    let ac := add(sub(c, a), 0x8000000000000000)
-                    let area := sub(mul(signextend(7, shr(64, ac)), sar(128, add(ab, 0x80000000000000000000000000000000))), mul(signextend(7, shr(64, ab)), sar(128, add(ac, 0x80000000000000000000000000000000))))
-                    if iszero(sgt(area, 0)) {
-                        if or(cull, iszero(area)) { continue }
-                        ab := b
+                    // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), turned round, as the middle part of the product
+                    // of K * (yb - ya) + (xb - xa) and K * (yc - ya) - (xc - xa), where K = 2^64; 2^63 rounds the part below away.
+                    // The lower 20 bits of a screen word, the column, are turned round by taking them from 2^20 - 1.
+                    let from := shr(64, a)
+                    let area := sub(xor(shr(64, c), 0xfffff), xor(from, 0xfffff))
+                    area := add(mul(sub(shr(64, b), from), area), 0x8000000000000000)
+                    if iszero(and(area, 0x80000000000000000000000000000000)) {
+                        if or(cull, iszero(and(area, 0xffffffffffffffff0000000000000000))) { continue }
+                        from := b
                         b := c
-                        c := ab
+                        c := from
                     }
                 }
                 drawn := add(drawn, 1)

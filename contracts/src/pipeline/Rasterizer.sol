@@ -25,21 +25,19 @@ library Rasterizer {
     function triangle(uint256 word, uint256 top, uint256 bottom) private pure {
         unchecked {
             Shading.prepare(word);
-            setPlane(word, top);
-            (uint256 middle, uint256 b, uint256 c) = bend(word);
+            (uint256 edges, uint256 slopes, uint256 middle) = setUp(word, top);
             if (middle > bottom) middle = bottom;
-            (uint256 edges, uint256 slopes) = upperEdges(load((word >> 64) & 0xffffffff), b, c, top);
             if (top < middle) fill(edges, slopes, load(START), top, middle);
             else middle = top;
             if (middle < bottom) {
-                (edges, slopes) = lowerEdges(edges, slopes, b, c, top, middle);
+                (edges, slopes) = lowerEdges(edges, slopes, word, top, middle);
                 fill(edges, slopes, load(START) + load(DY) * (middle - top), middle, bottom);
             }
         }
     }
 
     /// @notice Draws the fragments between two edges, in the rows from `top` to before `bottom`.
-    /// @param edges, slopes As `upperEdges` says.
+    /// @param edges, slopes As `setUp` says.
     /// @param start The accumulator at column 0 of row `top`; DX and DY are its changes.
     function fill(uint256 edges, uint256 slopes, uint256 start, uint256 top, uint256 bottom) internal pure {
         uint256 mode = load(MODE);
@@ -48,40 +46,61 @@ library Rasterizer {
         else rows(edges, slopes, start, top, bottom, 1);
     }
 
+    /// @notice What changes linearly over a triangle, at row `top`. Stores the accumulator at column 0 (START) and its changes (DX, DY).
+    /// @return edges The left edge, from the first vertex to the second, and the right one, from the first to the third: columns, Q48,
+    /// such that the integer part is the first pixel whose centre is not left of the edge, in lanes of 128 bits.
+    /// @return slopes Their change per row.
     /// @return middle The first row below the upper of the two lower vertices, where one edge ends and another begins.
-    function bend(uint256 word) private pure returns (uint256 middle, uint256 b, uint256 c) {
+    function setUp(uint256 word, uint256 top) private pure returns (uint256 edges, uint256 slopes, uint256 middle) {
         assembly ("memory-safe") {
-            b := mload(and(shr(32, word), 0xffffffff))
-            c := mload(and(word, 0xffffffff))
+            let a := mload(and(shr(64, word), 0xffffffff))
+            let b := mload(and(shr(32, word), 0xffffffff))
+            let c := mload(and(word, 0xffffffff))
+            let x := and(shr(64, a), 0xfffff)
+            a := shr(128, a)
+            let xb := sub(and(shr(64, b), 0xfffff), x)
+            let xc := sub(and(shr(64, c), 0xfffff), x)
+            b := sub(shr(128, b), a)
+            c := sub(shr(128, c), a)
             middle := b
             if lt(c, b) { middle := c }
-            middle := shr(136, add(middle, 0xff00000000000000000000000000000000))
-        }
-    }
+            middle := shr(8, add(add(middle, a), 255))
+            // from the first vertex to the centres of the row
+            let y := sub(shl(8, top), a)
 
-    /// @notice The left edge from a to b and the right one from a to c, at row `top`: columns, Q48, such that the integer part is the
-    /// first pixel whose centre is not left of the edge; and their change per row.
-    function upperEdges(uint256 a, uint256 b, uint256 c, uint256 top) private pure returns (uint256 edges, uint256 slopes) {
-        assembly ("memory-safe") {
-            edges := and(shr(64, a), 0xfffff)
-            a := shr(128, a)
-            slopes := sdiv(shl(48, sub(and(shr(64, b), 0xfffff), edges)), sub(shr(128, b), a))
-            let right := sdiv(shl(48, sub(and(shr(64, c), 0xfffff), edges)), sub(shr(128, c), a))
-            edges := add(shl(40, edges), 0xffffffffc000)
-            a := sub(shl(8, top), a)
-            edges := add(add(edges, sar(8, mul(a, slopes))), shl(128, add(edges, sar(8, mul(a, right)))))
-            slopes := add(slopes, shl(128, right))
+            slopes := sdiv(shl(48, xb), b)
+            a := sdiv(shl(48, xc), c)
+            edges := add(shl(40, x), 0xffffffffc000)
+            edges := add(add(edges, sar(8, mul(y, slopes))), shl(128, add(edges, sar(8, mul(y, a)))))
+            slopes := add(slopes, shl(128, a))
+
+            // change of the barycentric coordinates per pixel, Q32
+            a := sub(mul(xc, b), mul(xb, c))
+            xb := sdiv(shl(40, xb), a)
+            xc := sdiv(shl(40, xc), a)
+            b := sdiv(shl(40, b), a)
+            c := sdiv(shl(40, c), a)
+            a := mload(ATTRIBUTE_0)
+            let deltaB := sub(mload(ATTRIBUTE_1), a)
+            let deltaC := sub(mload(ATTRIBUTE_2), a)
+            // from the first vertex to the centre of pixel 0 in row `top`
+            a := add(add(shl(32, a), mload(LANE_BIAS)), mul(deltaB, sar(8, add(mul(y, xc), mul(x, c)))))
+            mstore(START, sub(a, mul(deltaC, sar(8, add(mul(x, b), mul(y, xb))))))
+            mstore(DX, sub(mul(deltaC, b), mul(deltaB, c)))
+            mstore(DY, sub(mul(deltaB, xc), mul(deltaC, xb)))
         }
     }
 
     /// @notice The same at row `middle`, where the edge between b and c takes the place of the one that has ended.
-    function lowerEdges(uint256 upper, uint256 upperSlopes, uint256 b, uint256 c, uint256 top, uint256 middle)
+    function lowerEdges(uint256 upper, uint256 upperSlopes, uint256 word, uint256 top, uint256 middle)
         private
         pure
         returns (uint256 edges, uint256 slopes)
     {
         assembly ("memory-safe") {
             edges := add(upper, mul(upperSlopes, sub(middle, top)))
+            let b := mload(and(shr(32, word), 0xffffffff))
+            let c := mload(and(word, 0xffffffff))
             let side := 0
             if lt(c, b) {
                 side := 128
@@ -104,37 +123,6 @@ library Rasterizer {
                 edges := or(and(edges, 0xffffffffffffffffffffffffffffffff), shl(128, upper))
                 slopes := add(b, shl(128, slope))
             }
-        }
-    }
-
-    /// @notice The accumulator at column 0 of row `top`, and its change per pixel and per row.
-    function setPlane(uint256 word, uint256 top) private pure {
-        assembly ("memory-safe") {
-            let a := mload(and(shr(64, word), 0xffffffff))
-            let b := mload(and(shr(32, word), 0xffffffff))
-            let c := mload(and(word, 0xffffffff))
-            let x := and(shr(64, a), 0xfffff)
-            let y := shr(128, a)
-            let xb := sub(and(shr(64, b), 0xfffff), x)
-            let xc := sub(and(shr(64, c), 0xfffff), x)
-            b := sub(shr(128, b), y)
-            c := sub(shr(128, c), y)
-            a := sub(mul(xc, b), mul(xb, c))
-            // change of the barycentric coordinates per pixel, Q32
-            xb := sdiv(shl(40, xb), a)
-            xc := sdiv(shl(40, xc), a)
-            b := sdiv(shl(40, b), a)
-            c := sdiv(shl(40, c), a)
-            y := sub(shl(8, top), y)
-            a := mload(ATTRIBUTE_0)
-            let deltaB := sub(mload(ATTRIBUTE_1), a)
-            let deltaC := sub(mload(ATTRIBUTE_2), a)
-            // from the first vertex to the centre of pixel 0 in row `top`
-            a := add(shl(32, a), mload(LANE_BIAS))
-            a := add(a, mul(deltaB, sar(8, add(mul(y, xc), mul(x, c)))))
-            mstore(START, sub(a, mul(deltaC, sar(8, add(mul(x, b), mul(y, xb))))))
-            mstore(DX, sub(mul(deltaC, b), mul(deltaB, c)))
-            mstore(DY, sub(mul(deltaB, xc), mul(deltaC, xb)))
         }
     }
 

@@ -47,7 +47,6 @@ library Shading {
             }
             bool affine = isAffine(attributesA, attributesB, attributesC);
             if (mode & IS_DIFFUSE == 0 && affine && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(FACE_REACH))) {
-                store(LANE_BIAS, COLOR_BIAS);
                 if (mode & IS_LIT != 0) {
                     attributesA = FragmentShader.vertexHighlights(attributesA, a);
                     attributesB = FragmentShader.vertexHighlights(attributesB, b);
@@ -56,18 +55,20 @@ library Shading {
                 assembly ("memory-safe") {
                     // colours above 255 need a loop that keeps them there
                     mode := iszero(iszero(and(or(or(attributesA, attributesB), attributesC), 0xfc000000000000fc000000000000fc0000)))
-                    mode := or(mode, and(shr(139, word), 256))
+                    mstore(MODE, or(mode, and(shr(139, word), 256)))
+                    mstore(LANE_BIAS, COLOR_BIAS)
                 }
-                store(MODE, mode);
             } else {
                 barycentric(a, b, c, attributesA, attributesB, attributesC, mode | ((word >> 139) & IS_CROSSING), affine);
                 attributesA = attributesA >> 168 << 168;
                 attributesB = (attributesB >> 168 << 168) | (1 << 56);
                 attributesC = (attributesC >> 168 << 168) | 1;
             }
-            store(ATTRIBUTE_0, attributesA);
-            store(ATTRIBUTE_1, attributesB);
-            store(ATTRIBUTE_2, attributesC);
+            assembly ("memory-safe") {
+                mstore(ATTRIBUTE_0, attributesA)
+                mstore(ATTRIBUTE_1, attributesB)
+                mstore(ATTRIBUTE_2, attributesC)
+            }
         }
     }
 

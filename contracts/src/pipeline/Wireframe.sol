@@ -9,7 +9,7 @@ import "./Registers.sol";
 // From the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel that is nearest to it, with the depth and the colour of the line at the centre of that column or row.
 
-/// @dev Makes the integer part of a Q48 number the next integer, as far as such numbers are exact: see Rasterizer.upperEdges.
+/// @dev Makes the integer part of a Q48 number the next integer, as far as such numbers are exact: see Rasterizer.setUp.
 int256 constant CEIL = 0xffffffffc000;
 
 library Wireframe {

@@ -191,57 +191,6 @@ def shade_varying(attribute: int, r: Registers) -> int:
             half_square = product(half_reversed, r.half.at_0 + r.half.to_1 * s + r.half.to_2 * t)
             value = gloss(divide((cosine * cosine) << 24, square * half_square), r)
             highlight = (light.color * value >> 6) & LANES_24
-    color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_24
-    if r.mode & IS_LIT == 0:
-        return color
-    if r.mode & IS_DIFFUSE == 0:
-        return color + highlights(depth, x, y, r)
-    if r.mode & IS_SMOOTH == 0:
-        r.fragment_normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 47)
-    else:
-        # the interpolated normal, Q24
-        second >>= 8
-        third >>= 8
-        lanes = r.normals.at_0 + r.normals.to_1 * second + r.normals.to_2 * third + NORMAL_BIAS
-        r.fragment_normal_x = nx = ((lanes >> 12) & 0x7FFFFFF) - 0x4000000
-        r.fragment_normal_y = ny = ((lanes >> 97) & 0x7FFFFFF) - 0x4000000
-        r.fragment_normal_z = nz = ((lanes & MASK) >> 182) - 0x4000000
-        r.fragment_square = nx * nx + ny * ny + nz * nz
-        r.fragment_normal_ray = nx * x + ny * y + (nz << 24)
-        r.fragment_normal_length = sqrt(r.fragment_square)
-    highlight = light_of(depth, x, y, r)
-    return modulated(color, r.fragment_light) + highlight
-
-
-def shade_varying(attribute: int, r: Registers) -> int:
-    """The colour of a fragment whose vectors to light and eye are interpolated from the vertices, lanes of Q10."""
-    # barycentric coordinates, Q16
-    s = (attribute >> 72) & 0xFFFFFFFFFF
-    t = (attribute >> 16) & 0xFFFFFFFFFF
-    if r.mode & IS_STEEP:
-        depth = attribute >> 192
-        s = divide(s * r.depth_1, depth)
-        t = divide(t * r.depth_2, depth)
-    n = r.normals.at_0 + r.normals.to_1 * s + r.normals.to_2 * t
-    square = product(n, r.reversed.at_0 + r.reversed.to_1 * s + r.reversed.to_2 * t)
-    # twice the root, by a line that is within 3 % of it from 1/4 to 1, and one step of Newton's method
-    length = (((702 * square) & MASK) >> 46) + 23570660229
-    length += divide(square, length)
-    factor = r.face_light_40
-    total = 0
-    for light, (to_light, to_half, reversed_half) in zip(r.lights, r.varyings, strict=True):
-        # normal * light
-        cosine = signed((n * (to_light.at_0 + to_light.to_1 * s + to_light.to_2 * t)) << 1) >> 171
-        if cosine <= 0:
-            continue
-        factor += light.diffuse * divide(cosine, length << 11)
-        back = reversed_half.at_0 + reversed_half.to_1 * s + reversed_half.to_2 * t
-        cosine = signed((n * back) << 1) >> 171
-        if cosine <= 0:
-            continue
-        half = to_half.at_0 + to_half.to_1 * s + to_half.to_2 * t
-        half_square = signed((half * back) << 1) >> 171
-        total += light.color * gloss(divide((cosine * cosine) << 24, square * half_square), r)
     color = ((r.color_0 + r.color_1 * s + r.color_2 * t) >> 16) & LANES_24
     if r.mode & IS_GREY:
         color = (color * ((factor >> 24) & 0xFFFFFFFF) >> 16) & LANES_24

@@ -22,7 +22,7 @@ from .registers import (
 )
 from .roots import sqrt
 from .vertex_shader import Vertex
-from .words import LANES_24, MASK, ONES, divide, signed
+from .words import LANES_24, MASK, ONES, divide
 
 #: Biases of the lanes: half a level for colours.
 COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
