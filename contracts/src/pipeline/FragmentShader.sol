@@ -320,32 +320,49 @@ library FragmentShader {
 
             last := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), last))
             let base := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), row))
-            row := add(mload(RAY_TOP), mul(row, mload(RAY_STEP)))
-            for {} sgt(base, last) {} {
-                let from := and(shr(48, edges), 0xffff)
-                let to := shr(176, edges)
-                if lt(from, to) {
-                    if and(mload(MODE), IS_CROSSING) {
+            let mode := mload(MODE)
+            switch and(mode, IS_VARYING)
+            case 0 {
+                row := add(mload(RAY_TOP), mul(row, mload(RAY_STEP)))
+                for {} sgt(base, last) {} {
+                    let from := and(shr(48, edges), 0xffff)
+                    let to := shr(176, edges)
+                    if lt(from, to) {
+                        if and(mode, IS_CROSSING) {
+                            if lt(from, mload(COLUMN_BEGIN)) { from := mload(COLUMN_BEGIN) }
+                            if gt(to, mload(COLUMN_END)) { to := mload(COLUMN_END) }
+                        }
+                        if lt(from, to) {
+                            switch and(mode, 0x240)
+                            case 0 { gradient(base, from, to, add(start, mul(from, mload(DX))), mload(DX)) }
+                            case 0x40 { exact(base, from, to, add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row) }
+                            default {
+                                // blocks begin with the row, wherever the tile does
+                                from := and(shr(48, edges), 0xffff)
+                                blocks(base, from, shr(176, edges), add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row)
+                            }
+                        }
+                    }
+                    edges := add(edges, slopes)
+                    start := add(start, mload(DY))
+                    base := sub(base, mload(DEPTH_STRIDE))
+                    row := add(row, mload(RAY_STEP))
+                }
+            }
+            default {
+                mode := and(mode, IS_CROSSING)
+                for {} sgt(base, last) {} {
+                    let from := and(shr(48, edges), 0xffff)
+                    let to := shr(176, edges)
+                    if mode {
                         if lt(from, mload(COLUMN_BEGIN)) { from := mload(COLUMN_BEGIN) }
                         if gt(to, mload(COLUMN_END)) { to := mload(COLUMN_END) }
                     }
-                    if lt(from, to) {
-                        let attribute := add(start, mul(from, mload(DX)))
-                        switch and(mload(MODE), 0x640)
-                        case 0x400 { varying(add(base, shl(3, from)), add(base, shl(3, to)), attribute) }
-                        case 0 { gradient(base, from, to, attribute, mload(DX)) }
-                        case 0x40 { exact(base, from, to, attribute, add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row) }
-                        default {
-                            // blocks begin with the row, wherever the tile does
-                            from := and(shr(48, edges), 0xffff)
-                            blocks(base, from, shr(176, edges), add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row)
-                        }
-                    }
+                    if lt(from, to) { varying(add(base, shl(3, from)), add(base, shl(3, to)), add(start, mul(from, mload(DX)))) }
+                    edges := add(edges, slopes)
+                    start := add(start, mload(DY))
+                    base := sub(base, mload(DEPTH_STRIDE))
                 }
-                edges := add(edges, slopes)
-                start := add(start, mload(DY))
-                base := sub(base, mload(DEPTH_STRIDE))
-                row := add(row, mload(RAY_STEP))
             }
         }
     }
