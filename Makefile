@@ -62,11 +62,13 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts
 gas: $(DEV) ## write the gas snapshot, benchmarks/gas.json
 	$(BIN)/python -m benchmarks.snapshot
 
-bench: $(DEV) ## measure, and print the tables of benchmarks/
+bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python -m benchmarks
+	$(BIN)/python tools/readme.py
 
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python docs/pictures.py
+	$(BIN)/python tools/readme.py
 
 # ---- long runs ----
 

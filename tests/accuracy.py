@@ -11,7 +11,7 @@ above 0.6, or less than 99.9 % of the pixels are within 4 levels.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -249,12 +249,42 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
         "ground of 512 triangles, smooth, point": lambda: ground(shiny, [lamp], 300.0, 16),
         "ground of 512 triangles, unlit": lambda: ground(Material("unlit"), [], 300.0, 16),
         "ground, wide field of view": lambda: ground(shiny_walls, [sun, lamp], half_height=2.5),
+        "sliver, unlit": lambda: screen_triangle(
+            ((13.6, -67.2), (2.2, 145.7), (16, 80.6)), (19.5, 9.6, 32.8), ((157, 206, 225), (208, 235, 1), (68, 158, 231))
+        ),
+        "triangle whose far and near corners differ most, unlit": lambda: screen_triangle(
+            ((60, 5), (5, 100), (120, 100)), (1000, 1099, 917), ((128, 128, 128), (0, 0, 0), (255, 255, 255))
+        ),
+        "orthographic, shininess 1, grazing": lambda: grazing(1),
+        "orthographic, shininess 3, grazing": lambda: grazing(3),
+        "teapot, 2 directional lights, flat": lambda: replace(flat(teapot_scene()), lights=[LIGHTS[0], LIGHTS[2]]),
+        "teapot, 2 point lights, flat": lambda: replace(flat(teapot_scene()), lights=[LIGHTS[1], LIGHTS[3]]),
         "big near triangles, unlit": lambda: big_triangles(Material("unlit"), []),
         "big near triangles, flat": lambda: big_triangles(shiny_walls, [Light("directional", (0.2, 0.5, 1)), lamp]),
         "big near triangles, smooth": lambda: big_triangles(shiny, [Light("directional", (0.2, 0.5, 1)), lamp]),
         "big near triangles, smooth, point": lambda: big_triangles(shiny, [Light("point", (1, 2, 1))]),
     }
     return found
+
+
+def screen_triangle(
+    corners: Sequence[tuple[float, float]], distances: Sequence[float], colors: Sequence[tuple[int, int, int]]
+) -> Scene:
+    """One unlit triangle with its corners at these columns and rows, and distances from the eye."""
+    column, row = np.array(corners).T
+    distance = np.array(distances)
+    unit = distance / 64 / 2.145
+    points = np.stack([(column - 64) * unit, (64 - row) * unit, -distance], axis=1)
+    thing = Object(Mesh(np.rint(1000 * points), [[0, 1, 2]], colors), scale=2**-10, material=Material("unlit"), cull=False)
+    return Scene([thing], Camera(near=1))
+
+
+def grazing(shininess: int) -> Scene:
+    """A plane that is seen, and lit, from just above: normal and half vector are nearly at right angles."""
+    mesh = Mesh([[-100, -100, 0], [100, -100, 0], [100, 100, 0], [-100, 100, 0]], [[0, 1, 2], [0, 2, 3]], [[30, 60, 90]] * 4)
+    material = Material("flat", ambient=0.5, diffuse=0.0, specular=1.0, shininess=shininess)
+    camera = Camera(eye=(1000, 0, 12), up=(0, 0, 1), projection="orthographic", half_height=1.2, near=0)
+    return Scene([Object(mesh, material=material)], camera, [Light("point", (0, 150, 4))])
 
 
 def coarse_teapot(lights: int) -> Scene:

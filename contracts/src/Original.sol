@@ -254,7 +254,7 @@ contract Original {
             uint256 size = bytes(svg).length;
             string memory head = "data:image/svg+xml;base64,";
             // with room for what Base64 writes too much
-            uri = new string(32 + 4 * ((size + 2) / 3) + 32);
+            uri = new string(bytes(head).length + 4 * ((size + 2) / 3) + Base64.MARGIN);
             uint256 data;
             uint256 begin;
             assembly ("memory-safe") {

@@ -258,7 +258,7 @@ def _limbs(words: list[int]) -> NDArray[np.uint64]:
 def spans_between(edges: int, slopes: int, start: int, row: int, last: int, r: Registers) -> list[Span]:
     """The fragments of the rows from `row` to before `last`, between two edges.
 
-    edges, slopes: see `rasterizer.upper_edges`. start: the accumulator at column 0; DX and DY are its changes.
+    edges, slopes: see `rasterizer.set_up`. start: the accumulator at column 0; DX and DY are its changes.
     """
     spans: list[Span] = []
     is_blocked = r.mode & IS_BLOCKED != 0

@@ -25,40 +25,51 @@ def draw_triangle(triangle: Triangle, top: int, bottom: int, mesh: Mesh, registe
     """Draws the rows from `top` to before `bottom`."""
     r = registers
     shading.prepare(triangle, mesh, r)
-    a, b, c = triangle.a, triangle.b, triangle.c
-    set_plane(a, b, c, top, r)
+    edges, slopes, middle = set_up(triangle.a, triangle.b, triangle.c, top, r)
+    middle = min(middle, bottom)
     spans = []
-    # the first row below the upper of the two lower vertices, where one edge ends and another begins
-    middle = min(row_of(c if c.word < b.word else b), bottom)
-    edges, slopes = upper_edges(a, b, c, top)
     if top < middle:
         spans = fragment_shader.spans_between(edges, slopes, r.start, top, middle, r)
     else:
         middle = top
     if middle < bottom:
-        edges, slopes = lower_edges(edges, slopes, b, c, top, middle)
+        edges, slopes = lower_edges(edges, slopes, triangle.b, triangle.c, top, middle)
         start = r.start + r.dy * (middle - top)
         spans += fragment_shader.spans_between(edges, slopes, start, middle, bottom, r)
     fragment_shader.draw(spans, r)
 
 
-def row_of(vertex: Vertex) -> int:
-    """The first row of pixels whose centres are not above the vertex."""
-    return (vertex.y + 0xFF) >> 8
+def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:
+    """What changes linearly over a triangle, at row `top`; sets the accumulator at column 0 and its changes.
 
-
-def upper_edges(a: Vertex, b: Vertex, c: Vertex, top: int) -> tuple[int, int]:
-    """The left edge from a to b and the right one from a to c, at row `top`.
-
-    Columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge;
-    and their change per row.
+    Returns the left edge, from a to b, and the right one, from a to c: columns, Q48, such that the integer part is the
+    first pixel whose centre is not left of the edge, in lanes of 128 bits; their change per row; and the first row below
+    the upper of b and c, where one edge ends and another begins.
     """
-    left = divide_signed((b.x - a.x) << 48, b.y - a.y)
-    right = divide_signed((c.x - a.x) << 48, c.y - a.y)
-    column = (a.x << 40) + 0xFFFFFFFFC000
-    below = (top << 8) - a.y
-    edges = column + (below * left >> 8) + ((column + (below * right >> 8)) << 128)
-    return edges & MASK, (left + (right << 128)) & MASK
+    r = registers
+    x = a.x
+    xb, yb, xc, yc = b.x - x, b.y - a.y, c.x - x, c.y - a.y
+    middle = (min(b.y, c.y) + 255) >> 8
+    # from the first vertex to the centres of the row
+    y = (top << 8) - a.y
+
+    left, right = divide_signed(xb << 48, yb), divide_signed(xc << 48, yc)
+    column = (x << 40) + 0xFFFFFFFFC000
+    edges = column + (y * left >> 8) + ((column + (y * right >> 8)) << 128)
+    slopes = left + (right << 128)
+
+    # change of the barycentric coordinates per pixel, Q32
+    area = xc * yb - xb * yc
+    xb, xc = divide_signed(xb << 40, area), divide_signed(xc << 40, area)
+    yb, yc = divide_signed(yb << 40, area), divide_signed(yc << 40, area)
+    delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
+    # from the first vertex to the centre of pixel 0 in row `top`
+    start = (r.attribute_0 << 32) + r.lane_bias
+    start += delta_b * ((y * xc + x * yc) >> 8) - delta_c * ((x * yb + y * xb) >> 8)
+    r.start = start & MASK
+    r.dx = (delta_c * yb - delta_b * yc) & MASK
+    r.dy = (delta_b * xc - delta_c * xb) & MASK
+    return edges & MASK, slopes & MASK, middle
 
 
 def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, middle: int) -> tuple[int, int]:
@@ -79,22 +90,3 @@ def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, m
         edges = (edges >> 128 << 128) | column
         slopes = upper_slopes - left_slope + slope
     return edges & MASK, slopes & MASK
-
-
-def set_plane(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> None:
-    """The accumulator at column 0 of row `top`, and its change per pixel and per row."""
-    r = registers
-    x, y = a.x, a.y
-    xb, yb, xc, yc = b.x - x, b.y - y, c.x - x, c.y - y
-    area = xc * yb - xb * yc
-    # change of the barycentric coordinates per pixel, Q32
-    xb, xc = divide_signed(xb << 40, area), divide_signed(xc << 40, area)
-    yb, yc = divide_signed(yb << 40, area), divide_signed(yc << 40, area)
-    y = (top << 8) - y
-    delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
-    # from the first vertex to the centre of pixel 0 in row `top`
-    start = (r.attribute_0 << 32) + r.lane_bias
-    start += delta_b * ((y * xc + x * yc) >> 8) - delta_c * ((x * yb + y * xb) >> 8)
-    r.start = start & MASK
-    r.dx = (delta_c * yb - delta_b * yc) & MASK
-    r.dy = (delta_b * xc - delta_c * xb) & MASK
