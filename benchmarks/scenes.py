@@ -42,8 +42,9 @@ def square_mesh(divisions: int, half: int = 840) -> Mesh:
     x, y = (axis.ravel() for axis in np.meshgrid(at, at))
     grid = np.arange(x.size).reshape(divisions + 1, divisions + 1)
     a, b, c, d = (corner.ravel() for corner in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
+    faces = np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3)
     share = np.stack([x + half, y + half, half - x], axis=1) / (2 * half)
-    return Mesh(np.stack([x, y, 0 * x], axis=1), np.stack([a, b, c, a, c, d], axis=1).reshape(-1, 3), np.rint(255 * share))
+    return Mesh(np.stack([x, y, 0 * x], axis=1), faces, np.rint(255 * share))
 
 
 def before_camera(mesh: Mesh, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:

@@ -1,0 +1,32 @@
+"""`python -m benchmarks`: all tables, printed and written to results.md and results.json; the plots of docs/images."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from . import cost, linearity, plots, stages
+
+FOLDER = Path(__file__).parent
+RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
+
+
+def main() -> int:
+    """The command."""
+    written = ["# Benchmarks\n\nMade by `python -m benchmarks`. Gas is exact: the same on every machine.\n"]
+    data = {}
+    for part in (cost.section, linearity.section, stages.section):
+        section = part()
+        written.append(f"## {section.title}\n\n{section.text}\n")
+        print(written[-1], flush=True)
+        data[section.title] = section.data
+    RESULTS.write_text("\n".join(written), "utf-8")
+    FIGURES.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
+    for path in (RESULTS, FIGURES, *plots.draw()):
+        print(f"written: {path.relative_to(FOLDER.parent)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,147 @@
+"""What the scenes of the original cost now, against what they cost there and what was aimed at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from statistics import fmean
+
+from shackled import RenderError, Scene
+
+from . import shared
+from .measure import gas, measure
+from .original import original_gas
+from .table import Section, millions, table
+
+TITLE = "Cost against the original"
+
+#: EIP-7825: the most gas that one transaction may use.
+TRANSACTION_LIMIT = 1 << 24
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure; `more` says what belongs to it. The limits are for `gas`."""
+
+    what: str
+    gas: float
+    original: float | None = None
+    must: float | None = None
+    aim: float | None = None
+    more: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """Which limits are kept."""
+        if self.must is None:
+            return ""
+        if self.gas > self.must:
+            return f"missed by {self.gas / self.must - 1:.1%}"
+        if self.aim is None:
+            return "reached"
+        return "aim" if self.gas <= self.aim else f"must; {self.gas / self.aim - 1:.1%} to the aim"
+
+
+def section() -> Section:
+    """The table."""
+    if not shared.is_there():
+        return Section(TITLE, shared.SKIPPED, {})
+    rows = [*render_rows(), *uri_rows(), largest_row()]
+    head = ["what", "original", "ours", "original / ours", "must", "aim", "reached"]
+    lines = [
+        [
+            row.what + (f" ({row.more})" if row.more else ""),
+            millions(row.original, 0),
+            millions(row.gas),
+            f"{row.original / row.gas:,.0f}" if row.original else "",
+            millions(row.must, 3 if row.must == TRANSACTION_LIMIT else 2),
+            millions(row.aim),
+            row.verdict,
+        ]
+        for row in rows
+    ]
+    text = (
+        "Execution gas of `Renderer.render` at 128 x 128 pixels, bitmap bytes out, unless a row says otherwise. The\n"
+        "original returns a data URI; it knows neither smooth normals nor point lights.\n\n"
+        "lamp: a point light at (500, 800, 0); glossy: ambient 0.2, diffuse 0.7, specular 0.5, shininess 20.\n\n"
+    )
+    data = {row.what: {"original": row.original, "gas": row.gas, "must": row.must, "aim": row.aim} for row in rows}
+    return Section(TITLE, text + table(head, lines), data)
+
+
+def render_rows() -> list[Row]:
+    """The rows of pictures."""
+    scenes, original = shared.table_scenes(), original_gas()
+    objects, pieces = shared.objects(), shared.genesis()
+
+    def mean(names: Iterable[str], suffix: str = "") -> float:
+        return fmean(gas(scenes[name + suffix]) for name in names)
+
+    lamp = shared.QUAD + shared.LAMP_SUFFIX
+    smooth = "same, smooth normals, lamp"
+    return [
+        Row(
+            f"mean of the {len(objects)} obj_*_cull, lit as they say",
+            mean(objects),
+            fmean(original[name] for name in objects),
+            must=7.0e6,
+            aim=4.5e6,
+        ),
+        Row("same, unlit", mean(objects, shared.UNLIT_SUFFIX), must=4.5e6, aim=3.2e6),
+        Row(f"{smooth}, glossy", mean(objects, shared.SMOOTH_SUFFIX), must=9.5e6, aim=6.5e6),
+        Row(f"{smooth}, coefficients of each scene", mean(objects, shared.OWN_SUFFIX), must=9.5e6, aim=6.5e6),
+        Row(
+            f"mean of {pieces[0]}..{pieces[-1][-3:]}",
+            mean(pieces),
+            fmean(original[name] for name in pieces),
+            must=4.0e6,
+            aim=2.3e6,
+        ),
+        Row(shared.CUBE, gas(scenes[shared.CUBE]), original[shared.CUBE], must=4.5e6, aim=3.2e6),
+        Row(f"{shared.QUAD}, glossy, point light at (0, 0, -1500)", gas(scenes[lamp]), must=16.7e6, aim=12e6),
+        Row(
+            f"{shared.LARGE_CUBE}, 512 x 512",
+            gas(scenes[shared.LARGE_CUBE]),
+            original[shared.LARGE_CUBE],
+            must=70e6,
+            aim=45e6,
+        ),
+    ]
+
+
+def uri_rows() -> list[Row]:
+    """What a data URI costs more than the bytes."""
+    scenes = {name: scene for name, scene in shared.table_scenes().items() if is_usual(scene)}
+    more = {name: gas(scene, "renderDataURI") - gas(scene) for name, scene in scenes.items()}
+    worst = max(more, key=more.__getitem__)
+    return [
+        Row(
+            "data URI instead of bytes, more than the above, mean",
+            fmean(more.values()),
+            must=0.8e6,
+            aim=0.35e6,
+            more=f"{len(more)} pictures",
+        ),
+        Row("the same, largest", more[worst], must=0.8e6, aim=0.35e6, more=worst),
+    ]
+
+
+def largest_row() -> Row:
+    """The dearest transaction of all scenes, as they are and as this table changes them."""
+    costs, refused = {}, 0
+    for name, scene in (shared.all_scenes() | shared.table_scenes()).items():
+        if is_usual(scene):
+            try:
+                result = measure(scene)
+            except RenderError:
+                refused += 1
+            else:
+                costs[name] = result.gas + result.intrinsic_gas
+    worst = max(costs, key=costs.__getitem__)
+    more = f"{worst}; of {len(costs)}" + (f", {refused} refused" if refused else "")
+    return Row("largest of all scenes at 128 x 128 with intrinsic gas", costs[worst], must=TRANSACTION_LIMIT, more=more)
+
+
+def is_usual(scene: Scene) -> bool:
+    """Whether the canvas has 128 x 128 pixels."""
+    return (scene.width, scene.height) == (128, 128)

@@ -1,0 +1,142 @@
+"""Gas against the number of triangles and of pixels: a straight line, or not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled import Light, Material, Scene
+
+from .measure import gas
+from .scenes import GLOSSY, SUN, UNLIT, cube, square
+from .table import Section, table
+from .workload import workload_of
+
+TITLE = "Linearity"
+
+#: Into how many parts each side of the square is cut: 2 to 1152 triangles.
+DIVISIONS = tuple(range(1, 25))
+#: Sides of the canvas on which the cube is drawn.
+SIZES = (8, 16, 32, 64, 128, 256, 512)
+SQUARE_SIZE = 128
+
+LOOKS: dict[str, tuple[Material, tuple[Light, ...]]] = {
+    "unlit": (UNLIT, ()),
+    "matte": (Material("flat", 0.2, 0.7, 0.0), (SUN,)),
+    "glossy": (GLOSSY, (SUN,)),
+}
+
+Column = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Series:
+    """A column for each quantity of some scenes, and their gas."""
+
+    triangles: Column
+    rows: Column
+    pixels: Column
+    gas: Column
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Least squares: gas = sum of coefficients times columns."""
+
+    coefficients: list[float]
+    r2: float
+
+
+def fit(columns: list[Column], gas: Column) -> Fit:
+    """The best fit with a constant, which is the first coefficient."""
+    matrix = np.stack([np.ones_like(gas), *columns], axis=1)
+    scale = np.abs(matrix).max(axis=0)
+    solution = np.linalg.lstsq(matrix / scale, gas, rcond=None)[0]
+    rest = gas - matrix / scale @ solution
+    around = gas - gas.mean()
+    return Fit((solution / scale).tolist(), float(1 - (rest @ rest) / (around @ around)))
+
+
+def quadratic_share(columns: list[Column], gas: Column) -> float:
+    """What part of the gas of the last scene a term with the square of the first column takes, if there is one."""
+    with_square = fit([*columns, columns[0] ** 2], gas)
+    return float(with_square.coefficients[-1] * columns[0][-1] ** 2 / gas[-1])
+
+
+def squares(look: str) -> list[Scene]:
+    """The same square, cut ever finer."""
+    material, lights = LOOKS[look]
+    return [square(divisions, SQUARE_SIZE, material, lights) for divisions in DIVISIONS]
+
+
+def cubes(look: str) -> list[Scene]:
+    """The same cube on ever larger canvases."""
+    material, lights = LOOKS[look]
+    return [cube(size, material, lights) for size in SIZES]
+
+
+@cache
+def series(kind: str, look: str) -> Series:
+    """The quantities of the squares or the cubes."""
+    scenes = squares(look) if kind == "squares" else cubes(look)
+    triangles, rows, pixels = _quantities(kind)
+    return Series(triangles, rows, pixels, np.array([gas(scene) for scene in scenes], float))
+
+
+@cache
+def _quantities(kind: str) -> tuple[Column, Column, Column]:
+    """Faces, rows of triangles, and pixels of the canvas; they do not depend on the look."""
+    scenes = squares("unlit") if kind == "squares" else cubes("unlit")
+    work = [workload_of(scene) for scene in scenes]
+    return tuple(np.array([getattr(w, name) for w in work], float) for name in ("faces", "rows", "canvas"))  # type: ignore[return-value]
+
+
+def section() -> Section:
+    """The fits."""
+    lines, data = [], {}
+    for look in LOOKS:
+        of_squares, of_cubes = series("squares", look), series("cubes", look)
+        together = Series(*(np.concatenate([getattr(s, f) for s in (of_squares, of_cubes)]) for f in _FIELDS))
+        whole = fit([together.triangles, together.pixels], together.gas)
+        across = [of_squares.triangles, of_squares.rows]
+        by_triangles, by_pixels = fit(across, of_squares.gas), fit([of_cubes.pixels], of_cubes.gas)
+        shares = quadratic_share(across, of_squares.gas), quadratic_share([of_cubes.pixels], of_cubes.gas)
+        lines += [
+            _line(f"{look}, all", whole, ("triangles", "pixels"), None),
+            _line(f"{look}, squares", by_triangles, ("triangles", "rows"), shares[0]),
+            _line(f"{look}, cubes", by_pixels, ("pixels",), shares[1]),
+        ]
+        data[look] = {
+            "all": {"constant, triangles, pixels": whole.coefficients, "r2": whole.r2},
+            "squares": _record(of_squares, by_triangles, shares[0]),
+            "cubes": _record(of_cubes, by_pixels, shares[1]),
+        }
+    text = (
+        f"Squares: one of fixed size before the camera, cut into {2 * DIVISIONS[0] ** 2} to {2 * DIVISIONS[-1] ** 2}"
+        f" triangles, {SQUARE_SIZE} x {SQUARE_SIZE} pixels.\n"
+        f"Cubes: one on canvases of {SIZES[0]} x {SIZES[0]} to {SIZES[-1]} x {SIZES[-1]} pixels. All: both together."
+        " Matte: without highlights.\n\n"
+        "triangles: faces of the mesh; pixels: of the canvas; rows: of pixels that each triangle has, summed, which\n"
+        "grow with the root of the triangles. Square: the part of the gas of the largest scene that a term with the\n"
+        "square of the triangles, or of the pixels, takes when the fit may use one.\n\n"
+        "Highlights are computed for single pixels in large triangles and for vertices in small ones; so a glossy\n"
+        "square cut finer needs first more gas, then less, then more again, and lies on no line.\n\n"
+    )
+    return Section(TITLE, text + table(["look, scenes", "gas", "R2", "square"], lines), data)
+
+
+_FIELDS = ("triangles", "rows", "pixels", "gas")
+
+
+def _line(name: str, by: Fit, quantities: tuple[str, ...], share: float | None) -> list[str]:
+    constant, *slopes = by.coefficients
+    terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, quantities, strict=True)]
+    return [name, " ".join([f"{constant:,.0f}", *terms]), f"{by.r2:.6f}", "" if share is None else f"{share:+.2%}"]
+
+
+def _record(of: Series, by: Fit, share: float) -> dict[str, object]:
+    figures = {name: getattr(of, name).astype(int).tolist() for name in _FIELDS}
+    return figures | {"fit": by.coefficients, "r2": by.r2, "quadratic share": share}

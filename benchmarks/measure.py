@@ -1,0 +1,45 @@
+"""Gas figures. Gas is exact: a figure needs one call."""
+
+from __future__ import annotations
+
+from shackled import Scene
+from shackled.artifacts import artifact, contracts
+from shackled.chain import CallResult, ContractChain, open_chain
+from shackled.chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyrevmChain
+from shackled.scene.codec import Rectangle, encode
+
+
+def measure(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> CallResult:
+    """The result of a function of the Renderer that takes a scene."""
+    return call("Renderer", encode(artifact("Renderer").selectors[function], scene, tile))
+
+
+def gas(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> int:
+    """Execution gas of a function of the Renderer that takes a scene."""
+    return measure(scene, function, tile).gas
+
+
+def call(contract: str, data: bytes) -> CallResult:
+    """The result of a call in the fastest EVM that is installed."""
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    return chain.call(contract, data)
+
+
+def contract_figures() -> dict[str, int]:
+    """For each contract the bytes of its code and the gas of the transaction that deploys it."""
+    figures = {}
+    for name in contracts():
+        figures[f"{name} code size"] = len(artifact(name).runtime)
+        figures[f"{name} deployment"] = _Deployer().gas_of(name)
+    return figures
+
+
+class _Deployer(PyrevmChain):
+    def gas_of(self, contract: str) -> int:
+        built = artifact(contract)
+        arguments = b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
+        evm = self._evm()
+        evm.deploy("0x" + SENDER.hex(), built.creation + arguments, None, DEFAULT_GAS_LIMIT)
+        used: int = evm.result.gas_used
+        return used

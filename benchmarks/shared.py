@@ -1,0 +1,100 @@
+"""The scenes of the cost table, which are not part of the repository.
+
+They are looked for in the folder `shared` beside the repository, or where SHACKLED_SHARED says; what needs them is left
+out without them.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from shackled import InputError, Light, Material, Scene, load
+
+from .scenes import GLOSSY, LAMP, UNLIT
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDER = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared") / "scenes"
+
+SKIPPED = "skipped: there is no folder `shared` with the scenes beside the repository (or SHACKLED_SHARED names none)"
+
+FRONTAL_LAMP = Light("point", (0, 0, -1500))
+
+CUBE, LARGE_CUBE, QUAD = "cube_persp_128", "cube_persp_512", "fullquad_128"
+UNLIT_SUFFIX, SMOOTH_SUFFIX, OWN_SUFFIX, LAMP_SUFFIX = " unlit", " smooth", " smooth, own material", " lamp"
+
+
+def is_there() -> bool:
+    """Whether the scenes can be read."""
+    return FOLDER.is_dir()
+
+
+@cache
+def scene(name: str) -> Scene:
+    """The scene of that name."""
+    return load(FOLDER / f"{name}.json")
+
+
+def objects() -> list[str]:
+    """The scenes of real meshes."""
+    return sorted(path.stem for path in FOLDER.glob("obj_*_cull.json"))
+
+
+def genesis() -> list[str]:
+    """The first pieces of the original's collection."""
+    return [f"genesis_{i:03}" for i in range(24)]
+
+
+def unlit(of: Scene) -> Scene:
+    """Colours as they are."""
+    return _with(of, [UNLIT] * len(of.objects))
+
+
+def smooth(of: Scene) -> Scene:
+    """Smooth normals, one point light, the glossy material."""
+    return replace(_with(of, [replace(GLOSSY, shading="smooth")] * len(of.objects)), lights=[LAMP])
+
+
+def smooth_own(of: Scene) -> Scene:
+    """Smooth normals and one point light with the coefficients that the scene has itself."""
+    return replace(_with(of, [replace(o.material, shading="smooth") for o in of.objects]), lights=[LAMP])
+
+
+def frontal(of: Scene) -> Scene:
+    """A point light in front, the glossy material."""
+    return replace(_with(of, [GLOSSY] * len(of.objects)), lights=[FRONTAL_LAMP])
+
+
+def _with(of: Scene, materials: list[Material]) -> Scene:
+    pairs = zip(of.objects, materials, strict=True)
+    return replace(of, objects=[replace(o, material=material) for o, material in pairs])
+
+
+@cache
+def table_scenes() -> dict[str, Scene]:
+    """Every scene that the cost table measures, by name and what was changed in it; nothing without the folder."""
+    if not is_there():
+        return {}
+    scenes = {}
+    for name in objects():
+        scenes[name] = scene(name)
+        scenes[name + UNLIT_SUFFIX] = unlit(scene(name))
+        scenes[name + SMOOTH_SUFFIX] = smooth(scene(name))
+        scenes[name + OWN_SUFFIX] = smooth_own(scene(name))
+    for name in (*genesis(), CUBE, LARGE_CUBE):
+        scenes[name] = scene(name)
+    scenes[QUAD + LAMP_SUFFIX] = frontal(scene(QUAD))
+    return scenes
+
+
+def all_scenes() -> dict[str, Scene]:
+    """Every scene of the folder that can be loaded: some are made to be refused."""
+    scenes = {}
+    for path in sorted(FOLDER.glob("*.json")):
+        try:
+            scenes[path.stem] = scene(path.stem)
+        except InputError:
+            continue
+    return scenes

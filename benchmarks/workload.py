@@ -1,0 +1,67 @@
+"""What there is to do in a scene, counted by the reference renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from shackled import Scene, reference
+from shackled.artifacts import artifact
+from shackled.reference import fragment_shader, rasterizer
+from shackled.scene.codec import encode
+
+
+@dataclass
+class Workload:
+    """Sums over all objects.
+
+    drawn: triangles left after culling and clipping. rows: of them, also where they cover no pixel. tested: pixels
+    whose depths are compared. lit: pixels of the picture that any triangle covers. canvas: all its pixels.
+    """
+
+    vertices: int
+    faces: int
+    drawn: int
+    rows: int
+    tested: int
+    lit: int
+    canvas: int
+
+
+def workload_of(scene: Scene) -> Workload:
+    """Draws the scene and counts."""
+    data = encode(artifact("Renderer").selectors["renderCounted"], scene)
+    with _counting() as counts:
+        picture = reference.draw_call(data)
+    return Workload(
+        vertices=sum(len(np.asarray(o.mesh.positions)) for o in scene.objects),
+        faces=sum(len(np.asarray(o.mesh.faces)) for o in scene.objects),
+        drawn=picture.triangles,
+        rows=counts["rows"],
+        tested=counts["tested"],
+        lit=picture.lit_pixels,
+        canvas=scene.width * scene.height,
+    )
+
+
+@contextmanager
+def _counting() -> Iterator[dict[str, int]]:
+    """Counts what the rasterizer hands on while the context is open."""
+    counts = {"rows": 0, "tested": 0}
+    draw_triangle, draw = rasterizer.draw_triangle, fragment_shader.draw
+
+    def count_rows(triangle: Any, top: int, bottom: int, *rest: Any) -> None:
+        counts["rows"] += bottom - top
+        draw_triangle(triangle, top, bottom, *rest)
+
+    def count_pixels(spans: list[fragment_shader.Span], registers: Any) -> None:
+        counts["tested"] += sum(end - begin for _, begin, end, *_ in spans)
+        draw(spans, registers)
+
+    with patch.object(rasterizer, "draw_triangle", count_rows), patch.object(fragment_shader, "draw", count_pixels):
+        yield counts

@@ -1,0 +1,120 @@
+"""The examples do what they say."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load, render
+from shackled.chain.embedded import EmbeddedChain
+from shackled.chain.opening import open_chain
+from shackled.image import decode_bmp
+from shackled.scene.rotation import from_euler
+from shackled.scene.staging import is_closed
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES = ROOT / "examples"
+SOLC = ROOT / "contracts" / "node_modules" / "solc"
+
+
+def run(*command: str | Path, cwd: Path) -> str:
+    return subprocess.run([sys.executable, *command], cwd=cwd, check=True, capture_output=True, text=True).stdout
+
+
+def test_first_picture(tmp_path: Path) -> None:
+    words = run(EXAMPLES / "first_picture.py", cwd=tmp_path)
+    assert "192 x 144 pixels" in words
+    assert "gas on embedded EVM" in words
+    with PillowImage.open(tmp_path / "first_picture.png") as picture:
+        assert picture.size == (192, 144)
+        assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 500
+
+
+def test_scene_file(tmp_path: Path) -> None:
+    run(EXAMPLES / "meshes.py", "--into", tmp_path / "meshes", cwd=tmp_path)
+    (tmp_path / "scene.toml").write_bytes((EXAMPLES / "scene.toml").read_bytes())
+    scene = load(tmp_path / "scene.toml")
+    assert (scene.width, scene.height) == (400, 300)
+    assert [len(np.asarray(o.mesh.faces)) for o in scene.objects] == [4032, 1148, 960, 1280, 320, 288]
+    # solids bound their volume from outside, so that nothing is missing when faces that turn away are left out
+    assert [is_closed(o.mesh) for o in scene.objects if o.cull] == [True, True, True, False]
+    image = render(scene, size=(48, 36))
+    assert image.triangles > 5000
+    assert image.lit_pixels > 1000
+
+
+def test_meshes_are_written_where_they_are_wanted(tmp_path: Path) -> None:
+    assert run(EXAMPLES / "meshes.py", "--into", tmp_path, "ball", cwd=tmp_path).endswith("ball.obj: 320 triangles\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["ball.obj"]
+
+
+@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+def test_call_from_contract() -> None:
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    creation, selectors = compile_example("examples/call_from_contract/Tetrahedron.sol")
+    code = chain._create("Tetrahedron", creation + chain.address("Renderer").rjust(32, b"\0"))
+    address = b"\x7e" * 20
+    chain._codes[address] = code
+    try:
+        turn = (-25).to_bytes(32, "big", signed=True)
+        bitmap, svg = (
+            text(chain._run(address, selectors[f"{name}(int256)"] + turn, 10**9).output) for name in ("bitmap", "svg")
+        )
+    finally:
+        del chain._codes[address]
+    image = render(tetrahedron_scene(-25))
+    assert image.lit_pixels > 500
+    # the mesh and the numbers of a scene are rounded in another way here
+    difference = np.abs(decode_bmp(bitmap, 64, 64).astype(int) - image.pixels)
+    assert np.mean(difference.max(axis=2) > 2) < 0.01
+    assert svg.startswith(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 64 64">')
+
+
+def compile_example(name: str) -> tuple[bytes, dict[str, bytes]]:
+    """The creation code of the contract of a source, and its selectors by signature."""
+    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
+    assert spec is not None
+    assert spec.loader is not None
+    tool = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tool)
+    paths = [ROOT / name, *(ROOT / "contracts" / "src").rglob("*.sol")]
+    request = {
+        "language": "Solidity",
+        "sources": {path.relative_to(ROOT).as_posix(): {"content": path.read_text("utf-8")} for path in paths},
+        "settings": tool.SETTINGS | {"outputSelection": {name: {"*": tool.OUTPUTS}}},
+    }
+    output = tool.run_compiler(tool._text(request))["contracts"][name][Path(name).stem]["evm"]
+    selectors = {signature: bytes.fromhex(value) for signature, value in output["methodIdentifiers"].items()}
+    return bytes.fromhex(output["bytecode"]["object"]), selectors
+
+
+def tetrahedron_scene(degrees: float) -> Scene:
+    """What the contract describes."""
+    mesh = Mesh(
+        [[120, 120, 120], [-120, -120, 120], [-120, 120, -120], [120, -120, -120]],
+        [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+        [[0xE0, 0x50, 0x3C], [0xE0, 0xB0, 0x40], [0x3F, 0x8F, 0xB5], [0x58, 0xB3, 0x68]],
+    )
+    solid = Object(
+        mesh, rotation=from_euler((0, degrees, 0)), scale=0.01, material=Material("flat", 0.25, 0.75, 1 / 3, 20)
+    )
+    return Scene(
+        [solid],
+        Camera((0, 2, 6), (0, 0, 0), half_height=0.4, near=1),
+        [Light("directional", (-1, 2, 3), (0xFF, 0xF1, 0xDC))],
+        Background("#1d2433", "#8794ad"),
+        width=64,
+        height=64,
+    )
+
+
+def text(output: bytes) -> bytes:
+    """The one value of type bytes or string that a function returned."""
+    return output[64 : 64 + int.from_bytes(output[32:64], "big")]

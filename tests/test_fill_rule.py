@@ -1,0 +1,114 @@
+"""Which pixels a triangle covers: those whose centre is inside, by the top-left rule, exactly.
+
+The triangles have whole coordinates in 1/256 of a pixel, and the expected pixels come from the signs of edge functions
+in whole numbers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from pictures import covered, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
+
+Integers = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+#: How corners are chosen on a canvas of some pixels: low, high, and the step that they are multiples of, in pixels.
+KINDS = {
+    "within": (0.0, 1.0, 1 / 256),
+    "across the borders": (-0.5, 1.5, 1 / 256),
+    "on centres and corners of pixels": (-0.2, 1.2, 1 / 2),
+    "on quarters of pixels": (0.0, 1.0, 1 / 4),
+    "reaching far": (-60.0, 60.0, 1 / 256),
+}
+
+
+def edge_functions(corners: Integers, width: int, height: int) -> Integers:
+    """(3, H, W), each positive on one side of an edge of corners (3, 2), in 1/256 of a pixel."""
+    (x0, y0), (x1, y1), (x2, y2) = corners.tolist()
+    column, row = 256 * np.arange(width)[None] + 128, 256 * np.arange(height)[:, None] + 128
+    ends = (((x0, y0), (x1, y1)), ((x1, y1), (x2, y2)), ((x2, y2), (x0, y0)))
+    return np.array([(column - px) * (qy - py) - (row - py) * (qx - px) for (px, py), (qx, qy) in ends])
+
+
+def expected_pixels(corners: Integers, width: int, height: int) -> Mask:
+    """(H, W): what the triangle covers, whichever way round it goes."""
+    (x0, y0), (x1, y1), (x2, y2) = corners.tolist()
+    area = (x2 - x0) * (y1 - y0) - (x1 - x0) * (y2 - y0)
+    if area == 0:
+        return np.zeros((height, width), bool)
+    if area < 0:
+        corners = corners[::-1]
+    inside = np.ones((height, width), bool)
+    for i, value in enumerate(edge_functions(corners, width, height)):
+        dx, dy = (corners[(i + 1) % 3] - corners[i]).tolist()
+        # the inside of an edge that goes down is on its right, that of one that goes left below it
+        inside &= value >= 0 if dy > 0 or (dy == 0 and dx < 0) else value > 0
+    return inside
+
+
+def random_triangle(rng: np.random.Generator, kind: str, width: int, height: int) -> Integers:
+    low, high, step = KINDS[kind]
+    corners = rng.uniform(low, high, (3, 2)) * [width, height]
+    return np.asarray((np.rint(corners / step) * (256 * step)).astype(np.int64))
+
+
+def drawn(corners: Integers, width: int, height: int, cull: bool = False) -> Mask:
+    scene = unlit_scene(soup(on_pixel_grid(corners, width, height)), pixel_grid_camera(height), width, height)
+    return covered(replace(scene, objects=[replace(scene.objects[0], cull=cull)]))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_random_triangles(kind: str) -> None:
+    rng = np.random.default_rng(1)
+    covering = 0
+    for _ in range(150):
+        width, height = (int(side) for side in rng.integers(1, 33, 2))
+        corners = random_triangle(rng, kind, width, height)
+        expected = expected_pixels(corners, width, height)
+        covering += bool(expected.any())
+        assert (drawn(corners, width, height) == expected).all(), f"{corners.tolist()} on {width} x {height}"
+    assert covering > 60
+
+
+def test_slivers() -> None:
+    rng = np.random.default_rng(2)
+    for _ in range(150):
+        start, end = rng.integers(-2000, 10000, (2, 2))
+        corners = np.array([start, end, (start + end) // 2 + rng.integers(-40, 41, 2)])
+        assert (drawn(corners, 31, 31) == expected_pixels(corners, 31, 31)).all(), corners.tolist()
+
+
+def test_culling_goes_by_the_sense_of_rotation() -> None:
+    rng = np.random.default_rng(3)
+    sides = set()
+    for _ in range(60):
+        corners = random_triangle(rng, "within", 24, 24)
+        (x0, y0), (x1, y1), (x2, y2) = corners.tolist()
+        # rows run down
+        is_front = (x2 - x0) * (y1 - y0) - (x1 - x0) * (y2 - y0) > 0
+        sides.add(is_front)
+        expected = expected_pixels(corners, 24, 24) & is_front
+        assert (drawn(corners, 24, 24, cull=True) == expected).all(), corners.tolist()
+    assert sides == {False, True}
+
+
+def test_the_same_pixels_in_any_order_of_corners() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        corners = random_triangle(rng, "on quarters of pixels", 16, 16)
+        pictures = [drawn(corners[order], 16, 16) for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0])]
+        assert all((picture == pictures[0]).all() for picture in pictures)
+
+
+def test_a_pixel_on_each_kind_of_edge() -> None:
+    """A square whose edges go through centres of pixels has those of its left and top edge."""
+    low, high = 2 * 256 + 128, 6 * 256 + 128
+    square = np.array([[[low, low], [low, high], [high, high]], [[low, low], [high, high], [high, low]]])
+    scene = unlit_scene(soup(on_pixel_grid(square, 9, 9)), pixel_grid_camera(9), 9)
+    expected = np.zeros((9, 9), bool)
+    expected[2:6, 2:6] = True
+    assert (covered(scene) == expected).all()

@@ -1,0 +1,100 @@
+"""What holds for every file of the repository, and for what is published."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import shackled
+from shackled.artifacts import artifact, contracts
+
+ROOT = Path(__file__).resolve().parent.parent
+PICTURES = {".png", ".gif", ".bmp", ".ico"}
+
+#: EIP-170.
+MAX_RUNTIME_SIZE = 24576
+
+
+@pytest.fixture(scope="module")
+def texts() -> dict[str, str]:
+    """The text files of the repository, those that are not committed yet too."""
+    if not (ROOT / ".git").exists() or not shutil.which("git"):
+        pytest.skip("not a clone of the repository")
+    listing = ["git", "-c", f"safe.directory={ROOT}", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(listing, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
+    paths = {name: ROOT / name for name in names if name and Path(name).suffix not in PICTURES}
+    found = {name: path.read_text("utf-8") for name, path in paths.items() if path.is_file()}
+    assert "pyproject.toml" in found
+    return found
+
+
+def matches(texts: dict[str, str], pattern: str) -> list[str]:
+    return [
+        f"{name}: {match[0]}" for name, text in texts.items() for match in re.finditer(pattern, text, re.IGNORECASE)
+    ]
+
+
+def test_no_file_names_a_registry(texts: dict[str, str]) -> None:
+    assert matches(texts, r"""https?://[^/\s"']*(registry|pypi|npmjs|pythonhosted|artifactory|nexus)[^\s"']*""") == []
+    lock = texts["contracts/package-lock.json"]
+    assert '"resolved"' not in lock
+    assert lock.count('"integrity"') >= 5
+
+
+def test_no_file_names_a_place_on_a_machine(texts: dict[str, str]) -> None:
+    assert matches(texts, r"(?<![\w.~-])/(work|root|home|Users)/\w+") == []
+
+
+def test_lines_end_as_they_should(texts: dict[str, str]) -> None:
+    bad = [name for name, text in texts.items() if "\r" in text or (text and not text.endswith("\n"))]
+    assert bad == []
+
+
+def test_contracts_say_licence_and_compiler(texts: dict[str, str]) -> None:
+    sources = {name: text for name, text in texts.items() if name.endswith(".sol")}
+    assert len(sources) > 10
+    compiler = json.loads(texts["contracts/package.json"])["dependencies"]["solc"]
+    head = f"// SPDX-License-Identifier: MIT\npragma solidity {compiler};\n"
+    assert [name for name, text in sources.items() if not text.startswith(head)] == []
+
+
+def test_links_lead_somewhere(texts: dict[str, str]) -> None:
+    broken = []
+    for name, text in texts.items():
+        if name.endswith(".md"):
+            for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text) + re.findall(r'(?:src|href)="([^"#]+)', text):
+                if "://" not in target and not (ROOT / name).parent.joinpath(target).exists():
+                    broken.append(f"{name}: {target}")
+    assert broken == []
+
+
+@pytest.mark.parametrize("name", contracts())
+def test_contracts_fit_on_a_chain(name: str) -> None:
+    built = artifact(name)
+    assert 0 < len(built.runtime) <= MAX_RUNTIME_SIZE
+    assert len(built.runtime) < len(built.creation) <= 2 * MAX_RUNTIME_SIZE
+    functions = {entry["name"] for entry in built.abi if entry["type"] == "function"}
+    assert functions == built.selectors.keys()
+    assert functions
+
+
+def test_one_version_everywhere() -> None:
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
+    changes = re.findall(r"^## \[(\d[^\]]*)\]", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
+    assert shackled.__version__ == version
+    assert changes[0] == version
+    for name in ("package.json", "package-lock.json"):
+        assert json.loads((ROOT / "contracts" / name).read_text("utf-8"))["version"] == version
+
+
+def test_the_readme_has_the_figures_that_were_measured() -> None:
+    tool = [sys.executable, str(ROOT / "tools" / "readme.py"), "--check"]
+    result = subprocess.run(tool, capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr

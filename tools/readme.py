@@ -1,0 +1,84 @@
+"""Bring the figures of README.md up to date: those of benchmarks/results.json and docs/images/pictures.json.
+
+    python tools/readme.py            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
+    python tools/readme.py --check    writes nothing; fails if they are not up to date
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+README = ROOT / "README.md"
+RESULTS = ROOT / "benchmarks" / "results.json"
+PICTURES = ROOT / "docs" / "images" / "pictures.json"
+
+#: What of the cost table a newcomer wants to know: a part of the name of its row, and what to call it.
+ROWS = {
+    "obj_*_cull": "a model of about 1,000 triangles, lit (mean of 15)",
+    "genesis_000": "a piece of the Genesis collection (mean of 24)",
+    "cube_persp_128": "a cube",
+    "cube_persp_512": "a cube, 512 x 512",
+}
+
+
+def costs() -> str:
+    """The table of what pictures cost."""
+    if not RESULTS.exists():
+        return "Run `make bench` for the figures."
+    data: dict[str, dict[str, Any]] = next(iter(json.loads(RESULTS.read_text("utf-8")).values()))
+    lines = ["| picture, 128 x 128 | original, gas | Shackled, gas | ratio |", "|---|---:|---:|---:|"]
+    for part, name in ROWS.items():
+        row = next((values for key, values in data.items() if part in key and values["original"]), None)
+        if row is not None:
+            ratio = f"{row['original'] / row['gas']:,.0f}"
+            lines.append(f"| {name} | {millions(row['original'])} | {millions(row['gas'])} | {ratio} |")
+    return "\n".join(lines)
+
+
+def pictures() -> str:
+    """What the pictures cost."""
+    facts = {
+        name: f"{each['width']} x {each['height']}, {each['triangles']:,} triangles, {millions(each['gas'])} gas"
+        for name, each in json.loads(PICTURES.read_text("utf-8")).items()
+    }
+    return f"Above: {facts['scene']}. The teapot: {facts['teapot']}; its wires: {facts['wireframe']}."
+
+
+def millions(gas: float) -> str:
+    """Such as 4.9 million."""
+    return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
+
+
+def filled(text: str) -> str:
+    """The README with the figures in it."""
+    for name, content in {"costs": costs(), "pictures": pictures()}.items():
+        begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
+        text, count = re.subn(f"{begin}.*?{end}", lambda _, c=f"{begin}\n{content}\n{end}": c, text, flags=re.DOTALL)
+        if count != 1:
+            raise SystemExit(f"README.md must have {begin} and {end} once")
+    return text
+
+
+def main() -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(description="Bring the figures of README.md up to date.")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
+    options = parser.parse_args()
+    old = README.read_text("utf-8")
+    new = filled(old)
+    if options.check and new != old:
+        print("the figures of README.md are not up to date: run tools/readme.py", file=sys.stderr)
+        return 1
+    if not options.check:
+        README.write_text(new, "utf-8", newline="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
