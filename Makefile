@@ -67,7 +67,7 @@ bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python tools/readme.py
 
 pictures: $(DEV) ## draw the pictures of the documentation
-	$(BIN)/python docs/pictures.py
+	$(BIN)/python docs/draw_pictures.py
 	$(BIN)/python tools/readme.py
 
 # ---- long runs ----

@@ -21,9 +21,14 @@ def main() -> int:
         written.append(f"## {section.title}\n\n{section.text}\n")
         print(written[-1], flush=True)
         data[section.title] = section.data
-    RESULTS.write_text("\n".join(written), "utf-8")
-    FIGURES.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
-    for path in (RESULTS, FIGURES, *plots.draw()):
+    paths = plots.draw()
+    if all(data.values()) or not FIGURES.exists():
+        RESULTS.write_text("\n".join(written), "utf-8")
+        FIGURES.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
+        paths += [RESULTS, FIGURES]
+    else:
+        print(f"{RESULTS.name} and {FIGURES.name} are left as they are, since a part was skipped")
+    for path in paths:
         print(f"written: {path.relative_to(FOLDER.parent)}")
     return 0
 

@@ -1,10 +1,11 @@
-"""A renderer in float64, written from the formulas that the pictures are to follow, not from how the contracts compute them.
+"""A renderer in float64, written from the formulas that pictures are to follow, not from how contracts compute them.
 
 It reads the same calldata as the contracts, so that both see the same numbers. Every triangle is projected, cut at the
 near plane and rasterised by evaluating the edge functions at the centre of every pixel, with the top-left rule; what is
 seen is then shaded pixel by pixel:
 
-    colour = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i) + sum_i specular * max(0, N.H_i)^shininess * C_i
+    colour = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i)
+           + sum_i specular * max(0, N.H_i)^shininess * C_i
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ UNLIT, FLAT, SMOOTH = 0, 1, 2
 CULL_BACKFACES, WIREFRAME = 1, 2
 POINT = 1
 
-#: Projected vertices are laid on a grid of so many steps a pixel, as the contracts do, so that coverage can be compared.
+#: Projected vertices are laid on a grid of so many steps a pixel, as by the contracts, so that coverage is the same.
 SUBPIXELS = 256.0
 
 
@@ -36,9 +37,10 @@ SUBPIXELS = 256.0
 class Picture:
     """A picture, and what is seen in it.
 
-    pixels: (H, W, 3) uint8. exact: the same before it was rounded. triangle: (H, W) number of the triangle that is seen,
-    counted through all objects, -1 for the background. corners: (n, 3) numbers of the vertices of each triangle, counted
-    through all objects. is_smooth: (n,) whether its normals are interpolated.
+    pixels: (H, W, 3) uint8. exact: the same before it was rounded.
+    triangle: (H, W) number of the triangle that is seen, counted through all objects; -1 for the background.
+    corners: (n, 3) numbers of the vertices of each triangle, counted through all objects.
+    is_smooth: (n,) whether its normals are interpolated.
     """
 
     pixels: NDArray[np.uint8]
@@ -85,7 +87,7 @@ def render(scene: Scene) -> Picture:
 
 def render_call(data: bytes) -> Picture:
     """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it."""
-    (scene,) = eth_abi.decode([_scene_type()], data[4:])  # type: ignore[attr-defined]
+    (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
     (width, height), camera, (top, bottom), invert, ambient, lights, objects = scene
     frame = _frame(camera, width, height)
     surfaces = [_surface(o) for o in objects]
@@ -117,15 +119,15 @@ def render_call(data: bytes) -> Picture:
 
 
 @cache
-def _scene_type() -> str:
+def scene_type() -> str:
     function = next(entry for entry in artifact("Renderer").abi if entry.get("name") == "render")
-    return _type_of(function["inputs"][0])
+    return type_of(function["inputs"][0])
 
 
-def _type_of(parameter: dict[str, Any]) -> str:
+def type_of(parameter: dict[str, Any]) -> str:
     if not parameter["type"].startswith("tuple"):
         return str(parameter["type"])
-    return f"({','.join(map(_type_of, parameter['components']))}){parameter['type'].removeprefix('tuple')}"
+    return f"({','.join(map(type_of, parameter['components']))}){parameter['type'].removeprefix('tuple')}"
 
 
 def _q32(value: Any) -> Array:
@@ -190,7 +192,8 @@ def rotation_matrix(quaternion: Array) -> Array:
 def _unit(v: Array) -> Array:
     """Unit vectors along the last axis; zero for zero."""
     length = np.linalg.norm(v, axis=-1, keepdims=True)
-    return np.divide(v, length, out=np.zeros_like(v), where=length > 0)
+    unit: Array = np.divide(v, length, out=np.zeros_like(v), where=length > 0)
+    return unit
 
 
 # ---- which triangle is seen where ----
@@ -260,8 +263,7 @@ def _draw(
         order = [0, 2, 1]
         x, y, points, piece, divisor = x[order], y[order], points[order], piece[order], divisor[order]
         area = -area
-    left, right = (int(np.clip(v, 0, frame.width)) for v in (np.ceil(x.min() / SUBPIXELS), np.floor(x.max() / SUBPIXELS) + 1))
-    top, bottom = (int(np.clip(v, 0, frame.height)) for v in (np.ceil(y.min() / SUBPIXELS), np.floor(y.max() / SUBPIXELS) + 1))
+    (left, right), (top, bottom) = _pixels_within(x, frame.width), _pixels_within(y, frame.height)
     if left >= right or top >= bottom:
         return
     column, row = SUBPIXELS * np.arange(left, right)[None], SUBPIXELS * np.arange(top, bottom)[:, None]
@@ -287,6 +289,12 @@ def _draw(
     weights[window][wins] = (correct @ piece)[wins]
 
 
+def _pixels_within(steps: Array, size: int) -> tuple[int, int]:
+    """The first pixel whose centre is not before all of these places, and the one after the last such, of a canvas."""
+    first, last = np.ceil(steps.min() / SUBPIXELS), np.floor(steps.max() / SUBPIXELS)
+    return int(np.clip(first, 0, size)), int(np.clip(last + 1, 0, size))
+
+
 # ---- the colour of what is seen ----
 
 
@@ -295,7 +303,9 @@ def _background(top: Array, bottom: Array, width: int, height: int) -> Array:
     return np.array(np.broadcast_to(top + (bottom - top) * part, (height, width, 3)))
 
 
-def _shade(frame: _Frame, surface: _Surface, face: Integers, weights: Array, ambient_light: Array, lights: Any) -> Array:
+def _shade(
+    frame: _Frame, surface: _Surface, face: Integers, weights: Array, ambient_light: Array, lights: Any
+) -> Array:
     """The colours of points of a surface; `face` (n,) and `weights` (n, 3) say which."""
     corners = surface.faces[face]
     color = _mix(surface.colors[corners], weights)
@@ -323,8 +333,10 @@ def _shade(frame: _Frame, surface: _Surface, face: Integers, weights: Array, amb
 
 def _mix(values: Array, weights: Array) -> Array:
     """(n, 3, 3) values of the corners as (n, 3) values of the points."""
-    return np.einsum("nij,ni->nj", values, weights)
+    mixed: Array = np.einsum("nij,ni->nj", values, weights)
+    return mixed
 
 
 def _dot(a: Array, b: Array) -> Array:
-    return (a * b).sum(axis=-1, keepdims=True)
+    product: Array = (a * b).sum(axis=-1, keepdims=True)
+    return product

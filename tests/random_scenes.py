@@ -1,8 +1,7 @@
-"""Random scenes: every feature of the renderer, mixed, on small canvases."""
+"""Random scenes: every feature of the renderer, mixed, on small canvases; and random calls that are wrong."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -21,23 +20,18 @@ from shackled.scene.scene import Scene
 Array = NDArray[np.float64]
 Rng = np.random.Generator
 
-#: Tame: everything is before the camera and within the contract's guard band. Close: around the camera, through the near
-#: plane and far beyond the borders. Wild: of any size and place that the contract takes.
+#: Tame: everything is before the camera and near the canvas. Close: around the camera, through the near plane and far
+#: beyond the borders. Wild: of any size and place that the contract takes.
 Kind = Literal["tame", "close", "wild"]
 KINDS: tuple[Kind, ...] = ("tame", "close", "wild")
 
 
 @dataclass(frozen=True)
 class Case:
-    """A scene whose numbers are in the ranges of the contract, on whose meshes all coordinates are whole; and a part of it."""
+    """A scene that can be encoded as it is: in the ranges of the contract, with whole coordinates; and a part of it."""
 
     scene: Scene
     tile: Rectangle
-
-
-def random_cases(seed: int, count: int, kinds: tuple[Kind, ...] = KINDS) -> Iterator[Case]:
-    """The cases of the seeds from `seed` on."""
-    return (random_case(number, kinds) for number in range(seed, seed + count))
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -59,6 +53,37 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     x, y = int(rng.integers(width)), int(rng.integers(height))
     tile = Rectangle(x, y, int(rng.integers(1, width - x + 1)), int(rng.integers(1, height - y + 1)))
     return Case(scene, tile)
+
+
+#: Words on both sides of the bounds of the contract.
+BOUNDS = (0, 1, 2, 3, 4, 31, 32, 128, 129, 1024, 1025, 0xFFFFFF, 0x1000000, 1 << 20, 1 << 22, 1 << 42, 4 << 32, 1 << 58)
+SHIFTS = (64, 128, 255)
+
+
+def broken_call(seed: int, data: bytes) -> bytes:
+    """A call in which one or two words or bytes are wrong, or the end is missing."""
+    rng = np.random.default_rng([seed, 1])
+    changed = bytearray(data)
+    for _ in range(rng.integers(1, 3)):
+        choice = rng.random()
+        # most often in the numbers before the meshes
+        place = 4 + 32 * int(rng.integers(min(len(changed) // 32, 60)))
+        if choice < 0.4:
+            changed[place : place + 32] = _bound(rng).to_bytes(32, "big")
+        elif choice < 0.7:
+            word = int.from_bytes(changed[place : place + 32], "big") + int(rng.integers(-40, 41))
+            changed[place : place + 32] = (word % (1 << 256)).to_bytes(32, "big")
+        elif choice < 0.9:
+            changed[rng.integers(4, len(changed))] = rng.integers(256)
+        else:
+            changed = changed[: rng.integers(40, len(changed) + 1)]
+    return bytes(changed)
+
+
+def _bound(rng: Rng) -> int:
+    words = (*BOUNDS, *(1 << shift for shift in SHIFTS))
+    value = words[rng.integers(len(words))] + int(rng.integers(-1, 2))
+    return (-value if rng.random() < 0.3 else value) % (1 << 256)
 
 
 def _canvas(rng: Rng) -> tuple[int, int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import pytest
 from benchmarks import shared, snapshot
 
@@ -12,14 +14,14 @@ def measured() -> snapshot.Snapshot:
     return snapshot.take()
 
 
+@pytest.mark.filterwarnings("default")
 @pytest.mark.parametrize("group", ["contracts", "scenes", "scenes of the cost table"])
-def test_no_figure_rises(group: str, measured: snapshot.Snapshot, capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_figure_rises(group: str, measured: snapshot.Snapshot) -> None:
     if group not in measured:
         pytest.skip(shared.SKIPPED)
     worse, better = snapshot.changes(snapshot.recorded(), {group: measured[group]})
     if better:
-        with capsys.disabled():
-            print("\nfigures have fallen, run `make gas`:", *better, sep="\n  ")
+        warnings.warn("\n  ".join(["figures have fallen, run `make gas`:", *better]), stacklevel=1)
     assert not worse, "\n  ".join(["figures have risen; if that has a good reason, run `make gas`:", *worse])
 
 

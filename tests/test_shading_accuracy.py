@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import float64
 import numpy as np
 import pytest
+
+import float64
 from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, shared_scenes
 from pictures import call_data, draw, shared_scene
 from random_scenes import Kind, random_case
-
 from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene
 
 SHARED, MADE = shared_scenes(), made_scenes()
@@ -63,10 +63,21 @@ def test_colors_next_to_black_and_white_do_not_wrap() -> None:
     triangles.append(np.array([[929.0, 489.0, -681.0], [-589.0, 438.0, 674.0], [153.0, 83.0, -898.0]]))
     colors, normals = [[0, 0, 255], [255, 0, 0], [0, 255, 255]], [[0.1, 0.1, 1], [0, -0.1, 1], [0.1, -0.1, 1]]
     for shading in ("smooth", "flat", "unlit"):
-        material = Material(shading, ambient=0.8, diffuse=0.8, specular=0)  # type: ignore[arg-type]
+        material = Material(shading, ambient=0.8, diffuse=0.8, specular=0)
         for corners in triangles:
             thing = Object(Mesh(corners, [[0, 1, 2]], colors, normals), (0, 0, -5000), material=material, cull=False)
             scene = Scene([thing], Camera(near=1), [Light("directional", (0, 0, 1))], width=96, height=96)
             expected = float64.render_call(call_data("render", scene))
             error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)
             assert error.max() <= 40, f"{shading} {corners.tolist()}, at row, column {np.argwhere(error > 40)[0]}"
+
+
+def test_colors_of_a_far_triangle_do_not_wrap() -> None:
+    """Where its depths are so small beside that of the near plane that its weights are rough."""
+    corners = [[103303, 101361, -6891344], [-19907, 1838851, 1023926], [-5195858, 25530, 7157482]]
+    mesh = Mesh(corners, [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
+    scene = Scene([Object(mesh, material=Material("unlit"), cull=False)], Camera(near=1), width=32, height=32)
+    expected = float64.render_call(call_data("render", scene))
+    error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)
+    assert (expected.triangle >= 0).any()
+    assert error.max() <= 40

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from pictures import UNLIT, WHITE, counts, covered, on_pixel_grid, pixel_grid_camera, recolored, unlit_scene
 
+from pictures import UNLIT, WHITE, counts, covered, on_pixel_grid, pixel_grid_camera, recolored, unlit_scene
 from shackled import Camera, Mesh, Object, Scene
 
 Array = NDArray[np.float64]
@@ -117,8 +117,7 @@ def torus(rings: int = 14, sides: int = 9) -> Mesh:
     number = np.arange(rings * sides).reshape(rings, sides)
     a, b = number, np.roll(number, -1, axis=0)
     c, d = np.roll(b, -1, axis=1), np.roll(a, -1, axis=1)
-    a, b, c, d = (w.ravel() for w in (a, b, c, d))
-    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    faces = np.concatenate([np.stack(corners, axis=-1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))])
     return recolored(Mesh(np.rint(points.reshape(-1, 3)), faces), WHITE)
 
 
@@ -157,13 +156,14 @@ def test_a_closed_mesh_covers_each_pixel_as_often_front_as_back() -> None:
 
 
 @pytest.mark.parametrize("half_height", [0.3, 1.0, 4.0, 30.0])
-@pytest.mark.parametrize("size", [3.0, 500.0, 30000.0])
+@pytest.mark.parametrize("size", [5.0, 500.0, 30000.0])
 def test_a_room_from_within_has_no_holes(half_height: float, size: float) -> None:
     """The clipper cuts most of its walls."""
     rng = np.random.default_rng(11)
     for _ in range(5):
-        eye = np.rint(rng.uniform(-0.9, 0.9, 3) * size)
-        camera = Camera(eye=eye, target=eye + rng.normal(size=3), up=rng.normal(size=3), half_height=half_height, near=2**-10)
+        eye = np.rint(rng.uniform(-0.8, 0.8, 3) * size)
+        target, up = eye + rng.normal(size=3), rng.normal(size=3)
+        camera = Camera(eye, target, up, half_height=half_height, near=2**-10)
         assert covered(unlit_scene(box(size), camera, 40, 30)).all()
 
 

@@ -85,8 +85,8 @@ def make_venv() -> None:
 def apt_install(what: str, *packages: str) -> None:
     """Installs packages of the system."""
     if not shutil.which("apt-get") or os.geteuid() != 0:
-        raise SystemExit(f"{what} is missing: install it, for instance by: sudo apt-get install {' '.join(packages)}")
-    say(f"{what} is missing: installing {' '.join(packages)}")
+        raise SystemExit(f"missing: {what}; install it, for instance by: sudo apt-get install {' '.join(packages)}")
+    say(f"missing: {what}; installing {' '.join(packages)}")
     environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}
     run("apt-get", "update", "-qq", env=environment)
     run("apt-get", "install", "-y", "-qq", "--no-install-recommends", *packages, env=environment)

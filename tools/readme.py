@@ -1,14 +1,13 @@
 """Bring the figures of README.md up to date: those of benchmarks/results.json and docs/images/pictures.json.
 
-    python tools/readme.py            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
-    python tools/readme.py --check    writes nothing; fails if they are not up to date
+python tools/readme.py            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
+python tools/readme.py --check    writes nothing; fails if they are not up to date
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -42,12 +41,16 @@ def costs() -> str:
 
 
 def pictures() -> str:
-    """What the pictures cost."""
-    facts = {
-        name: f"{each['width']} x {each['height']}, {each['triangles']:,} triangles, {millions(each['gas'])} gas"
-        for name, each in json.loads(PICTURES.read_text("utf-8")).items()
-    }
-    return f"Above: {facts['scene']}. The teapot: {facts['teapot']}; its wires: {facts['wireframe']}."
+    """What the pictures of the documentation cost."""
+    data = json.loads(PICTURES.read_text("utf-8"))
+    scene, strip, teapot = data["scene"], data["strip"], data["teapot"]
+    return (
+        f"Every pixel above was computed by contracts. The still life: {scene['width']} x {scene['height']} pixels,"
+        f" {scene['triangles']:,} triangles, {millions(scene['gas'])} gas.\n"
+        f"The strip: 128 x 128 pixels each, {millions(min(strip['gas']))} to {millions(max(strip['gas']))} gas."
+        f" The teapot of `make demo`, {teapot['triangles']:,} triangles at {teapot['width']} x {teapot['height']}:"
+        f" {millions(teapot['gas'])}."
+    )
 
 
 def millions(gas: float) -> str:
@@ -59,9 +62,11 @@ def filled(text: str) -> str:
     """The README with the figures in it."""
     for name, content in {"costs": costs(), "pictures": pictures()}.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-        text, count = re.subn(f"{begin}.*?{end}", lambda _, c=f"{begin}\n{content}\n{end}": c, text, flags=re.DOTALL)
-        if count != 1:
-            raise SystemExit(f"README.md must have {begin} and {end} once")
+        before, found, rest = text.partition(begin)
+        _, closed, after = rest.partition(end)
+        if not (found and closed):
+            raise SystemExit(f"README.md must have {begin} and {end}")
+        text = f"{before}{begin}\n{content}\n{end}{after}"
     return text
 
 

@@ -55,12 +55,17 @@ library FragmentShader {
 
             // ---- light ----
 
+            // the highlight, Q16, from the square of its cosine, Q24
             function gloss(square) -> value {
                 if gt(square, mload(SPECULAR_BEGIN)) {
                     square := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
                     if gt(square, 0x400000000000) { square := 0x400000000000 }
                     value := mload(add(SPECULAR_TABLE, and(shr(35, square), 0xffffe0)))
                     value := add(shr(128, value), shr(16, mul(and(value, 0xffffffff), and(shr(24, square), 0xffff))))
+                }
+                if mload(SPECULAR_ROOT) {
+                    if gt(square, 0x1000000) { square := 0x1000000 }
+                    value := shr(24, mul(mload(SPECULAR_ROOT), root(shl(24, square), NORMAL_HINT)))
                 }
             }
 

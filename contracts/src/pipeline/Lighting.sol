@@ -80,6 +80,7 @@ library Lighting {
                 store(FACE_LIGHT_40, load(AMBIENT) << 24);
                 uint256 focal = uint256(view_.focal) >> 32;
                 store(VARYING_REACH, view_.orthographic ? 1 << 60 : focal * focal / 16);
+                storeSigned(HALF_REACH, isBroad(material) ? -1 : halfReach(uint256(material.specular.raw()), material.shininess));
                 mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (grey ? IS_GREY : 0);
             }
             store(OBJECT_MODE, mode);
@@ -106,7 +107,26 @@ library Lighting {
             strength *= lights.length;
             if (view_.orthographic) store(REACH, point ? 0 : 1 << 60);
             else store(REACH, strength == 0 ? 1 << 60 : (48 * focal * focal << 32) / (255 * strength));
+            if (isBroad(material)) store(REACH, 0);
         }
+    }
+
+    /// @dev The square, Q40, of how much half vectors may differ in a triangle. If they are interpolated, their direction is off by d^2/8
+    /// at most for a difference d, and cos^n is steepest with about 0.6 * sqrt(n): two levels of 255 are allowed, or d = 1/4.
+    function halfReach(uint256 coefficient, uint256 shininess) private pure returns (int256) {
+        unchecked {
+            uint256 slope = (sqrt(shininess << 64) * coefficient) >> 32;
+            if (slope == 0) return 1 << 36;
+            // 2 * 8 / (0.6 * 255) = 0.1
+            uint256 reach = (uint256(1) << 72) / (10 * slope);
+            return reach > 1 << 36 ? int256(1 << 36) : int256(reach);
+        }
+    }
+
+    /// @dev The highlight is the cosine itself: over its square, where the others are tabulated, it is too steep near zero to be
+    /// interpolated, and each fragment takes the root.
+    function isBroad(Material calldata material) private pure returns (bool) {
+        return material.shininess == 1 && material.specular.raw() != 0;
     }
 
     function setMeshSpace(View memory view_, Scene calldata scene, Object calldata object, Matrix memory rotation) private pure {
@@ -140,7 +160,8 @@ library Lighting {
     /// @notice Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level.
     function setSpecular(uint256 coefficient, uint256 shininess) private pure {
         unchecked {
-            if (coefficient == 0) {
+            store(SPECULAR_ROOT, shininess == 1 ? coefficient >> 16 : 0);
+            if (coefficient == 0 || shininess == 1) {
                 // no square is greater than this
                 store(SPECULAR_BEGIN, type(uint256).max);
                 return;
@@ -203,7 +224,8 @@ library Lighting {
                     mode |= facePointLight(record, length);
                 }
             }
-            store(FACE_LIGHT, light);
+            // where fragments add the diffuse light of all lights themselves, only the ambient light is left
+            store(FACE_LIGHT, mode & IS_DIFFUSE == 0 ? light : load(AMBIENT));
             assembly ("memory-safe") {
                 switch and(mode, IS_ORTHOGRAPHIC)
                 case 0 {

@@ -11,7 +11,9 @@ import "./Registers.sol";
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000;
 uint256 constant EPSILON = 0x400000000000004000000000000040000;
-uint256 constant GUARDS = 0x0040000000000000400000000000004000000000000;
+/// @dev A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
+uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
+uint256 constant LIMITS = 0x00400003000000004000030000000040000300000000;
 uint256 constant COLOR_LANES = 0xffffff00000000ffffff00000000ffffff;
 
 /// @notice How finely a triangle has to be shaded.
@@ -99,7 +101,7 @@ library Shading {
                 mode |= IS_BARYCENTRIC;
                 color <<= 24;
                 if (mode & IS_SMOOTH == 0) {
-                    uint256 size = blockSize(squareSize(a, b, c), mode, attributesA >> 168, attributesB >> 168, attributesC >> 168);
+                    uint256 size = blockSize(squareHeight(a, b, c), mode, attributesA >> 168, attributesB >> 168, attributesC >> 168);
                     store(BLOCK, size);
                     if (size > 1) mode |= IS_BLOCKED;
                 }
@@ -129,10 +131,8 @@ library Shading {
             spread(REVERSED_0, 0x60, a, b, c);
             spread(HALF_0, 0xa0, a, b, c);
             spread(HALF_REVERSED_0, 0xc0, a, b, c);
-            // at most 60 degrees between normals: the square of a change is 1; and 1/16 for half vectors, Q40
-            if (
-                changes(NORMALS_0, REVERSED_0) > 1 << 40 || changes(HALF_0, HALF_REVERSED_0) > 1 << 36
-            ) return false;
+            // at most 60 degrees between normals: the square of a change is 1, Q40
+            if (changes(NORMALS_0, REVERSED_0) > 1 << 40 || changes(HALF_0, HALF_REVERSED_0) > loadSigned(HALF_REACH)) return false;
             spread(TO_LIGHT_0, 0x80, a, b, c);
             return true;
         }
@@ -162,13 +162,27 @@ library Shading {
         }
     }
 
-    /// @dev Pixels over which neither light nor perspective bends the colour by more than a level.
+    /// @dev The square of about the least height of a triangle, in sub-pixels: the square of twice its area by that of a longest edge,
+    /// for which the sum of the squares of two edges stands.
+    function squareHeight(uint256 a, uint256 b, uint256 c) private pure returns (uint256 square) {
+        uint256 squares = squareSize(a, b, c);
+        assembly ("memory-safe") {
+            let x := and(shr(64, a), 0xfffff)
+            let y := shr(128, a)
+            square := mul(sub(and(shr(64, c), 0xfffff), x), sub(shr(128, b), y))
+            square := sub(square, mul(sub(and(shr(64, b), 0xfffff), x), sub(shr(128, c), y)))
+            square := div(mul(square, square), squares)
+        }
+    }
+
+    /// @dev Pixels over which interpolation between exact colours is off by about three levels at most: over n pixels of a triangle of
+    /// height h perspective makes that dc * dz / 4z * (n / h)^2, and REACH is the square of the n for one and a half levels of light.
     function blockSize(uint256 square, uint256 mode, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
         unchecked {
             uint256 nearest = max(za, max(zb, zc));
             uint256 farthest = min(za, min(zb, zc));
-            uint256 reach = square * farthest / (64 * (nearest - farthest) + 1);
-            if (mode & IS_LIT != 0) reach = min(reach, load(FACE_REACH));
+            uint256 reach = square * farthest / (20 * (nearest - farthest) + 1);
+            if (mode & IS_LIT != 0) reach = min(reach, 2 * load(FACE_REACH));
             reach = sqrt(reach) >> 8;
             return reach > 16 ? 16 : reach == 0 ? 1 : reach;
         }
@@ -176,12 +190,6 @@ library Shading {
 
     function max(uint256 a, uint256 b) private pure returns (uint256) {
         return a > b ? a : b;
-    }
-
-    function attributes(uint256 screenWord) private pure returns (uint256 word) {
-        assembly ("memory-safe") {
-            word := mload(add(and(screenWord, 0xffffffff), 32))
-        }
     }
 
     /// @dev The attribute word with the light of the face on its colour.
@@ -201,20 +209,30 @@ library Shading {
         }
     }
 
-    /// @dev Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones. Between vertices
-    /// at depths z and z + dz whose colours differ by dc the two part by dc * dz / 4z at most.
+    /// @dev Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones. With weights w,
+    /// depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where
+    /// w_i w_j is 1/4 at most.
     function isAffine(uint256 a, uint256 b, uint256 c) private pure returns (bool yes) {
         assembly ("memory-safe") {
-            let depth := shr(168, a)
-            let dz := sub(shr(168, b), depth)
-            let dz2 := sub(shr(168, c), depth)
-            // |dz| | |dz2|: at least the larger, less than twice it; 2^18 - 1 keeps the bound below 2^50
-            dz := or(or(xor(dz, sar(255, dz)), xor(dz2, sar(255, dz2))), 0x3ffff)
-            // bound of dc, Q10, in each lane, with a bit above that a difference beyond it clears
-            depth := add(mul(div(mul(12288, depth), dz), ONES), GUARDS)
+            let inverse := div(0x1000000000000000000000, shr(168, a))
             b := sub(b, a)
             c := sub(c, a)
-            yes := eq(and(and(and(add(depth, b), sub(depth, b)), and(add(depth, c), sub(depth, c))), GUARDS), GUARDS)
+            a := sub(c, b)
+            // |z_i - z_j| / z, Q20
+            let rb := sar(168, b)
+            rb := shr(64, mul(xor(rb, sar(255, rb)), inverse))
+            let rc := sar(168, c)
+            rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
+            let ra := sar(168, a)
+            ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
+            yes := lt(or(or(rb, rc), ra), 0x1000000000)
+            // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
+            b := mul(b, rb)
+            c := mul(c, rc)
+            a := mul(a, ra)
+            rb := and(and(add(LIMITS, b), sub(LIMITS, b)), and(add(LIMITS, c), sub(LIMITS, c)))
+            rb := and(and(rb, GUARDS), and(add(LIMITS, a), sub(LIMITS, a)))
+            yes := and(yes, eq(rb, GUARDS))
         }
     }
 }

@@ -1,7 +1,7 @@
 """The renderer once more, in Python and NumPy: what the contracts must equal byte for byte.
 
 Each file mirrors one of contracts/src and is meant to be read beside it. The numbers are those of the contract: Python
-integers where it computes vertices, faces and light, arrays of 64-bit integers where it walks over the pixels of a face.
+integers where it computes vertices, faces and light, NumPy arrays where it walks over the pixels of a face.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .bmp import encode_bmp
 from .call import read_call
 from .pipeline import Picture, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "render"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "render", "selector"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -21,16 +21,21 @@ def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
 
     Raises RenderError where the contract refuses.
     """
-    selector = artifact("Renderer").selectors["render" if tile is None else "renderTile"]
-    return encode_bmp(draw_call(encode(selector, scene, tile)).pixels)
+    data = encode(selector("render" if tile is None else "renderTile"), scene, tile)
+    return encode_bmp(draw_call(data).pixels)
 
 
 def count(scene: Scene) -> tuple[int, int]:
     """The triangles that survive culling and clipping, and the pixels that any of them covers."""
-    picture = draw_call(encode(artifact("Renderer").selectors["renderCounted"], scene))
+    picture = draw_call(encode(selector("renderCounted"), scene))
     return picture.triangles, picture.lit_pixels
 
 
 def draw_call(data: bytes) -> Picture:
     """The picture that a call of `render`, `renderTile` or `renderCounted` of the Renderer contract asks for."""
     return draw(*read_call(data))
+
+
+def selector(function: str) -> bytes:
+    """The first four bytes of a call of a function of the Renderer contract."""
+    return artifact("Renderer").selectors[function]

@@ -2,8 +2,8 @@
 
 Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 
-An edge is always cut from its inner end, and each end is put on the same side of a plane in all faces, so that faces that
-share an edge share the cut as well.
+An edge is always cut from its inner end, and each end is put on the same side of a plane in all faces, so that faces
+that share an edge share the cut as well.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """From fragments to pixels: depth test, perspective-correct attributes, Blinn-Phong.
 
-The colour of a fragment depends on its triangle and its place only. Fragments of one triangle never overlap, so that all
-of them are tested against the depths of the picture at once; those that need light are then shaded one by one.
+The colour of a fragment depends on its triangle and its place only. Fragments of one triangle never overlap, so that
+all of them are tested against the depths of the picture at once; those that need light are then shaded one by one.
 """
 
 from __future__ import annotations
@@ -63,6 +63,8 @@ def ray_length(x: int, y: int, r: Registers) -> int:
 
 def gloss(square: int, r: Registers) -> int:
     """The highlight, Q16, from the square of its cosine, Q24."""
+    if r.specular_root:
+        return (r.specular_root * sqrt(min(square, 1 << 24) << 24)) >> 24
     if square <= r.specular_begin:
         return 0
     square = min(((square - r.specular_begin) * r.specular_scale) & MASK, 1 << 46)
@@ -193,10 +195,8 @@ def shade_varying(attribute: int, r: Registers) -> int:
             highlight = (light.color * value >> 6) & LANES_24
     color = ((r.color_0 + r.color_1 * s + r.color_2 * t) >> 16) & LANES_24
     if r.mode & IS_GREY:
-        color = (color * ((factor >> 24) & 0xFFFFFFFF) >> 16) & LANES_24
-    else:
-        color = modulated(color, factor)
-    return color + highlight
+        return ((color * ((factor >> 24) & 0xFFFFFFFF) >> 16) & LANES_24) + highlight
+    return modulated(color, factor) + highlight
 
 
 # ---- pixels ----
@@ -215,6 +215,7 @@ class Fragments:
     """
 
     def __init__(self, spans: list[Span], r: Registers) -> None:
+        """None of the spans lies over another."""
         table = np.array([span[:3] for span in spans], np.int64).reshape(-1, 3)
         starts = _limbs([span[3] for span in spans])
         steps = _limbs([span[4] for span in spans])
@@ -363,7 +364,7 @@ def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
 
 
 def set_varyings(vertex: Vertex, r: Registers) -> None:
-    """Fills the record of a vertex with the vectors that the fragments of smooth triangles interpolate: Q20, in lanes."""
+    """Fills the record of a vertex with the vectors that fragments of smooth triangles interpolate: Q20, in lanes."""
     depth = vertex.attributes >> 168 << 8
     x, y = ray_of(vertex, r)
     lanes = (vertex.normal + VECTOR_BIAS) & MASK
@@ -385,9 +386,7 @@ def set_varyings(vertex: Vertex, r: Registers) -> None:
     distance_to_light = sqrt(lx * lx + ly * ly + lz * lz)
     lx, ly, lz = (divide_signed(component << 20, distance_to_light) for component in (lx, ly, lz))
     # H = L + V
-    hx, hy, hz = (
-        component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24))
-    )
+    hx, hy, hz = (component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24)))
     vertex.to_light = lz + (ly << 85) + (lx << 170)
     vertex.half = hx + (hy << 85) + (hz << 170)
     vertex.half_reversed = hz + (hy << 85) + (hx << 170)

@@ -64,6 +64,7 @@ def set_object(view: View, scene: Scene, obj: Object, rotation: Matrix, register
         registers.face_light_40 = registers.ambient << 24
         focal = view.focal >> 32
         registers.varying_reach = 1 << 60 if view.orthographic else focal * focal // 16
+        registers.half_reach = -1 if is_broad(material) else half_reach(material.specular, material.shininess)
         mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (IS_GREY if grey else 0)
     registers.object_mode = mode
 
@@ -86,6 +87,27 @@ def set_reach(view: View, lights: tuple[Light, ...], material: Material, registe
         registers.reach = 0 if point else 1 << 60
     else:
         registers.reach = 1 << 60 if strength == 0 else ((48 * focal * focal << 32) & MASK) // (255 * strength)
+    if is_broad(material):
+        registers.reach = 0
+
+
+def is_broad(material: Material) -> bool:
+    """Whether the highlight is the cosine itself.
+
+    Over its square, where the others are tabulated, it is too steep near zero to be interpolated, and each fragment takes
+    the root.
+    """
+    return material.shininess == 1 and material.specular != 0
+
+
+def half_reach(coefficient: int, shininess: int) -> int:
+    """The square, Q40, of how much half vectors may differ in a triangle.
+
+    If they are interpolated, their direction is off by d^2/8 at most for a difference d, and cos^n is steepest with
+    about 0.6 * sqrt(n): two levels of 255 are allowed, or d = 1/4.
+    """
+    slope = (sqrt(shininess << 64) * coefficient) >> 32
+    return min((1 << 72) // (10 * slope), 1 << 36) if slope else 1 << 36
 
 
 def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, registers: Registers) -> None:
@@ -116,7 +138,8 @@ def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, regi
 
 def set_specular(coefficient: int, shininess: int, registers: Registers) -> None:
     """Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level."""
-    if coefficient == 0:
+    registers.specular_root = coefficient >> 16 if shininess == 1 else 0
+    if coefficient == 0 or shininess == 1:
         # no square is greater than this
         registers.specular_begin = MASK
         return
@@ -171,7 +194,8 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
                     mode |= IS_LIT
         else:
             mode |= face_point_light(record, length, r)
-    r.face_light = total
+    # where fragments add the diffuse light of all lights themselves, only the ambient light is left
+    r.face_light = total if mode & IS_DIFFUSE == 0 else r.ambient
     if mode & IS_ORTHOGRAPHIC == 0:
         # normal * (corner - eye)
         product = nx * (r.face_corner_x - r.eye_x) + ny * (r.face_corner_y - r.eye_y) + nz * (r.face_corner_z - r.eye_z)
@@ -204,7 +228,7 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
 
 
 def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
-    """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square, Q32."""
+    """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square."""
     p, a, b = (mesh.positions[number] for number in mesh.faces[face])
     registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 16 for component in p)
     ax, ay, az = a[0] - p[0], a[1] - p[1], a[2] - p[2]

@@ -21,7 +21,7 @@ class Triangle(NamedTuple):
     a, b, c: counter-clockwise on the screen, the topmost first.
     top, bottom: the first row that may be covered, and the row after the last.
     face: number of the face in its mesh.
-    edges: which edges belong to the face, the sum of 1 (first to second vertex), 2 (second to third), 4 (third to first).
+    edges: which edges belong to the face, the sum of 1 (a to b), 2 (b to c) and 4 (c to a).
     outside: whether it reaches beyond the left or right border of the tile.
     """
 

@@ -42,9 +42,9 @@ def draw_triangle(triangle: Triangle, top: int, bottom: int, mesh: Mesh, registe
 def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:
     """What changes linearly over a triangle, at row `top`; sets the accumulator at column 0 and its changes.
 
-    Returns the left edge, from a to b, and the right one, from a to c: columns, Q48, such that the integer part is the
-    first pixel whose centre is not left of the edge, in lanes of 128 bits; their change per row; and the first row below
-    the upper of b and c, where one edge ends and another begins.
+    Returns the left edge, from a to b, and the right one, from a to c, in lanes of 128 bits: columns, Q48, such that
+    the integer part is the first pixel whose centre is not left of the edge; their change per row; and the first row
+    below the upper of b and c, where one edge ends and another begins.
     """
     r = registers
     x = a.x

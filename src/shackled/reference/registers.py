@@ -52,7 +52,7 @@ class LightRecord:
 
 @dataclass(slots=True)
 class Varying:
-    """Vectors that a smooth triangle interpolates: at the first vertex (Q36), and the differences to the others (Q20)."""
+    """A vector interpolated by smooth triangles: at the first vertex, Q36, and what it changes to the others, Q20."""
 
     at_0: int
     to_1: int
@@ -103,11 +103,13 @@ class Registers:
     ambient: int = 0
     specular_begin: int = 0
     specular_scale: int = 0
+    specular_root: int = 0
     specular_table: list[int] = field(default_factory=list)
     object_mode: int = 0
     has_point_light: bool = False
     reach: int = 0
     varying_reach: int = 0
+    half_reach: int = 0
 
     # triangle
     mode: int = 0

@@ -22,13 +22,15 @@ from .registers import (
 )
 from .roots import sqrt
 from .vertex_shader import Vertex
-from .words import LANES_24, MASK, ONES, divide
+from .words import LANES_24, ONES, divide
 
 #: Biases of the lanes: half a level for colours.
 COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
 WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000
 EPSILON = 0x400000000000004000000000000040000
-GUARDS = 0x0040000000000000400000000000004000000000000
+#: A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
+GUARDS = 0x00400000000000004000000000000040000000000000
+LIMITS = 0x00400003000000004000030000000040000300000000
 #: Bits of a lane that only a colour above 255 has.
 ABOVE_255 = 0xFC000000000000FC000000000000FC0000
 
@@ -71,6 +73,15 @@ def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
     return (b.x - a.x) ** 2 + (c.x - a.x) ** 2 + (b.y - a.y) ** 2 + (c.y - a.y) ** 2
 
 
+def square_height(a: Vertex, b: Vertex, c: Vertex) -> int:
+    """The square of about the least height of a triangle, in sub-pixels.
+
+    The square of twice its area by that of a longest edge, for which the sum of the squares of two edges stands.
+    """
+    doubled_area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)
+    return divide(doubled_area**2, square_size(a, b, c))
+
+
 def barycentric(
     a: Vertex,
     b: Vertex,
@@ -93,7 +104,7 @@ def barycentric(
         color_0 = color << 24
         if mode & IS_SMOOTH == 0:
             size = block_size(
-                square_size(a, b, c), mode, attributes_a >> 168, attributes_b >> 168, attributes_c >> 168, r
+                square_height(a, b, c), mode, attributes_a >> 168, attributes_b >> 168, attributes_c >> 168, r
             )
             r.block = size
             if size > 1:
@@ -124,8 +135,8 @@ def set_vectors(a: Vertex, b: Vertex, c: Vertex, registers: Registers) -> bool:
     r.reversed = spread(a.reversed, b.reversed, c.reversed)
     r.half = spread(a.half, b.half, c.half)
     r.half_reversed = spread(a.half_reversed, b.half_reversed, c.half_reversed)
-    # at most 60 degrees between normals: the square of a change is 1; and 1/16 for half vectors, Q40
-    if changes(r.normals, r.reversed) > 1 << 40 or changes(r.half, r.half_reversed) > 1 << 36:
+    # at most 60 degrees between normals: the square of a change is 1, Q40
+    if changes(r.normals, r.reversed) > 1 << 40 or changes(r.half, r.half_reversed) > r.half_reach:
         return False
     r.to_light = spread(a.to_light, b.to_light, c.to_light)
     return True
@@ -142,11 +153,15 @@ def spread(a: int, b: int, c: int) -> Varying:
 
 
 def block_size(square: int, mode: int, za: int, zb: int, zc: int, registers: Registers) -> int:
-    """Pixels over which neither light nor perspective bends the colour by more than a level."""
+    """Pixels over which interpolation between exact colours is off by about three levels at most.
+
+    Over n pixels of a triangle of height h perspective makes that dc * dz / 4z * (n / h)^2, and `reach` is the square
+    of the n for one and a half levels of light.
+    """
     nearest, farthest = max(za, zb, zc), min(za, zb, zc)
-    reach = square * farthest // (64 * (nearest - farthest) + 1)
+    reach = square * farthest // (20 * (nearest - farthest) + 1)
     if mode & IS_LIT:
-        reach = min(reach, registers.face_reach)
+        reach = min(reach, 2 * registers.face_reach)
     return min(max(sqrt(reach) >> 8, 1), 16)
 
 
@@ -164,12 +179,19 @@ def lit(word: int, factor: int) -> int:
 
 
 def is_affine(a: int, b: int, c: int) -> bool:
-    """Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones."""
-    depth = a >> 168
-    dz, dz2 = (b >> 168) - depth, (c >> 168) - depth
-    # |dz| | |dz2|: at least the larger, less than twice it
-    dz = (dz if dz >= 0 else ~dz) | (dz2 if dz2 >= 0 else ~dz2) | 0x3FFFF
-    # bound of the change of colour, Q10, in each lane, with a bit above that a difference beyond it clears
-    bound = divide(12288 * depth, dz) * ONES + GUARDS
-    b, c = b - a, c - a
-    return (bound + b) & (bound - b) & (bound + c) & (bound - c) & GUARDS & MASK == GUARDS
+    """Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones.
+
+    With weights w, depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three
+    pairs of vertices, where w_i w_j is 1/4 at most.
+    """
+    inverse = divide(1 << 84, a >> 168)
+    guards = GUARDS
+    for change in (b - a, c - a, c - b):
+        dz = change >> 168
+        # |z_i - z_j| / z, Q20
+        ratio = (dz if dz >= 0 else ~dz) * inverse >> 64
+        if ratio >= 1 << 36:
+            return False
+        # its product with the difference of the colours (Q10): above the limit, it clears a bit
+        guards &= (LIMITS + change * ratio) & (LIMITS - change * ratio)
+    return guards == GUARDS

@@ -41,8 +41,8 @@ class Vertex:
     #: flat highlights: the length of the ray, Q24, and a denominator for each light
     ray_length: int = 0
     places: list[int] = field(default_factory=list)
-    #: smooth shading: the normal with its lanes the other way round, the direction to the one light the other way round,
-    #: the half vector, and that the other way round
+    #: smooth shading with one light: normal and direction to the light, their lanes the other way round, the half
+    #: vector, and that the other way round
     has_varyings: bool = False
     reversed: int = 0
     to_light: int = 0
@@ -137,7 +137,7 @@ def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int
 
 
 def clip_of(position: list[int], registers: Registers) -> int:
-    """The clip coordinates of a vertex: lanes of x * distance, y * distance (96 bits each, biased) and distance, Q32."""
+    """The clip coordinates of a vertex, Q32: x * distance and y * distance (96 bits each, biased), distance."""
     x, y, z = position
     clip = x * registers.matrix_x + y * registers.matrix_y + z * registers.matrix_z + registers.matrix_t
     return clip & MASK

@@ -1,7 +1,7 @@
 """From the edges of triangles to fragments.
 
-A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the pixel that is nearest to it, with
-the depth and the colour of the line at the centre of that column or row.
+A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the pixel that is nearest to it,
+with the depth and the colour of the line at the centre of that column or row.
 """
 
 from __future__ import annotations

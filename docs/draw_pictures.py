@@ -11,6 +11,7 @@ import sys
 import tempfile
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image as PillowImage
@@ -57,7 +58,7 @@ def still_life() -> Image:
         return render(load(scene), size=(640, 480))
 
 
-def strip() -> PillowImage.Image:
+def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     base = Look(128, 128, color="#3f8fb5", lights=[KEY], background=NIGHT)
     flat = replace(GLAZED, shading="flat")
@@ -75,19 +76,21 @@ def strip() -> PillowImage.Image:
         replace(base, material=dim, color="#d8d8d8", lights=lamps),
         replace(base, material=GLAZED, invert=True),
     ]
-    return PillowImage.fromarray(np.hstack([render(pot(4, look)).pixels for look in looks]))
+    return [render(pot(4, look)) for look in looks]
 
 
 def main() -> None:
     """The command."""
     IMAGES.mkdir(exist_ok=True)
-    figures = {}
+    figures: dict[str, Any] = {}
     for name, draw in {"teapot": smooth, "wireframe": wireframe, "scene": still_life}.items():
         image = draw()
         image.save(IMAGES / f"{name}.png")
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
-        print(f"{name}.png: {figures[name]}")
-    strip().save(IMAGES / "strip.png", optimize=True)
+    images = strip()
+    PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
+    figures["strip"] = {"gas": [image.gas for image in images]}
+    print(json.dumps(figures, indent=1))
     (IMAGES / "pictures.json").write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
 
 

@@ -1,0 +1,465 @@
+"""Calldata that no codec of ours would make: each call returns a picture or is refused, within a bound of gas."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import eth_abi
+import numpy as np
+import pytest
+
+from float64 import scene_type
+from pictures import chain, dynamic, words
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled.artifacts import artifact
+from shackled.image import decode_bmp
+from shackled.scene.codec import encode_scene
+
+ONE = 1 << 32
+TRIANGLE = [[-50, -50, 0], [50, -50, 0], [0, 50, 0]]
+
+#: More than enough for what a small canvas can cost.
+GAS_BOUND = 200_000_000
+
+
+def small_scene(width: int = 32, height: int = 32) -> Scene:
+    """Two objects and two lights, with all that takes part in the layout of the call."""
+    mesh = Mesh(TRIANGLE, [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]], [[0, 0, 1]] * 3)
+    fan = Mesh([*TRIANGLE, [90, 20, -30], [-60, 70, 40]], [[0, 1, 2], [1, 3, 2], [2, 4, 0]], [[200, 180, 90]] * 5)
+    things = [
+        Object(mesh, (0, 0, -200), (0.1, 0.2, 0.3, 1), 1.5, Material("smooth", 0.2, 0.7, 0.5, 20)),
+        Object(fan, (20, 10, -150), (0, 0, 0, 1), 1.0, Material("flat", 0.2, 0.7, 0.5, 20), cull=False, wireframe=True),
+    ]
+    lights = [Light("directional", (1, 2, 3)), Light("point", (50, 60, -20), (255, 180, 90))]
+    return Scene(things, Camera(near=1), lights, Background((9, 8, 7), (60, 70, 80)), width=width, height=height)
+
+
+def call_data(function: str = "render", scene: Scene | None = None) -> bytes:
+    return artifact("Renderer").selectors[function] + words(0x20) + encode_scene(scene or small_scene())
+
+
+def refusal(data: bytes) -> str:
+    with pytest.raises(RenderError) as caught:
+        chain().call("Renderer", data, GAS_BOUND)
+    return str(caught.value).removeprefix("the contract refused: ")
+
+
+def tile_call(x: int, y: int, width: int, height: int) -> bytes:
+    return artifact("Renderer").selectors["renderTile"] + words(0xA0, x, y, width, height) + encode_scene(small_scene())
+
+
+# ---- scenes of values out of range, through an outside encoder ----
+
+
+@dataclass
+class Values:
+    """A scene as nested lists in the order of the ABI, to be changed at will."""
+
+    scene: list[Any]
+
+    def data(self) -> bytes:
+        scene = eth_abi.encode([scene_type()], [self.scene])  # type: ignore[attr-defined]
+        return artifact("Renderer").selectors["render"] + scene
+
+    @property
+    def camera(self) -> list[Any]:
+        return list_at(self.scene, 1)
+
+    @property
+    def objects(self) -> list[Any]:
+        return list_at(self.scene, 6)
+
+    @property
+    def lights(self) -> list[Any]:
+        return list_at(self.scene, 5)
+
+
+def list_at(values: list[Any], index: int) -> list[Any]:
+    found = values[index]
+    assert isinstance(found, list)
+    return found
+
+
+def lists(value: Any) -> Any:
+    return [lists(v) for v in value] if isinstance(value, tuple | list) else value
+
+
+def values() -> Values:
+    (scene,) = eth_abi.decode([scene_type()], call_data()[4:])  # type: ignore[attr-defined]
+    return Values(lists(scene))
+
+
+def put(*path: int, value: Any) -> Callable[[Values], None]:
+    """Sets one value of a scene."""
+
+    def change(v: Values) -> None:
+        where = v.scene
+        for index in path[:-1]:
+            where = where[index]
+        where[path[-1]] = value
+
+    return change
+
+
+CANVAS, CAMERA, BACKGROUND, INVERT, AMBIENT, LIGHTS, OBJECTS = range(7)
+MESH, POSITION, ROTATION, SCALE, MATERIAL, FLAGS = range(6)
+FAR = 1 << 58
+BIG = (1 << 255) - 1
+
+WRONG: list[tuple[Callable[[Values], None], str]] = [
+    (put(CANVAS, value=[0, 5]), "CanvasSize(width=0, height=5)"),
+    (put(CANVAS, value=[5, 0]), "CanvasSize(width=5, height=0)"),
+    (put(CANVAS, value=[1025, 1]), "CanvasSize(width=1025, height=1)"),
+    (put(CANVAS, value=[1, 1025]), "CanvasSize(width=1, height=1025)"),
+    (put(CANVAS, value=[2**256 - 1, 2]), f"CanvasSize(width={2**256 - 1}, height=2)"),
+    (put(CAMERA, 3, value=2), "UnknownProjection(projection=2)"),
+    (put(CAMERA, 3, value=2**255), f"UnknownProjection(projection={2**255})"),
+    (put(CAMERA, 4, value=(1 << 22) - 1), f"HalfHeightOutOfRange(halfHeight={(1 << 22) - 1})"),
+    (put(CAMERA, 4, value=(1 << 42) + 1), f"HalfHeightOutOfRange(halfHeight={(1 << 42) + 1})"),
+    (put(CAMERA, 4, value=0), "HalfHeightOutOfRange(halfHeight=0)"),
+    (put(CAMERA, 4, value=-ONE), f"HalfHeightOutOfRange(halfHeight={-ONE})"),
+    (put(CAMERA, 5, value=0), "NearOutOfRange(near=0)"),
+    (put(CAMERA, 5, value=-1), "NearOutOfRange(near=-1)"),
+    (put(CAMERA, 5, value=FAR + 1), f"NearOutOfRange(near={FAR + 1})"),
+    (put(CAMERA, 0, value=[FAR + 1, 0, 0]), f"CoordinateOutOfRange(x={FAR + 1}, y=0, z=0)"),
+    (put(CAMERA, 1, value=[0, -FAR - 1, 7]), f"CoordinateOutOfRange(x=0, y={-FAR - 1}, z=7)"),
+    (put(CAMERA, 2, value=[0, 1, BIG]), f"CoordinateOutOfRange(x=0, y=1, z={BIG})"),
+    (put(CAMERA, 1, value=[0, 0, 0]), "NoViewDirection()"),
+    (put(CAMERA, 2, value=[0, 0, 0]), "NoViewDirection()"),
+    (put(CAMERA, 2, value=[0, 0, 5 * ONE]), "NoViewDirection()"),
+    (put(CAMERA, 2, value=[0, 0, -1]), "NoViewDirection()"),
+    (put(BACKGROUND, 0, value=1 << 24), f"NotAColor(value={1 << 24})"),
+    (put(BACKGROUND, 1, value=2**256 - 1), f"NotAColor(value={2**256 - 1})"),
+    (put(AMBIENT, value=1 << 24), f"NotAColor(value={1 << 24})"),
+    (put(LIGHTS, 1, 2, value=1 << 200), f"NotAColor(value={1 << 200})"),
+    (put(INVERT, value=2), "NotAFlag(value=2)"),
+    (put(LIGHTS, value=[[0, [1, 1, 1], 0]] * 5), "TooManyLights(count=5)"),
+    (put(LIGHTS, value=[[0, [1, 1, 1], 0]] * 300), "TooManyLights(count=300)"),
+    (put(LIGHTS, 1, 0, value=2), "UnknownLight(light=1, kind=2)"),
+    (put(LIGHTS, 0, 1, value=[0, 0, 0]), "LightWithoutDirection(light=0)"),
+    (put(LIGHTS, 1, 1, value=[0, FAR + 1, 0]), f"CoordinateOutOfRange(x=0, y={FAR + 1}, z=0)"),
+    (put(OBJECTS, 0, POSITION, value=[0, 0, -FAR - 1]), f"CoordinateOutOfRange(x=0, y=0, z={-FAR - 1})"),
+    (put(OBJECTS, 1, ROTATION, value=[0, 0, 0, 0]), "RotationIsZero(object=1)"),
+    (put(OBJECTS, 1, ROTATION, value=[5, FAR + 1, 6, 7]), f"CoordinateOutOfRange(x=5, y={FAR + 1}, z=6)"),
+    (put(OBJECTS, 1, ROTATION, value=[5, 6, 7, -FAR - 1]), "CoordinateOutOfRange(x=5, y=6, z=7)"),
+    (put(OBJECTS, 0, SCALE, value=-1), "ScaleOutOfRange(object=0, scale=-1)"),
+    (put(OBJECTS, 0, SCALE, value=(1 << 44) + 1), f"ScaleOutOfRange(object=0, scale={(1 << 44) + 1})"),
+    (put(OBJECTS, 0, MATERIAL, 0, value=3), "UnknownShading(object=0, shading=3)"),
+    (put(OBJECTS, 1, MATERIAL, 0, value=2), "NoNormals(object=1)"),
+    (put(OBJECTS, 1, MATERIAL, 1, value=4 * ONE + 1), f"CoefficientOutOfRange(object=1, value={4 * ONE + 1})"),
+    (put(OBJECTS, 0, MATERIAL, 2, value=-1), "CoefficientOutOfRange(object=0, value=-1)"),
+    (put(OBJECTS, 0, MATERIAL, 3, value=BIG), f"CoefficientOutOfRange(object=0, value={BIG})"),
+    (put(OBJECTS, 0, MATERIAL, 4, value=0), "ShininessOutOfRange(object=0, shininess=0)"),
+    (put(OBJECTS, 1, MATERIAL, 4, value=129), "ShininessOutOfRange(object=1, shininess=129)"),
+    (put(OBJECTS, 1, FLAGS, value=4), "UnknownFlags(object=1, flags=4)"),
+    (put(OBJECTS, 0, MESH, value=b""), "MeshHeader(object=0, format=0, length=0)"),
+    (put(OBJECTS, 0, MESH, value=b"\0\0\0\0"), "MeshHeader(object=0, format=0, length=4)"),
+    (put(OBJECTS, 1, MESH, value=b"\4\0\0\0\0"), "MeshHeader(object=1, format=4, length=5)"),
+    (put(OBJECTS, 1, MESH, value=b"\xff" + bytes(40)), "MeshHeader(object=1, format=255, length=41)"),
+    (put(OBJECTS, 1, MESH, value=b"\0\0\1\0\1" + bytes(14)), "MeshLength(object=1, expected=20, actual=19)"),
+    (put(OBJECTS, 1, MESH, value=b"\0\0\1\0\1" + bytes(16)), "MeshLength(object=1, expected=20, actual=21)"),
+    (
+        put(OBJECTS, 1, MESH, value=b"\0\xff\xff\xff\xff" + bytes(15)),
+        f"MeshLength(object=1, expected={5 + 65535 * 15}, actual=20)",
+    ),
+    (
+        put(OBJECTS, 0, MESH, value=b"\3\0\1\0\1" + bytes(16) + b"\0\0\0\0\0\1"),
+        "IndexOutOfRange(object=0, face=0, vertexCount=1)",
+    ),
+    (
+        put(OBJECTS, 1, MESH, value=b"\0\0\1\0\2" + bytes(9) + bytes(6) + b"\0\0\0\0\0\1"),
+        "IndexOutOfRange(object=1, face=1, vertexCount=1)",
+    ),
+    (
+        put(OBJECTS, 1, MESH, value=b"\0\0\1\0\1" + bytes(9) + b"\xff\xff\0\0\0\0"),
+        "IndexOutOfRange(object=1, face=0, vertexCount=1)",
+    ),
+    (put(OBJECTS, 1, MESH, value=b"\0\0\0\0\1" + bytes(6)), "IndexOutOfRange(object=1, face=0, vertexCount=0)"),
+]
+
+
+@pytest.mark.parametrize(("change", "error"), WRONG, ids=lambda case: case if isinstance(case, str) else "")
+def test_values_out_of_range(change: Callable[[Values], None], error: str) -> None:
+    wrong = values()
+    change(wrong)
+    assert refusal(wrong.data()) == error
+
+
+def test_every_error_of_a_scene_is_provoked() -> None:
+    """All that the contract declares for scenes; the others have tests of their own below."""
+    declared = {name for name, _ in artifact("Renderer").errors.values()}
+    provoked = {error.partition("(")[0] for _, error in WRONG}
+    assert (
+        declared - provoked
+        == {
+            "AngleOutOfRange",
+            "MalformedScene",
+            "NoEngine",
+            "OutOfGas",
+            "RectangleOutsideCanvas",
+        }
+        & declared
+    )
+
+
+ALLOWED: list[Callable[[Values], None]] = [
+    put(CAMERA, 0, value=[FAR, FAR, -FAR]),
+    put(CAMERA, 1, value=[-FAR, FAR, -FAR]),
+    put(CAMERA, 2, value=[1, 0, 0]),
+    put(CAMERA, 4, value=1 << 22),
+    put(CAMERA, 4, value=1 << 42),
+    put(CAMERA, 5, value=1),
+    put(CAMERA, 5, value=FAR),
+    put(CAMERA, value=[[0] * 3, [0, 0, -1], [0, 1, 0], 1, 1 << 20, -FAR]),
+    put(CAMERA, value=[[0] * 3, [0, 0, -1], [0, 1, 0], 1, FAR, FAR]),
+    put(LIGHTS, value=[]),
+    put(LIGHTS, value=[[0, [1, 0, 0], 0]] * 4),
+    put(LIGHTS, 0, 1, value=[FAR, -FAR, FAR]),
+    put(LIGHTS, 1, 1, value=[-FAR, -FAR, FAR]),
+    put(OBJECTS, value=[]),
+    put(OBJECTS, 0, POSITION, value=[-FAR, FAR, -FAR]),
+    put(OBJECTS, 0, ROTATION, value=[0, 0, 0, 1]),
+    put(OBJECTS, 0, ROTATION, value=[FAR, FAR, -FAR, FAR]),
+    put(OBJECTS, 0, SCALE, value=0),
+    put(OBJECTS, 0, SCALE, value=1 << 44),
+    put(OBJECTS, 0, MATERIAL, value=[2, 4 * ONE, 4 * ONE, 4 * ONE, 128]),
+    put(OBJECTS, 0, MATERIAL, value=[2, 0, 0, 0, 1]),
+    put(OBJECTS, 1, MESH, value=b"\0\0\0\0\0"),
+    put(OBJECTS, 1, MESH, value=b"\3\0\1\0\0" + bytes(16)),
+]
+
+
+@pytest.mark.parametrize("index", range(len(ALLOWED)))
+def test_values_at_the_ends_of_their_ranges(index: int) -> None:
+    allowed = values()
+    ALLOWED[index](allowed)
+    assert_picture(chain().call("Renderer", allowed.data(), GAS_BOUND).output, 32, 32)
+
+
+@pytest.mark.parametrize(
+    "tile",
+    [
+        *[(0, 0, 0, 5), (0, 0, 5, 0), (0, 0, 33, 1), (0, 0, 1, 33)],
+        *[(32, 0, 1, 1), (0, 32, 1, 1), (31, 0, 2, 1), (0, 31, 1, 2)],
+        *[(2**256 - 1, 0, 2, 1), (0, 2**256 - 1, 1, 2), (2**255, 0, 2**255, 1), (0, 0, 2**256 - 1, 1)],
+    ],
+)
+def test_tiles_outside_the_canvas(tile: tuple[int, int, int, int]) -> None:
+    expected = "RectangleOutsideCanvas(x={}, y={}, width={}, height={})".format(*tile)
+    assert refusal(tile_call(*tile)) == expected
+
+
+@pytest.mark.parametrize("angle", [2**59 + 2, -(2**59) - 3, 2**255 - 1, -(2**255)])
+def test_angles_out_of_range(angle: int) -> None:
+    data = artifact("Renderer").selectors["eulerRotation"]
+    for position in range(3):
+        angles = [0, 0, 0]
+        angles[position] = angle
+        assert refusal(data + words(*angles)) == f"AngleOutOfRange(degrees_={angle >> 1})"
+
+
+def test_too_little_gas() -> None:
+    data = call_data()
+    needed = chain().call("Renderer", data).gas
+    for gas in (needed // 2, 100_000, 30_000, 5_000):
+        with pytest.raises(RenderError, match="ran out of gas"):
+            chain().call("Renderer", data, gas)
+
+
+# ---- offsets and lengths ----
+
+HEAD = 4 + 32
+#: Places in the calldata of `small_scene`, where offsets and lengths are.
+LIGHTS_OFFSET, OBJECTS_OFFSET = HEAD + 32 * 18, HEAD + 32 * 19
+
+
+def word_at(data: bytes, position: int) -> int:
+    return int.from_bytes(data[position : position + 32], "big")
+
+
+def with_word(data: bytes, position: int, value: int) -> bytes:
+    return data[:position] + words(value) + data[position + 32 :]
+
+
+def layout(data: bytes) -> dict[str, int]:
+    """The position of every offset and length of a call."""
+    lights = HEAD + word_at(data, LIGHTS_OFFSET)
+    objects = HEAD + word_at(data, OBJECTS_OFFSET)
+    places = {
+        "offset of the lights": LIGHTS_OFFSET,
+        "offset of the objects": OBJECTS_OFFSET,
+        "number of lights": lights,
+        "number of objects": objects,
+    }
+    for i in range(word_at(data, objects)):
+        start = objects + 32 + word_at(data, objects + 32 + 32 * i)
+        places[f"offset of object {i}"] = objects + 32 + 32 * i
+        places[f"offset of the mesh of object {i}"] = start
+        places[f"length of the mesh of object {i}"] = start + word_at(data, start)
+    return places
+
+
+@pytest.mark.parametrize("place", layout(call_data()))
+@pytest.mark.parametrize("value", [2**256 - 1, 2**256 - 32, 2**255, 2**64, 2**32, 1_000_000])
+def test_offsets_and_lengths_beyond_the_end(place: str, value: int) -> None:
+    data = call_data()
+    position = layout(data)[place]
+    assert refusal(with_word(data, position, value)) == f"MalformedScene(position={position})"
+
+
+def test_lengths_that_just_do_not_fit() -> None:
+    data = call_data()
+    places = layout(data)
+    for place, size in (("number of lights", 5 * 32), ("number of objects", 32), ("length of the mesh of object 1", 1)):
+        most = (len(data) - places[place] - 32) // size
+        error = refusal(with_word(data, places[place], most + 1))
+        assert error == f"MalformedScene(position={places[place]})"
+        # fits, but is wrong in another way
+        assert not refusal(with_word(data, places[place], most)).startswith(f"MalformedScene(position={places[place]})")
+
+
+def test_an_offset_of_the_scene_beyond_the_end() -> None:
+    for value in (2**256 - 1, 2**64, len(call_data())):
+        # refused by the compiler's decoder, without words
+        assert "encoded" in refusal(with_word(call_data(), 4, value))
+
+
+def test_other_orders_and_shared_parts_are_the_same_scene() -> None:
+    """The ABI lets parts stand anywhere, and lets two offsets lead to one part."""
+    scene = small_scene()
+    twice = replace(scene, objects=[scene.objects[1], scene.objects[1]])
+    expected = chain().call("Renderer", call_data(scene=twice)).output
+    data = call_data(scene=twice)
+    objects = layout(data)["number of objects"] + 32
+    shared = with_word(data, objects + 32, word_at(data, objects))
+    assert chain().call("Renderer", shared).output == expected
+    # lights behind everything else
+    data = call_data()
+    lights = layout(data)["number of lights"]
+    size = 32 + 32 * 5 * word_at(data, lights)
+    moved = with_word(data, LIGHTS_OFFSET, len(data) - HEAD) + data[lights : lights + size]
+    assert chain().call("Renderer", moved).output == chain().call("Renderer", data).output
+    # not at a multiple of 32, with something between
+    crooked = with_word(data, LIGHTS_OFFSET, len(data) - HEAD + 7) + b"between" + data[lights : lights + size]
+    assert chain().call("Renderer", crooked).output == chain().call("Renderer", data).output
+
+
+def test_bytes_after_the_scene_do_not_matter() -> None:
+    data = call_data()
+    assert chain().call("Renderer", data + b"\xff" * 100).output == chain().call("Renderer", data).output
+
+
+@pytest.mark.parametrize("function", ["render", "renderCounted", "renderDataURI", "renderSVG"])
+def test_truncated_calls_are_refused(function: str) -> None:
+    data = call_data(function)
+    places = layout(call_data())
+    last = places["length of the mesh of object 1"]
+    needed = last + 32 + word_at(data, last)
+    for size in {*range(0, needed, 32), needed - 1, needed - 31}:
+        message = refusal(data[:size])
+        if size >= HEAD + 32 * 20:
+            assert re.fullmatch(r"MalformedScene\(position=\d+\)", message), f"{size} bytes: {message}"
+    chain().call("Renderer", data[:needed])
+
+
+def test_unknown_functions_and_value() -> None:
+    for data in (b"", b"\0", bytes(4), b"\xff" * 4, bytes(1000)):
+        refusal(data)
+
+
+# ---- fuzz ----
+
+
+def assert_picture(output: bytes, width: int, height: int) -> None:
+    bmp = dynamic(output)
+    assert decode_bmp(bmp, width, height).shape == (height, width, 3)
+
+
+def outcome(data: bytes) -> str:
+    """The error, or "" for a picture; which must be one."""
+    try:
+        result = chain().call("Renderer", data, GAS_BOUND)
+    except RenderError as error:
+        message = str(error)
+        # a revert with one of the contract's own errors, or without data by the decoder
+        assert "ran out of gas" not in message, data.hex()
+        assert "encoded" in message or re.match(r"the contract refused: [A-Z]\w+\(", message), message
+        assert "Panic" not in message, message
+        return message
+    start = 4 + word_at(data, 4)
+    assert_picture(result.output, word_at(data, start), word_at(data, start + 32))
+    return ""
+
+
+INTERESTING = [0, 1, 2, 3, 31, 32, 33, 255, 2**15, 2**16, 2**31, 2**32, 2**58, 2**59, 2**63, 2**64, 2**128, 2**255]
+
+
+def interesting(rng: np.random.Generator, old: int) -> int:
+    kind = rng.integers(5)
+    if kind == 0:
+        value = int(rng.choice(np.array(INTERESTING, dtype=object)))
+        return value * int(rng.choice([1, -1])) % 2**256
+    if kind == 1:
+        return (old + int(rng.integers(-40, 41))) % 2**256
+    if kind == 2:
+        return old ^ 1 << int(rng.integers(256))
+    if kind == 3:
+        return int(rng.integers(-(2**62), 2**62)) % 2**256 >> int(rng.integers(60))
+    return int.from_bytes(rng.bytes(32), "big")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_changed_words(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pictures = 0
+    for _ in range(250):
+        data = call_data()
+        for _ in range(rng.integers(1, 4)):
+            position = 4 + 32 * int(rng.integers((len(data) - 4) // 32))
+            value = interesting(rng, word_at(data, position))
+            # a canvas of another size has another bound
+            if (position - HEAD) // 32 in (0, 1) and 32 < value <= 1024:
+                continue
+            data = with_word(data, position, value)
+        pictures += outcome(data) == ""
+    assert 20 < pictures < 240
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_changed_bytes(seed: int) -> None:
+    rng = np.random.default_rng(seed + 100)
+    pictures = 0
+    for _ in range(250):
+        data = bytearray(call_data())
+        for _ in range(rng.integers(1, 6)):
+            position = int(rng.integers(HEAD + 64, len(data)))
+            # mostly where values are, not zeros above them
+            if data[position] == 0 and rng.random() < 0.7:
+                continue
+            data[position] = int(rng.integers(256))
+        if rng.random() < 0.1:
+            del data[int(rng.integers(4, len(data))) :]
+        pictures += outcome(bytes(data)) == ""
+    assert 20 < pictures < 240
+
+
+def test_changed_meshes() -> None:
+    """Any bytes are a mesh if there are as many as its header says, and its faces name its vertices."""
+    rng = np.random.default_rng(7)
+    pictures = 0
+    for _ in range(200):
+        wrong = values()
+        kind = int(rng.integers(4))
+        count, faces = (int(n) for n in rng.integers(1, 9, 2))
+        size = count * ((9 if kind & 2 else 6) + (7 if kind & 1 else 3))
+        indices = rng.integers(0, count + (rng.random() < 0.2), (faces, 3)).astype(">u2").tobytes()
+        mesh = bytes([kind]) + np.array([count, faces], ">u2").tobytes() + rng.bytes(size) + indices
+        which = int(rng.integers(2))
+        wrong.objects[which][MESH] = mesh
+        wrong.objects[which][MATERIAL][0] = int(rng.integers(3)) if kind & 1 else int(rng.integers(2))
+        wrong.objects[which][SCALE] = int(2 ** rng.uniform(18, 32))
+        pictures += outcome(wrong.data()) == ""
+    assert pictures > 100

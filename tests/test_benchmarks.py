@@ -1,0 +1,62 @@
+"""What the benchmarks claim: gas grows with triangles and pixels in a straight line; stages add up to the whole."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from benchmarks import linearity, stages
+from benchmarks.measure import gas
+from benchmarks.scenes import cubes, staged_teapot
+from benchmarks.workload import workload_of
+
+from shackled import Scene
+from shackled.chain import open_chain
+
+
+def faces(scene: Scene) -> int:
+    return sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+
+
+@pytest.mark.parametrize("look", ["unlit", "matte"])
+def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
+    pytest.importorskip("pyrevm", reason="py-evm would take minutes")
+    scenes = linearity.squares(look) + linearity.cubes(look)
+    triangles = np.array([faces(scene) for scene in scenes], float)
+    pixels = np.array([scene.width * scene.height for scene in scenes], float)
+    found = linearity.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))
+    assert found.r2 >= 0.999
+    assert min(found.coefficients) > 0
+
+
+def test_a_fit_finds_a_line_and_a_square() -> None:
+    x = np.arange(1.0, 20)
+    line, curve = 5 + 3 * x, 5 + x**2
+    assert linearity.fit([x], line).coefficients == pytest.approx([5, 3])
+    assert linearity.fit([x], line).r2 == pytest.approx(1)
+    assert linearity.fit([x], curve).r2 < 0.999
+    assert linearity.quadratic_share([x], line) == pytest.approx(0, abs=1e-9)
+    assert linearity.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
+
+
+def test_the_workload_is_that_of_the_picture() -> None:
+    scene = cubes(24)
+    work = workload_of(scene)
+    assert (work.vertices, work.faces, work.canvas) == (24, 36, 576)
+    chain = open_chain("reference")
+    assert (work.drawn, work.lit) == chain.count(scene)
+    assert work.tested >= work.lit
+    assert work.rows >= work.drawn
+
+
+@pytest.mark.skipif(stages.missing() is not None, reason=f"needs {stages.missing()}")
+def test_the_stages_add_up() -> None:
+    scene = staged_teapot("flat", 24)
+    spent = stages.gas_by_stage(scene)
+    assert sum(spent.values()) == gas(scene)
+    assert min(spent[stage] for stage in stages.STAGES if stage != "encoding") > 0
+    # the same but for what is inverted in the end
+    inverted = stages.gas_by_stage(staged_teapot("flat", 24, invert=True))
+    assert [stage for stage in stages.STAGES if inverted[stage] > spent[stage] + 300] == ["compositor"]
+    # no light, no work for it
+    unlit = stages.gas_by_stage(staged_teapot("unlit", 24))
+    assert unlit["fragment shader"] < spent["fragment shader"] / 10

@@ -1,0 +1,94 @@
+"""The contracts against the reference renderer, byte for byte."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from differential import compare, compare_broken, contract_answer, difference, reference_answer
+from pictures import call_data, chain, shared_folder
+from random_scenes import KINDS, Kind, random_case
+from shackled import Camera, Light, Material, Mesh, Object, Scene, load
+from shackled.errors import InputError
+from shackled.reference import selector
+from shackled.scene.codec import Rectangle, encode
+
+SEEDS = 250
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("first", [1, 1 + SEEDS])
+def test_random_scenes(kind: Kind, first: int) -> None:
+    found = {}
+    for seed in range(first, first + SEEDS):
+        found[seed], _ = compare(random_case(seed, (kind,)), chain())
+    assert {seed: text for seed, text in found.items() if text} == {}
+
+
+def test_random_scenes_are_worth_it() -> None:
+    answers = [compare(random_case(seed), chain())[1] for seed in range(1, 101)]
+    drawn = [answer for answer in answers if isinstance(answer, bytes) and int.from_bytes(answer[64:96], "big")]
+    assert len(drawn) > 50
+
+
+def test_broken_calls() -> None:
+    outcomes = {seed: compare_broken(seed, chain()) for seed in range(1, 801)}
+    assert {seed: text for seed, (text, _) in outcomes.items() if text} == {}
+    errors = {answer.partition("(")[0] for _, answer in outcomes.values() if isinstance(answer, str)}
+    assert len(errors) > 12
+
+
+@pytest.mark.parametrize(
+    "material",
+    [None, Material("smooth", 0.2, 0.7, 0.5, 20), Material("flat", 0.2, 0.7, 0.5, 20)],
+    ids=lambda material: material.shading if material else "as it is",
+)
+@pytest.mark.parametrize("prefix", ["obj_", "genesis_", "cube_", "probe_", ""])
+def test_shared_scenes(prefix: str, material: Material | None) -> None:
+    names = sorted(path.stem for path in shared_folder().glob("*.json"))
+    if not names:
+        pytest.skip(f"there are no scenes in {shared_folder()}: set SHACKLED_SHARED")
+    known = ("obj_", "genesis_", "cube_", "probe_")
+    mine = [name for name in names if (name.startswith(prefix) if prefix else not name.startswith(known))]
+    found = {}
+    for name in mine:
+        try:
+            scene = load(shared_folder() / f"{name}.json")
+        except InputError:
+            # a file that is wrong on purpose
+            continue
+        if material:
+            objects = [replace(each, material=material) for each in scene.objects]
+            scene = replace(scene, objects=objects, lights=[Light("point", (500, 800, 0))])
+        data = encode(selector("renderCounted"), scene)
+        found[name] = difference(contract_answer(chain(), data), reference_answer(data))
+    assert len(found) > len(mine) * 0.6
+    assert {name: text for name, text in found.items() if text} == {}
+
+
+TRIANGLE = Mesh([[-30000, -30000, 0], [30000, -30000, 0], [0, 30000, 0]], [[0, 1, 2]], normals=[[0, 0, 1]] * 3)
+
+
+@pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
+@pytest.mark.parametrize("kind", ["point", "directional"])
+def test_a_depth_that_rounds_to_zero(shading: str, kind: str) -> None:
+    far = Object(TRIANGLE, (0, 0, -(2**25)), scale=2**6, material=Material(shading), cull=False)  # type: ignore[arg-type]
+    light = Light(kind, (0, 0, 2**25))  # type: ignore[arg-type]
+    data = call_data("renderCounted", Scene([far], Camera(near=2.0**-32), [light], width=64, height=64))
+    answer = reference_answer(data)
+    assert isinstance(answer, bytes)
+    assert difference(contract_answer(chain(), data), answer) is None
+
+
+@pytest.mark.parametrize(("width", "height"), [(1024, 27), (27, 1024), (1024, 1024)])
+@pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
+def test_large_canvases(width: int, height: int, shading: str) -> None:
+    mesh = replace(TRIANGLE, colors=np.eye(3, dtype=np.uint8) * 255)
+    obj = Object(mesh, (0, 0, -1000), (0.3, 0.5, 0, 1), 0.02, Material(shading))  # type: ignore[arg-type]
+    lights = [Light("directional", (1, 1, 1)), Light("directional", (-1, 0, 1), (255, 90, 0))]
+    scene = Scene([obj], Camera(near=1.0), lights, width=width, height=height)
+    tile = Rectangle(width // 3, height // 3, width // 2, height // 2)
+    for data in (call_data("renderCounted", scene), call_data("renderTile", scene, tile)):
+        assert difference(contract_answer(chain(), data), reference_answer(data)) is None
