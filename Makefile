@@ -30,7 +30,7 @@ $(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
 demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --rotate 0,12,0 --color '#c8553d' \
-		--light 'directional:-0.2,0.8,0.9:#fff6ea' --ambient 0.25 --diffuse 0.85 --specular 0.6 --shininess 30 \
+		--cull --light 'directional:-0.2,0.8,0.9' --ambient 0.25 --diffuse 0.85 --specular 0.6 --shininess 30 \
 		--background '#f3e9dc,#c7b8a6'
 
 # ---- everything that must hold, the quick checks first ----

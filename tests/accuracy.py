@@ -236,7 +236,7 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
             found[f"{name}, flat"] = lambda count=count, first=first: flat(teapot_scene(count, first))  # type: ignore[misc]
     for shininess in (1, 2, 5, 128):
         for first, kind in ((0, "directional"), (1, "point")):
-            make = lambda s=shininess, f=first: teapot_scene(1, f, shininess=s, specular=0.9) # noqa: E731
+            make = lambda s=shininess, f=first: teapot_scene(1, f, shininess=s, specular=0.9)  # noqa: E731
             found[f"teapot, shininess {shininess}, {kind}"] = make
             found[f"teapot, shininess {shininess}, {kind}, flat"] = lambda make=make: flat(make())  # type: ignore[misc]
     found |= {
@@ -273,6 +273,9 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
         ),
         "triangle whose far and near corners differ most, unlit": lambda: screen_triangle(
             ((60, 5), (5, 100), (120, 100)), (1000, 1099, 917), ((128, 128, 128), (0, 0, 0), (255, 255, 255))
+        ),
+        "triangle whose top is near, unlit": lambda: screen_triangle(
+            ((60, 5), (5, 100), (120, 100)), (100, 10000, 10000), ((112, 112, 112), (100, 100, 100), (100, 100, 100))
         ),
         "orthographic, shininess 1, grazing": lambda: grazing(1),
         "orthographic, shininess 3, grazing": lambda: grazing(3),

@@ -450,7 +450,11 @@ library FragmentShader {
                     ly -= y >> 16;
                     lz -= (int256(load(DEPTH_SCALE) << 8) - int256(depth)) >> 16;
                 } else {
-                    int256 distance = int256((load(DEPTH_SCALE) << 8) / depth);
+                    int256 distance;
+                    assembly ("memory-safe") {
+                        // a depth may be zero, and then this is
+                        distance := div(shl(8, mload(DEPTH_SCALE)), depth)
+                    }
                     lx -= (x * distance) >> 40;
                     ly -= (y * distance) >> 40;
                     lz -= distance >> 16;

@@ -175,7 +175,7 @@ function checkMesh(bytes calldata data, uint256 index) pure returns (uint256 bit
         assembly ("memory-safe") {
             header := shr(216, calldataload(data.offset))
         }
-        uint256 format = header >> 32;
+        uint256 format = data.length == 0 ? 0 : header >> 32;
         if (data.length < 5 || format > NORMALS + WIDE) revert MeshHeader(index, format, data.length);
         bits = format & WIDE == 0 ? 16 : 24;
         hasNormals = format & NORMALS != 0;

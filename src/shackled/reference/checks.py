@@ -132,7 +132,7 @@ def check_object(obj: Object, index: int) -> None:
 
 def check_mesh(header: int, length: int, index: int) -> tuple[int, bool]:
     """Header and length of a mesh; returns the bits of a coordinate, and whether it has normals."""
-    kind = header >> 32
+    kind = header >> 32 if length else 0
     if length < 5 or kind > NORMALS + WIDE:
         raise Reverted("MeshHeader", object=index, format=kind, length=length)
     bits, has_normals = (24 if kind & WIDE else 16), bool(kind & NORMALS)

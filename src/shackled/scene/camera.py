@@ -13,9 +13,8 @@ from ..errors import InputError
 
 Projection = Literal["perspective", "orthographic"]
 
-#: Half the height of the picture at distance 1 with the default field of view, about 50 degrees: 1 / tan(fov / 2) = 2.145.
+#: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).
 DEFAULT_HALF_HEIGHT = 1 / 2.145
-
 
 
 @dataclass(frozen=True)
@@ -25,8 +24,8 @@ class Camera:
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
     half_height: half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half
         the vertical field of view, 2^-10..2^10), in world units for an orthographic one.
-    near: distance of the near plane; what is nearer is clipped. Positive for a perspective camera. None chooses one from
-        the extent of the scene.
+    near: distance of the near plane; what is nearer is clipped. Positive for a perspective camera. None chooses one
+        from the extent of the scene.
     """
 
     eye: ArrayLike = (0, 0, 0)
@@ -45,7 +44,9 @@ class Camera:
         if self.near is not None:
             number(self.near, "the camera's near distance")
             if self.projection == "perspective" and self.near <= 0:
-                raise InputError(f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}")
+                raise InputError(
+                    f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}"
+                )
 
 
 def half_height_of(fov: float) -> float:

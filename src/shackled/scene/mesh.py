@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,8 @@ MAX_VERTICES = 65535
 MAX_FACES = 65535
 
 DEFAULT_COLOR = (200, 200, 200)
+
+Number = TypeVar("Number", np.float64, np.int64)
 
 
 @dataclass(frozen=True)
@@ -38,11 +41,14 @@ class Mesh:
             raise InputError(f"a mesh needs vertices and faces; this one has {len(positions)} and {len(faces)}")
         bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
         if len(bad):
-            raise InputError(f"vertex {bad[0]} has a coordinate that is not a finite number: {positions[bad[0]].tolist()}")
+            raise InputError(
+                f"vertex {bad[0]} has a coordinate that is not a finite number: {positions[bad[0]].tolist()}"
+            )
         bad = np.flatnonzero(((faces < 0) | (faces >= len(positions))).any(axis=1))
         if len(bad):
             raise InputError(
-                f"face {bad[0]} names the vertices {faces[bad[0]].tolist()}, but they are numbered 0 to {len(positions) - 1}"
+                f"face {bad[0]} names the vertices {faces[bad[0]].tolist()}, "
+                f"but they are numbered 0 to {len(positions) - 1}"
             )
         colors = np.full((len(positions), 3), DEFAULT_COLOR) if self.colors is None else self.colors
         colors = _table(colors, "the colours of a mesh", np.int64)
@@ -57,24 +63,27 @@ class Mesh:
         if self.normals is not None:
             normals = _table(self.normals, "the normals of a mesh", np.float64)
             if len(normals) != len(positions) or not np.isfinite(normals).all():
-                raise InputError(f"a mesh of {len(positions)} vertices needs as many finite normals, not {len(normals)}")
+                raise InputError(
+                    f"a mesh needs a finite normal for each of its {len(positions)} vertices, not {len(normals)}"
+                )
             object.__setattr__(self, "normals", normals)
 
 
 def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """(n, 3) unit normals: the mean of the faces around each vertex, weighted by their area; zero where there is none."""
+    """(n, 3) unit normals: the mean of the faces around each vertex, weighted by area; zero where there is none."""
     corners = positions[faces]
     face_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros_like(positions)
     for corner in range(3):
         np.add.at(normals, faces[:, corner], face_normals)
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    units: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    return units
 
 
-def _table(values: ArrayLike, name: str, dtype: type) -> NDArray:
+def _table(values: ArrayLike, name: str, dtype: type[Number]) -> NDArray[Number]:
     try:
-        result = np.array(values, dtype=dtype)
+        result: NDArray[Number] = np.array(values, dtype=dtype)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be rows of 3 numbers") from None
     if result.size == 0:

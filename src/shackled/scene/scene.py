@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from numpy.typing import ArrayLike
 
@@ -28,9 +28,9 @@ class Scene:
     """
 
     objects: Sequence[Object]
-    camera: Camera = Camera()
+    camera: Camera = field(default_factory=Camera)
     lights: Sequence[Light] = ()
-    background: Background = Background()
+    background: Background = field(default_factory=Background)
     ambient_light: ArrayLike = (255, 255, 255)
     invert: bool = False
     width: int = 128

@@ -23,9 +23,8 @@ from .scene import Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 
-#: Toward the lights, in the directions right, up and toward the viewer; with their colours.
-KEY_LIGHT = ((-0.5, 0.75, 0.8), (255, 252, 244))
-FILL_LIGHT = ((0.9, 0.15, 0.45), (82, 90, 108))
+#: Toward the light, in the directions right, up and toward the viewer. Contracts are fastest with one white light.
+KEY_LIGHT = (-0.4, 0.7, 0.8)
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class Look:
     half_height: as in `Camera`, for the perspective camera; the orthographic one takes what the mesh needs.
     margin: the part of the picture's half width and half height that stays free around the mesh, 0..0.9.
     color: one colour for the whole mesh in place of its own.
-    lights: None for a key light from the upper left and a weaker fill light from the right.
+    lights: None for a white light from the upper left.
     cull: None leaves out the faces that turn away where the mesh is closed, so that this cannot be seen.
     """
 
@@ -50,7 +49,7 @@ class Look:
     half_height: float = DEFAULT_HALF_HEIGHT
     margin: float = 0.08
     color: ArrayLike | None = None
-    material: Material = field(default_factory=lambda: Material("flat", 0.25, 0.75, 0.3, 24))
+    material: Material = field(default_factory=lambda: Material("flat", 0.3, 0.75, 0.3, 24))
     lights: Sequence[Light] | None = None
     background: Background = BACKGROUND
     ambient_light: ArrayLike = (255, 255, 255)
@@ -87,7 +86,7 @@ def stage(mesh: Mesh, look: Look | None = None) -> Scene:
             )
         ],
         camera=frame(turned, look),
-        lights=studio_lights(look) if look.lights is None else look.lights,
+        lights=[key_light(look)] if look.lights is None else look.lights,
         background=look.background,
         ambient_light=look.ambient_light,
         invert=look.invert,
@@ -132,10 +131,9 @@ def frame(points: NDArray[np.float64], look: Look) -> Camera:
     )
 
 
-def studio_lights(look: Look) -> tuple[Light, ...]:
-    """A key light and a fill light that stay where they are for the viewer, wherever the viewer stands."""
-    axes = np.stack(view_axes(look))
-    return tuple(Light("directional", np.asarray(toward) @ axes, color) for toward, color in (KEY_LIGHT, FILL_LIGHT))
+def key_light(look: Look) -> Light:
+    """A light that stays where it is for the viewer, wherever the viewer stands."""
+    return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(look)))
 
 
 def view_axes(look: Look) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

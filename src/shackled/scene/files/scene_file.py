@@ -20,7 +20,7 @@ from ..mesh import Mesh
 from ..object import Object
 from ..rotation import from_axis_angle, from_euler, rotate
 from ..scene import Scene
-from ..staging import BACKGROUND, Look, frame, painted, studio_lights
+from ..staging import BACKGROUND, Look, frame, key_light, painted
 from .mesh_file import read_mesh
 from .table import Table, about
 
@@ -57,7 +57,7 @@ def scene_of(document: Mapping[str, Any], folder: Path) -> Scene:
         camera=_camera(keys, look, objects),
         lights=[_light(part, where) for where, part in table.rows("lights")]
         if "lights" in table
-        else studio_lights(look),
+        else [key_light(look)],
         background=_background(table),
         ambient_light=table.color("ambient_light", _WHITE),
         invert=table.flag("invert", False),
