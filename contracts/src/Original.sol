@@ -20,7 +20,7 @@ import {
     CULL_BACKFACES,
     WIREFRAME
 } from "./scene/Scene.sol";
-import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT} from "./scene/Checks.sol";
+import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT, MAX_EXTENT} from "./scene/Checks.sol";
 import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";
 import {Text} from "./encode/Text.sol";
@@ -74,7 +74,7 @@ contract Original {
     error TooManyVertices(uint256 count);
     /// @notice A face uses a vertex that has no position or no colour.
     error NoVertex(uint256 face, uint256 vertex);
-    /// @notice The coordinates of a mesh are from -2^23 to 2^23 - 1.
+    /// @notice The coordinates of a mesh, and their products with what the scale has above 16, are from -2^23 to 2^23 - 1.
     error VertexOutOfRange(uint256 vertex, int256 x, int256 y, int256 z);
     error ColorOutOfRange(int256 red, int256 green, int256 blue);
     error NumberOutOfRange(int256 value);
@@ -113,10 +113,12 @@ contract Original {
 
             scene.objects = new Object[](1);
             Object memory object = scene.objects[0];
-            object.mesh = pack(params);
             object.position = toVector(params.objPosition);
             object.rotation = Quaternion(ZERO, ZERO, ZERO, ONE);
-            object.scale = toFixed(params.objScale < 0 ? -params.objScale : params.objScale);
+            Fixed scale = toFixed(params.objScale < 0 ? -params.objScale : params.objScale);
+            (uint256 bits, uint256 shift) = toFormat(params.verts, scale);
+            object.mesh = pack(params, bits, shift);
+            object.scale = Fixed.wrap(scale.raw() >> shift);
             object.flags = (params.backfaceCulling ? CULL_BACKFACES : 0) + (params.wireframe ? WIREFRAME : 0);
             object.material = Material(UNLIT, ONE, ZERO, ZERO, 1);
             if (params.lightingParams.applyLighting) setLight(scene, object.material, params.lightingParams);
@@ -178,25 +180,44 @@ contract Original {
         return color[0] + color[1] + color[2];
     }
 
-    /// @notice The mesh in the format of `Mesh.sol`, with 3 bytes a coordinate.
-    function pack(RenderParams calldata params) private pure returns (bytes memory mesh) {
+    /// @dev How many bits a coordinate needs, and by how many bits the scale has to be shifted into the coordinates to be within its
+    /// limit. Where no format is wide enough, `pack` or the renderer says so.
+    function toFormat(int256[3][] calldata verts, Fixed scale) private pure returns (uint256 bits, uint256 shift) {
+        unchecked {
+            uint256 used;
+            for (uint256 i; i != verts.length; ++i) {
+                for (uint256 j; j != 3; ++j) {
+                    int256 value = verts[i][j];
+                    used |= uint256(value < 0 ? -value : value);
+                }
+            }
+            for (bits = 16; bits <= 24; bits += 8) {
+                for (shift = 0; scale.raw() >> shift > MAX_EXTENT >> (bits - 1);) ++shift;
+                if (used >> (bits - 1 - shift) == 0) return (bits, shift);
+            }
+            bits = 24;
+        }
+    }
+
+    /// @notice The mesh in the format of `Mesh.sol`.
+    function pack(RenderParams calldata params, uint256 bits, uint256 shift) private pure returns (bytes memory mesh) {
         unchecked {
             (uint256 vertices, uint256 faces) = (params.verts.length, params.faces.length);
             if (vertices > MAX_COUNT) revert TooManyVertices(vertices);
             if (faces > MAX_COUNT) revert TooManyFaces(faces);
-            mesh = new bytes(5 + 12 * vertices + 6 * faces);
+            uint256 vertexSize = 3 * bits / 8 + 3;
+            mesh = new bytes(5 + vertexSize * vertices + 6 * faces);
             uint256 target;
             assembly ("memory-safe") {
                 target := add(mesh, 32)
             }
-            target = write(target, (WIDE << 32) | (vertices << 16) | faces, 5);
+            target = write(target, ((bits == 24 ? WIDE : 0) << 32) | (vertices << 16) | faces, 5);
             // the original's scale may be negative: the mesh is mirrored at its origin instead
-            int256 sign = params.objScale < 0 ? -1 : int256(1);
+            int256 factor = (params.objScale < 0 ? -1 : int256(1)) << shift;
             uint256 colored = params.cols.length;
             for (uint256 i; i != vertices; ++i) {
-                int256[3] calldata v = params.verts[i];
                 uint256 color = i < colored ? toColor(params.cols[i]) : 0;
-                target = write(target, (toPosition(v, sign, i) << 24) | color, 12);
+                target = write(target, (toPosition(params.verts[i], factor, bits, i) << 24) | color, vertexSize);
             }
             uint256 usable = colored < vertices ? colored : vertices;
             for (uint256 i; i != faces; ++i) {
@@ -218,13 +239,12 @@ contract Original {
         }
     }
 
-    /// @dev Three coordinates of 24 bits.
-    function toPosition(int256[3] calldata v, int256 sign, uint256 vertex) private pure returns (uint256 packed) {
+    /// @dev Three coordinates, one after the other.
+    function toPosition(int256[3] calldata v, int256 factor, uint256 bits, uint256 vertex) private pure returns (uint256 packed) {
         unchecked {
             for (uint256 i; i != 3; ++i) {
-                int256 value = sign * v[i];
-                if (value != int24(value)) revert VertexOutOfRange(vertex, v[0], v[1], v[2]);
-                packed = (packed << 24) | (uint256(value) & 0xffffff);
+                if (v[i] != int24(v[i]) || factor * v[i] != int24(factor * v[i])) revert VertexOutOfRange(vertex, v[0], v[1], v[2]);
+                packed = (packed << bits) | (uint256(factor * v[i]) & ((1 << bits) - 1));
             }
         }
     }

@@ -5,7 +5,7 @@ import {Fixed} from "./Fixed.sol";
 import {Quaternion} from "./Quaternion.sol";
 
 /// @dev Pi / 180, Q60.
-int256 constant RADIANS = 20122189578364352;
+int256 constant RADIANS = 20122276272436452;
 int256 constant QUARTER_TURN = 90 << 32;
 
 /// @notice The angle leaves the range of 2^26 degrees either way.

@@ -55,8 +55,11 @@ function normalize(Vector memory a) pure returns (Vector memory) {
         int256 x = a.x.raw() << 60;
         int256 y = a.y.raw() << 60;
         int256 z = a.z.raw() << 60;
-        int256 length = int256(sqrt(uint256(x * x + y * y + z * z)));
-        if (length == 0) return a;
+        uint256 square = uint256(x * x + y * y + z * z);
+        uint256 root = sqrt(square);
+        if (root == 0) return a;
+        // one more step of Newton's method, for 32 bits
+        int256 length = int256((root + square / root) >> 1);
         return Vector(Fixed.wrap((x << 32) / length), Fixed.wrap((y << 32) / length), Fixed.wrap((z << 32) / length));
     }
 }

@@ -12,6 +12,9 @@ uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 uint256 constant LANES_40 = 0xffffffffff0000ffffffffff0000ffffffffff;
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
 
+/// @dev Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
+uint256 constant WEIGHTED_BIAS = 0x002000000400000020000004000000200000040000;
+
 uint256 constant LINE_BIAS = 0x000002000000000002000000000000020000000000;
 
 /// @dev Half the range of a lane of 85 bits, for vectors of Q20 and their sums of Q36.
@@ -149,6 +152,11 @@ library FragmentShader {
                 case 0 {
                     second := div(mul(second, mload(DEPTH_1)), attribute)
                     third := div(mul(third, mload(DEPTH_2)), attribute)
+                    if and(mload(MODE), IS_STEEP) {
+                        // rounding counts much where a near vertex meets a far fragment
+                        if gt(second, 0x1000000) { second := 0x1000000 }
+                        if gt(third, 0x1000000) { third := 0x1000000 }
+                    }
                 }
                 default {
                     mstore(FRAGMENT_PLACE_X, sar(16, x))
@@ -157,6 +165,8 @@ library FragmentShader {
                     y := 0
                 }
                 color := and(shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), second)), mul(mload(COLOR_2), third))), LANES_24)
+                // lanes that were rounded below zero have lost the bit of the bias
+                color := and(color, mul(and(shr(21, color), ONES), 0x1fffff))
                 if and(mload(MODE), IS_LIT) {
                     switch and(mload(MODE), IS_DIFFUSE)
                     case 0 { color := add(color, highlights(attribute, x, y)) }

@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {sqrt} from "../math/Roots.sol";
-import {FragmentShader} from "./FragmentShader.sol";
+import {FragmentShader, WEIGHTED_BIAS} from "./FragmentShader.sol";
 import {Lighting} from "./Lighting.sol";
 import {OUTSIDE_BIT} from "./PrimitiveAssembly.sol";
 import "./Registers.sol";
@@ -10,7 +10,8 @@ import "./Registers.sol";
 // bias of the lanes: half a level for colours
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000;
-uint256 constant EPSILON = 0x400000000000004000000000000040000;
+/// @dev Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
+uint256 constant VARYING_BIAS = 0x2000000000000020000000000000200000;
 /// @dev A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
 uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
 uint256 constant LIMITS = 0x00400003000000004000030000000040000300000000;
@@ -94,22 +95,27 @@ library Shading {
     function barycentric(uint256 a, uint256 b, uint256 c, uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode, bool affine) private pure {
         unchecked {
             uint256 color = attributesA & COLOR_LANES;
-            if (mode & IS_SMOOTH != 0 && setVectors(a, b, c)) {
-                store(MODE, affine || mode & IS_ORTHOGRAPHIC != 0 ? mode | IS_VARYING : mode | IS_VARYING | IS_STEEP);
-                color <<= 16;
+            uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> 168;
+            uint256 farthest = min(attributesA, min(attributesB, attributesC)) >> 168;
+            if (mode & IS_SMOOTH != 0) spread(NORMALS_0, 0x40, a, b, c);
+            // weights of 16 bits bear a division by depths that differ by a factor of two
+            if (mode & IS_SMOOTH != 0 && nearest < 2 * farthest && setVectors(a, b, c)) {
+                mode |= IS_VARYING;
+                if (!affine && mode & IS_ORTHOGRAPHIC == 0) mode |= IS_STEEP;
+                color = (color << 16) + VARYING_BIAS;
             } else {
                 mode |= IS_BARYCENTRIC;
-                color <<= 24;
+                if (nearest >= 64 * farthest) mode |= IS_STEEP;
+                color = (color << 24) + WEIGHTED_BIAS;
                 if (mode & IS_SMOOTH == 0) {
-                    uint256 size = blockSize(squareHeight(a, b, c), mode, attributesA >> 168, attributesB >> 168, attributesC >> 168);
+                    uint256 size = blockSize(squareHeight(a, b, c), mode, nearest, farthest);
                     store(BLOCK, size);
                     if (size > 1) mode |= IS_BLOCKED;
                 }
-                store(MODE, mode);
             }
+            store(MODE, mode);
             store(LANE_BIAS, WEIGHT_BIAS);
-            // a little more against rounding below zero
-            store(COLOR_0, color + EPSILON);
+            store(COLOR_0, color);
             color = attributesA & COLOR_LANES;
             store(COLOR_1, (attributesB & COLOR_LANES) - color);
             store(COLOR_2, (attributesC & COLOR_LANES) - color);
@@ -118,11 +124,10 @@ library Shading {
         }
     }
 
-    /// @notice Prepares the vectors of a smooth triangle.
+    /// @notice Prepares the vectors of a smooth triangle, of which the normals are there.
     /// @return varying Whether they turn so little that light and half vectors may be interpolated as well.
     function setVectors(uint256 a, uint256 b, uint256 c) private pure returns (bool varying) {
         unchecked {
-            spread(NORMALS_0, 0x40, a, b, c);
             // with several lights most of the work would be done for each of them all the same
             if (load(LIGHTS_END) != LIGHTS + LIGHT_SIZE || squareSize(a, b, c) >= load(VARYING_REACH)) return false;
             if (vertexWord(a, 0x60) == 0) FragmentShader.setVaryings(a);
@@ -177,10 +182,12 @@ library Shading {
 
     /// @dev Pixels over which interpolation between exact colours is off by about three levels at most: over n pixels of a triangle of
     /// height h perspective makes that dc * dz / 4z * (n / h)^2, and REACH is the square of the n for one and a half levels of light.
-    function blockSize(uint256 square, uint256 mode, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
+    function blockSize(uint256 square, uint256 mode, uint256 nearest, uint256 farthest)
+        private
+        pure
+        returns (uint256 size)
+    {
         unchecked {
-            uint256 nearest = max(za, max(zb, zc));
-            uint256 farthest = min(za, min(zb, zc));
             uint256 reach = square * farthest / (20 * (nearest - farthest) + 1);
             if (mode & IS_LIT != 0) reach = min(reach, 2 * load(FACE_REACH));
             reach = sqrt(reach) >> 8;
@@ -214,7 +221,10 @@ library Shading {
     /// w_i w_j is 1/4 at most.
     function isAffine(uint256 a, uint256 b, uint256 c) private pure returns (bool yes) {
         assembly ("memory-safe") {
-            let inverse := div(0x1000000000000000000000, shr(168, a))
+            // 1 / the least of the depths
+            let inverse := xor(a, mul(xor(a, b), lt(b, a)))
+            inverse := xor(inverse, mul(xor(inverse, c), lt(c, inverse)))
+            inverse := div(0x1000000000000000000000, shr(168, inverse))
             b := sub(b, a)
             c := sub(c, a)
             a := sub(c, b)

@@ -31,6 +31,9 @@ from .words import LANES_24, LANES_32, MASK, ONES, divide, divide_signed, signed
 HALF_LEVEL = 0x200 * ONES
 LINE_BIAS = 0x000002000000000002000000000000020000000000
 
+#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
+WEIGHTED_BIAS = ((1 << 45) + (1 << 18)) * ONES
+
 #: Half the range of a lane of 85 bits, for vectors of Q20 and their sums of Q36.
 VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
 NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000
@@ -141,10 +144,15 @@ def shade(attribute: int, x: int, y: int, r: Registers) -> int:
     if r.mode & IS_ORTHOGRAPHIC == 0:
         second = divide(second * r.depth_1, depth)
         third = divide(third * r.depth_2, depth)
+        if r.mode & IS_STEEP:
+            # rounding counts much where a near vertex meets a far fragment
+            second, third = min(second, 1 << 24), min(third, 1 << 24)
     else:
         r.fragment_place_x, r.fragment_place_y = x >> 16, y >> 16
         x = y = 0
     color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_24
+    # lanes that were rounded below zero have lost the bit of the bias
+    color &= ((color >> 21) & ONES) * 0x1FFFFF
     if r.mode & IS_LIT == 0:
         return color
     if r.mode & IS_DIFFUSE == 0:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import lighting
-from .fragment_shader import product, set_varyings, vertex_highlights
+from .fragment_shader import WEIGHTED_BIAS, product, set_varyings, vertex_highlights
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import (
@@ -27,7 +27,8 @@ from .words import LANES_24, ONES, divide
 #: Biases of the lanes: half a level for colours.
 COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
 WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000
-EPSILON = 0x400000000000004000000000000040000
+#: Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
+VARYING_BIAS = ONES << 21
 #: A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
 GUARDS = 0x00400000000000004000000000000040000000000000
 LIMITS = 0x00400003000000004000030000000040000300000000
@@ -96,23 +97,27 @@ def barycentric(
     """The registers of a triangle whose fragments are shaded from their barycentric coordinates."""
     r = registers
     color = attributes_a & LANES_24
-    if mode & IS_SMOOTH and set_vectors(a, b, c, r):
-        r.mode = mode | IS_VARYING if affine or mode & IS_ORTHOGRAPHIC else mode | IS_VARYING | IS_STEEP
-        color_0 = color << 16
+    nearest = max(attributes_a, attributes_b, attributes_c) >> 168
+    farthest = min(attributes_a, attributes_b, attributes_c) >> 168
+    if mode & IS_SMOOTH:
+        r.normals = spread(a.normal, b.normal, c.normal)
+    # weights of 16 bits bear a division by depths that differ by a factor of two
+    if mode & IS_SMOOTH and nearest < 2 * farthest and set_vectors(a, b, c, r):
+        mode |= IS_VARYING
+        if not affine and mode & IS_ORTHOGRAPHIC == 0:
+            mode |= IS_STEEP
+        r.color_0 = (color << 16) + VARYING_BIAS
     else:
         mode |= IS_BARYCENTRIC
-        color_0 = color << 24
+        if nearest >= 64 * farthest:
+            mode |= IS_STEEP
+        r.color_0 = (color << 24) + WEIGHTED_BIAS
         if mode & IS_SMOOTH == 0:
-            size = block_size(
-                square_height(a, b, c), mode, attributes_a >> 168, attributes_b >> 168, attributes_c >> 168, r
-            )
-            r.block = size
-            if size > 1:
+            r.block = block_size(square_height(a, b, c), mode, nearest, farthest, r)
+            if r.block > 1:
                 mode |= IS_BLOCKED
-        r.mode = mode
+    r.mode = mode
     r.lane_bias = WEIGHT_BIAS
-    # a little more against rounding below zero
-    r.color_0 = color_0 + EPSILON
     r.color_1 = (attributes_b & LANES_24) - color
     r.color_2 = (attributes_c & LANES_24) - color
     r.depth_1 = attributes_b >> 168 << 8
@@ -120,12 +125,11 @@ def barycentric(
 
 
 def set_vectors(a: Vertex, b: Vertex, c: Vertex, registers: Registers) -> bool:
-    """Prepares the vectors of a smooth triangle.
+    """Prepares the vectors of a smooth triangle, of which the normals are there.
 
     Returns whether they turn so little that light and half vectors may be interpolated as well.
     """
     r = registers
-    r.normals = spread(a.normal, b.normal, c.normal)
     # with several lights most of the work would be done for each of them all the same
     if len(r.lights) != 1 or square_size(a, b, c) >= r.varying_reach:
         return False
@@ -152,13 +156,12 @@ def spread(a: int, b: int, c: int) -> Varying:
     return Varying(a << 16, b - a, c - a)
 
 
-def block_size(square: int, mode: int, za: int, zb: int, zc: int, registers: Registers) -> int:
+def block_size(square: int, mode: int, nearest: int, farthest: int, registers: Registers) -> int:
     """Pixels over which interpolation between exact colours is off by about three levels at most.
 
     Over n pixels of a triangle of height h perspective makes that dc * dz / 4z * (n / h)^2, and `reach` is the square
     of the n for one and a half levels of light.
     """
-    nearest, farthest = max(za, zb, zc), min(za, zb, zc)
     reach = square * farthest // (20 * (nearest - farthest) + 1)
     if mode & IS_LIT:
         reach = min(reach, 2 * registers.face_reach)
@@ -184,7 +187,7 @@ def is_affine(a: int, b: int, c: int) -> bool:
     With weights w, depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three
     pairs of vertices, where w_i w_j is 1/4 at most.
     """
-    inverse = divide(1 << 84, a >> 168)
+    inverse = divide(1 << 84, min(a, b, c) >> 168)
     guards = GUARDS
     for change in (b - a, c - a, c - b):
         dz = change >> 168

@@ -38,9 +38,12 @@ def cross(a: Vector, b: Vector) -> Vector:
 def normalize(a: Vector) -> Vector:
     """The unit vector along `a`; zero for zero."""
     x, y, z = a[0] << 60, a[1] << 60, a[2] << 60
-    length = sqrt(x * x + y * y + z * z)
-    if length == 0:
+    square = x * x + y * y + z * z
+    root = sqrt(square)
+    if root == 0:
         return a
+    # one more step of Newton's method, for 32 bits
+    length = (root + square // root) >> 1
     return divide_signed(x << 32, length), divide_signed(y << 32, length), divide_signed(z << 32, length)
 
 
