@@ -60,6 +60,11 @@ function normalize(Vector memory a) pure returns (Vector memory) {
         if (root == 0) return a;
         // one more step of Newton's method, for 32 bits
         int256 length = int256((root + square / root) >> 1);
-        return Vector(Fixed.wrap((x << 32) / length), Fixed.wrap((y << 32) / length), Fixed.wrap((z << 32) / length));
+        // rounded to nearest, so that the axes stay what they are
+        return Vector(
+            Fixed.wrap(((x << 36) / length + 8) >> 4),
+            Fixed.wrap(((y << 36) / length + 8) >> 4),
+            Fixed.wrap(((z << 36) / length + 8) >> 4)
+        );
     }
 }

@@ -181,14 +181,14 @@ library Shading {
     }
 
     /// @dev Pixels over which interpolation between exact colours is off by about three levels at most: over n pixels of a triangle of
-    /// height h perspective makes that dc * dz / 4z * (n / h)^2, and REACH is the square of the n for one and a half levels of light.
+    /// height h perspective makes that dc * dz / 4z * (n / h)^2, times the factor by which colours change faster where it is far, and REACH is the square of the n for one and a half levels of light.
     function blockSize(uint256 square, uint256 mode, uint256 nearest, uint256 farthest)
         private
         pure
         returns (uint256 size)
     {
         unchecked {
-            uint256 reach = square * farthest / (20 * (nearest - farthest) + 1);
+            uint256 reach = square * farthest / (10 * (nearest - farthest) + 1) * farthest / (nearest + 1);
             if (mode & IS_LIT != 0) reach = min(reach, 2 * load(FACE_REACH));
             reach = sqrt(reach) >> 8;
             return reach > 16 ? 16 : reach == 0 ? 1 : reach;

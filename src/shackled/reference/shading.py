@@ -159,10 +159,10 @@ def spread(a: int, b: int, c: int) -> Varying:
 def block_size(square: int, mode: int, nearest: int, farthest: int, registers: Registers) -> int:
     """Pixels over which interpolation between exact colours is off by about three levels at most.
 
-    Over n pixels of a triangle of height h perspective makes that dc * dz / 4z * (n / h)^2, and `reach` is the square
-    of the n for one and a half levels of light.
+    Over n pixels of a triangle of height h perspective makes that dc * dz / 4z * (n / h)^2, times the factor by which
+    colours change faster where it is far, and `reach` is the square of the n for one and a half levels of light.
     """
-    reach = square * farthest // (20 * (nearest - farthest) + 1)
+    reach = square * farthest // (10 * (nearest - farthest) + 1) * farthest // (nearest + 1)
     if mode & IS_LIT:
         reach = min(reach, 2 * registers.face_reach)
     return min(max(sqrt(reach) >> 8, 1), 16)

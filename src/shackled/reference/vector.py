@@ -44,7 +44,9 @@ def normalize(a: Vector) -> Vector:
         return a
     # one more step of Newton's method, for 32 bits
     length = (root + square // root) >> 1
-    return divide_signed(x << 32, length), divide_signed(y << 32, length), divide_signed(z << 32, length)
+    # rounded to nearest, so that the axes stay what they are
+    x, y, z = (divide_signed(component << 36, length) + 8 >> 4 for component in (x, y, z))
+    return x, y, z
 
 
 def to_matrix(q: Quaternion) -> Matrix:
