@@ -168,7 +168,7 @@ def test_meshes_are_simplified_on_request(capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_a_gif_says_when_colours_are_lost(capsys: pytest.CaptureFixture[str]) -> None:
-    options = ["--size", "300", "--smooth", "--background", "#000000,#ffffff"]
+    options = ["--size", "300", "--light", "point:1,2,3:#ff8040", "--background", "#000000,#ffff00"]
     assert run(["render", "shape.obj", "-o", "a.gif", *options]) == 0
     output, messages = capsys.readouterr()
     assert "a.gif" in output

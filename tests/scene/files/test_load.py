@@ -25,7 +25,7 @@ def refusal(path: Path | str) -> str:
 def test_a_mesh_is_staged(tmp_path: Path) -> None:
     (tmp_path / "a.OBJ").write_text(TRIANGLE)
     scene = load(tmp_path / "a.OBJ", Look(width=30, height=20))
-    assert (scene.width, scene.height, len(scene.lights)) == (30, 20, 2)
+    assert (scene.width, scene.height, len(scene.lights)) == (30, 20, 1)
     assert load(str(tmp_path / "a.OBJ")).width == 128
 
 

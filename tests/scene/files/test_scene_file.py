@@ -150,7 +150,7 @@ def same(left: Any, right: Any) -> None:
 def test_defaults_show_all_that_is_there(folder: Path) -> None:
     scene = scene_of(folder, objects=[thing(), thing(position=[40, 0, 0], scale=3)])
     assert (scene.width, scene.height, scene.background) == (128, 128, BACKGROUND)
-    assert len(scene.lights) == 2
+    assert len(scene.lights) == 1
     points = np.concatenate([np.asarray(o.position) + o.scale * np.asarray(o.mesh.positions) for o in scene.objects])
     back = np.asarray(scene.camera.eye) - np.asarray(scene.camera.target)
     back /= np.linalg.norm(back)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,6 +20,9 @@ from .scene_file import scene_of
 from .table import about
 
 SCENES = (".toml", ".json")
+
+#: Calls and brackets, one in another; what Python allows by default.
+MAX_NESTING = 1000
 
 
 def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
@@ -48,10 +52,15 @@ def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
 
 def _document(path: Path, extension: str) -> Mapping[str, Any]:
     text = read_text(path)
+    limit = sys.getrecursionlimit()
     try:
+        # some packages raise the limit so far that brackets nested too deep would end the process
+        sys.setrecursionlimit(min(limit, MAX_NESTING))
         document = tomllib.loads(text) if extension == ".toml" else json.loads(text)
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path} is not valid {extension[1:].upper()}: {' '.join(str(error).split())}") from None
+    finally:
+        sys.setrecursionlimit(limit)
     if not isinstance(document, Mapping):
         raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
     return document
