@@ -44,7 +44,7 @@ SETTINGS: dict[str, Any] = {
     "evmVersion": "cancun",
     "optimizer": {
         "enabled": True,
-        "runs": 5000,
+        "runs": 20000,
         "details": {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}},
     },
     "metadata": {"appendCBOR": False},

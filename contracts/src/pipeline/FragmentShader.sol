@@ -12,6 +12,9 @@ uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 uint256 constant LANES_40 = 0xffffffffff0000ffffffffff0000ffffffffff;
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
 
+/// @dev What is set in lanes of Q10 above 255.
+uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
+
 /// @dev Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
 uint256 constant WEIGHTED_BIAS = 0x002000000400000020000004000000200000040000;
 
@@ -204,8 +207,8 @@ library FragmentShader {
             // lanes of Q10 as the bytes blue, green, red at the top of a word; what is below them has no meaning
             function pack(color) -> packed {
                 // lanes above 255 get all the bits of 255
-                packed := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
-                packed := mul(and(packed, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
+                if and(color, OVERFLOW) { color := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00)) }
+                packed := mul(and(color, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
             }
 
             // colours that change linearly
@@ -299,7 +302,7 @@ library FragmentShader {
                         case 0 { n := modulated(and(n, LANES_24), factor) }
                         default { n := and(shr(16, mul(and(n, LANES_24), and(shr(24, factor), 0xffffffff))), LANES_24) }
                         n := add(n, add(sum, HALF_LEVEL))
-                        n := or(n, mul(and(shr(30, add(n, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
+                        if and(n, OVERFLOW) { n := or(n, mul(and(shr(30, add(n, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00)) }
                         n := mul(and(n, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
                         s := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
                         old := mload(s)

@@ -112,13 +112,13 @@ library Lighting {
     }
 
     /// @dev The square, Q40, of how much half vectors may differ in a triangle. If they are interpolated, their direction is off by d^2/8
-    /// at most for a difference d, and cos^n is steepest with about 0.6 * sqrt(n): three levels of 255 are allowed, or d = 1/4.
+    /// at most for a difference d, and cos^n is steepest with about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
     function halfReach(uint256 coefficient, uint256 shininess) private pure returns (int256) {
         unchecked {
             uint256 slope = (sqrt(shininess << 64) * coefficient) >> 32;
             if (slope == 0) return 1 << 36;
-            // 3 * 8 / (0.6 * 255) = 0.15
-            uint256 reach = (uint256(3) << 72) / (20 * slope);
+            // 4 * 8 / (0.6 * 255) = 0.2
+            uint256 reach = (uint256(1) << 72) / (5 * slope);
             return reach > 1 << 36 ? int256(1 << 36) : int256(reach);
         }
     }

@@ -48,8 +48,10 @@ library Shading {
                     attributesC = lit(attributesC);
                 }
             }
-            bool affine = isAffine(attributesA, attributesB, attributesC);
-            if (mode & IS_DIFFUSE == 0 && affine && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(FACE_REACH))) {
+            if (
+                mode & IS_DIFFUSE == 0 && isAffine(attributesA, attributesB, attributesC)
+                    && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(FACE_REACH))
+            ) {
                 if (mode & IS_LIT != 0) {
                     attributesA = FragmentShader.vertexHighlights(attributesA, a);
                     attributesB = FragmentShader.vertexHighlights(attributesB, b);
@@ -62,7 +64,7 @@ library Shading {
                     mstore(LANE_BIAS, COLOR_BIAS)
                 }
             } else {
-                barycentric(a, b, c, attributesA, attributesB, attributesC, mode | ((word >> 139) & IS_CROSSING), affine);
+                barycentric(a, b, c, attributesA, attributesB, attributesC, mode | ((word >> 139) & IS_CROSSING));
                 attributesA = attributesA >> 168 << 168;
                 attributesB = (attributesB >> 168 << 168) | (1 << 56);
                 attributesC = (attributesC >> 168 << 168) | 1;
@@ -92,7 +94,10 @@ library Shading {
         }
     }
 
-    function barycentric(uint256 a, uint256 b, uint256 c, uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode, bool affine) private pure {
+    function barycentric(uint256 a, uint256 b, uint256 c, uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
+        private
+        pure
+    {
         unchecked {
             uint256 color = attributesA & COLOR_LANES;
             uint256 nearest = max(attributesA, max(attributesB, attributesC)) >> 168;
@@ -101,7 +106,8 @@ library Shading {
             // weights of 16 bits bear a division by depths that differ by a factor of two
             if (mode & IS_SMOOTH != 0 && nearest < 2 * farthest && setVectors(a, b, c)) {
                 mode |= IS_VARYING;
-                if (!affine && mode & IS_ORTHOGRAPHIC == 0) mode |= IS_STEEP;
+                // else the weights of linear interpolation are right to 1/128
+                if (32 * (nearest - farthest) >= farthest && mode & IS_ORTHOGRAPHIC == 0) mode |= IS_STEEP;
                 color = (color << 16) + VARYING_BIAS;
             } else {
                 mode |= IS_BARYCENTRIC;

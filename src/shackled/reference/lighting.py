@@ -104,10 +104,10 @@ def half_reach(coefficient: int, shininess: int) -> int:
     """The square, Q40, of how much half vectors may differ in a triangle.
 
     If they are interpolated, their direction is off by d^2/8 at most for a difference d, and cos^n is steepest with
-    about 0.6 * sqrt(n): three levels of 255 are allowed, or d = 1/4.
+    about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
     """
     slope = (sqrt(shininess << 64) * coefficient) >> 32
-    return min((3 << 72) // (20 * slope), 1 << 36) if slope else 1 << 36
+    return min((1 << 72) // (5 * slope), 1 << 36) if slope else 1 << 36
 
 
 def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, registers: Registers) -> None:

@@ -51,8 +51,11 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
             attributes_a = lit(attributes_a, r.face_light)
             attributes_b = lit(attributes_b, r.face_light)
             attributes_c = lit(attributes_c, r.face_light)
-    affine = is_affine(attributes_a, attributes_b, attributes_c)
-    if mode & IS_DIFFUSE == 0 and affine and (mode & IS_LIT == 0 or square_size(a, b, c) < r.face_reach):
+    if (
+        mode & IS_DIFFUSE == 0
+        and is_affine(attributes_a, attributes_b, attributes_c)
+        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.face_reach)
+    ):
         r.lane_bias = COLOR_BIAS
         if mode & IS_LIT:
             attributes_a = vertex_highlights(attributes_a, a, r)
@@ -62,7 +65,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
         saturates = (attributes_a | attributes_b | attributes_c) & ABOVE_255 != 0
         r.mode = saturates | crossing
     else:
-        barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, affine, r)
+        barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, r)
         attributes_a = attributes_a >> 168 << 168
         attributes_b = (attributes_b >> 168 << 168) | (1 << 56)
         attributes_c = (attributes_c >> 168 << 168) | 1
@@ -91,7 +94,6 @@ def barycentric(
     attributes_b: int,
     attributes_c: int,
     mode: int,
-    affine: bool,
     registers: Registers,
 ) -> None:
     """The registers of a triangle whose fragments are shaded from their barycentric coordinates."""
@@ -104,7 +106,8 @@ def barycentric(
     # weights of 16 bits bear a division by depths that differ by a factor of two
     if mode & IS_SMOOTH and nearest < 2 * farthest and set_vectors(a, b, c, r):
         mode |= IS_VARYING
-        if not affine and mode & IS_ORTHOGRAPHIC == 0:
+        # else the weights of linear interpolation are right to 1/128
+        if 32 * (nearest - farthest) >= farthest and mode & IS_ORTHOGRAPHIC == 0:
             mode |= IS_STEEP
         r.color_0 = (color << 16) + VARYING_BIAS
     else:
