@@ -63,15 +63,18 @@ library FragmentShader {
 
             // the highlight, Q16, from the square of its cosine, Q24
             function gloss(square) -> value {
-                if gt(square, mload(SPECULAR_BEGIN)) {
+                switch gt(square, mload(SPECULAR_BEGIN))
+                case 0 {
+                    if mload(SPECULAR_ROOT) {
+                        if gt(square, 0x1000000) { square := 0x1000000 }
+                        value := shr(24, mul(mload(SPECULAR_ROOT), root(shl(24, square), NORMAL_HINT)))
+                    }
+                }
+                default {
                     square := mul(sub(square, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
                     if gt(square, 0x400000000000) { square := 0x400000000000 }
                     value := mload(add(SPECULAR_TABLE, and(shr(35, square), 0xffffe0)))
                     value := add(shr(128, value), shr(16, mul(and(value, 0xffffffff), and(shr(24, square), 0xffff))))
-                }
-                if mload(SPECULAR_ROOT) {
-                    if gt(square, 0x1000000) { square := 0x1000000 }
-                    value := shr(24, mul(mload(SPECULAR_ROOT), root(shl(24, square), NORMAL_HINT)))
                 }
             }
 
@@ -94,7 +97,7 @@ library FragmentShader {
             function light(depth, x, y) -> sum {
                 let length := rayLength(x, y)
                 mstore(FRAGMENT_LIGHT, shl(24, mload(FACE_LIGHT)))
-                for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
+                for { let record := LIGHTS } 1 {} {
                     let lx := mload(add(record, LIGHT_X))
                     let ly := mload(add(record, LIGHT_Y))
                     let lz := mload(add(record, LIGHT_Z))
@@ -129,6 +132,8 @@ library FragmentShader {
                             sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), gloss(div(shl(24, mul(facing, facing)), mul(mload(FRAGMENT_SQUARE), lx)))))
                         }
                     }
+                    record := add(record, LIGHT_SIZE)
+                    if eq(record, mload(LIGHTS_END)) { break }
                 }
                 sum := and(shr(6, sum), LANES_24)
             }
@@ -146,16 +151,36 @@ library FragmentShader {
                 }
             }
 
+            // the normal at a fragment, Q24, between those of the vertices
+            function interpolateNormal(second, third, x, y) {
+                third := add(add(add(mload(NORMALS_0), mul(mload(NORMALS_1), shr(8, second))), mul(mload(NORMALS_2), shr(8, third))), NORMAL_BIAS)
+                second := sub(and(shr(12, third), 0x7ffffff), 0x4000000)
+                mstore(FRAGMENT_NORMAL_X, second)
+                let square := mul(second, second)
+                x := mul(second, x)
+                second := sub(and(shr(97, third), 0x7ffffff), 0x4000000)
+                mstore(FRAGMENT_NORMAL_Y, second)
+                square := add(square, mul(second, second))
+                x := add(x, mul(second, y))
+                second := sub(shr(182, third), 0x4000000)
+                mstore(FRAGMENT_NORMAL_Z, second)
+                square := add(square, mul(second, second))
+                mstore(FRAGMENT_NORMAL_RAY, add(x, shl(24, second)))
+                mstore(FRAGMENT_SQUARE, square)
+                mstore(FRAGMENT_NORMAL_LENGTH, root(square, NORMAL_HINT))
+            }
+
             // the colour of a fragment of known barycentric coordinates, lanes of Q10
             function shade(attribute, x, y) -> color {
+                let mode := mload(MODE)
                 let second := and(shr(64, attribute), 0xffffffffffff)
                 let third := and(shr(8, attribute), 0xffffffffffff)
                 attribute := shr(192, attribute)
-                switch and(mload(MODE), IS_ORTHOGRAPHIC)
+                switch and(mode, IS_ORTHOGRAPHIC)
                 case 0 {
                     second := div(mul(second, mload(DEPTH_1)), attribute)
                     third := div(mul(third, mload(DEPTH_2)), attribute)
-                    if and(mload(MODE), IS_STEEP) {
+                    if and(mode, IS_STEEP) {
                         // rounding counts much where a near vertex meets a far fragment
                         if gt(second, 0x1000000) { second := 0x1000000 }
                         if gt(third, 0x1000000) { third := 0x1000000 }
@@ -167,38 +192,19 @@ library FragmentShader {
                     x := 0
                     y := 0
                 }
-                color := and(shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), second)), mul(mload(COLOR_2), third))), LANES_24)
+                color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), second)), mul(mload(COLOR_2), third)))
                 // lanes that were rounded below zero have lost the bit of the bias
                 color := and(color, mul(and(shr(21, color), ONES), 0x1fffff))
-                if and(mload(MODE), IS_LIT) {
-                    switch and(mload(MODE), IS_DIFFUSE)
-                    case 0 { color := add(color, highlights(attribute, x, y)) }
-                    default {
-                        switch and(mload(MODE), IS_SMOOTH)
-                        case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), attribute)))) }
-                        default {
-                            // the interpolated normal, Q24
-                            second := shr(8, second)
-                            third := shr(8, third)
-                            third := add(add(add(mload(NORMALS_0), mul(mload(NORMALS_1), second)), mul(mload(NORMALS_2), third)), NORMAL_BIAS)
-                            second := sub(and(shr(12, third), 0x7ffffff), 0x4000000)
-                            mstore(FRAGMENT_NORMAL_X, second)
-                            let square := mul(second, second)
-                            let ray := mul(second, x)
-                            second := sub(and(shr(97, third), 0x7ffffff), 0x4000000)
-                            mstore(FRAGMENT_NORMAL_Y, second)
-                            square := add(square, mul(second, second))
-                            ray := add(ray, mul(second, y))
-                            second := sub(shr(182, third), 0x4000000)
-                            mstore(FRAGMENT_NORMAL_Z, second)
-                            square := add(square, mul(second, second))
-                            mstore(FRAGMENT_NORMAL_RAY, add(ray, shl(24, second)))
-                            mstore(FRAGMENT_SQUARE, square)
-                            mstore(FRAGMENT_NORMAL_LENGTH, root(square, NORMAL_HINT))
-                        }
-                        attribute := light(attribute, x, y)
-                        color := add(modulated(color, mload(FRAGMENT_LIGHT)), attribute)
-                    }
+                switch and(mode, IS_DIFFUSE)
+                case 0 {
+                    if and(mode, IS_LIT) { color := add(color, highlights(attribute, x, y)) }
+                }
+                default {
+                    switch and(mode, IS_SMOOTH)
+                    case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), attribute)))) }
+                    default { interpolateNormal(second, third, x, y) }
+                    attribute := light(attribute, x, y)
+                    color := add(modulated(color, mload(FRAGMENT_LIGHT)), attribute)
                 }
             }
 
@@ -241,17 +247,18 @@ library FragmentShader {
             }
 
             // every fragment for itself
-            function exact(base, first, end, attribute, x, y) {
-                for {} lt(first, end) {} {
-                    let p := add(base, shl(3, first))
+            function exact(p, end, attribute, x, y) {
+                for {} 1 {} {
                     let old := mload(p)
                     if gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff)) {
                         mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
-                        p := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
-                        old := mload(p)
-                        mstore(p, xor(old, and(xor(old, pack(add(shade(attribute, x, y), HALF_LEVEL))), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
+                        let color := pack(add(shade(attribute, x, y), HALF_LEVEL))
+                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                        old := mload(pixel)
+                        mstore(pixel, xor(old, and(xor(old, color), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
                     }
-                    first := add(first, 1)
+                    p := add(p, 8)
+                    if eq(p, end) { break }
                     attribute := add(attribute, mload(DX))
                     x := add(x, mload(RAY_STEP))
                 }
@@ -353,7 +360,7 @@ library FragmentShader {
                         if lt(from, to) {
                             switch and(mode, 0x240)
                             case 0 { gradient(base, from, to, add(start, mul(from, mload(DX))), mload(DX)) }
-                            case 0x40 { exact(base, from, to, add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row) }
+                            case 0x40 { exact(add(base, shl(3, from)), add(base, shl(3, to)), add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row) }
                             default {
                                 // blocks begin with the row, wherever the tile does
                                 from := and(shr(48, edges), 0xffff)
