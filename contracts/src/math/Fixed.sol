@@ -10,7 +10,6 @@ using {add as +, sub as -, neg as -, mul as *, div as /, lessThan as <, greaterT
 
 Fixed constant ZERO = Fixed.wrap(0);
 Fixed constant ONE = Fixed.wrap(1 << 32);
-Fixed constant TWO = Fixed.wrap(2 << 32);
 
 function raw(Fixed a) pure returns (int256) {
     return Fixed.unwrap(a);

@@ -19,16 +19,8 @@ struct Matrix {
     Vector z;
 }
 
-using {toMatrix, normSquared} for Quaternion global;
+using {toMatrix} for Quaternion global;
 using {times, transposedTimes} for Matrix global;
-
-/// @dev x^2 + y^2 + z^2 + w^2, with 64 fraction bits.
-function normSquared(Quaternion memory q) pure returns (int256) {
-    unchecked {
-        (int256 x, int256 y, int256 z, int256 w) = (q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw());
-        return x * x + y * y + z * z + w * w;
-    }
-}
 
 /// @notice The rotation matrix of `q`, which must not be zero.
 /// @dev Source: K. Shoemake, "Animating rotation with quaternion curves", SIGGRAPH 1985. Dividing by the squared norm makes a root

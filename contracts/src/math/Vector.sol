@@ -13,10 +13,6 @@ struct Vector {
 
 using {add, sub, scale, dot, cross, negate, normalize, isZero} for Vector global;
 
-function vector(Fixed x, Fixed y, Fixed z) pure returns (Vector memory) {
-    return Vector(x, y, z);
-}
-
 function add(Vector memory a, Vector memory b) pure returns (Vector memory) {
     return Vector(a.x + b.x, a.y + b.y, a.z + b.z);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Background, Rectangle} from "../scene/Scene.sol";
-
+import {Rectangle} from "../scene/Scene.sol";
 import {ONES} from "../pipeline/Registers.sol";
 
 // The background under the objects, and what happens to all pixels when they are drawn.

@@ -9,7 +9,6 @@ import "./Registers.sol";
 
 uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
 uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
-uint256 constant LANES_40 = 0xffffffffff0000ffffffffff0000ffffffffff;
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
 
 /// @dev What is set in lanes of Q10 above 255.

@@ -4,7 +4,6 @@ pragma solidity 0.8.37;
 import {sqrt} from "../math/Roots.sol";
 import {FragmentShader, WEIGHTED_BIAS} from "./FragmentShader.sol";
 import {Lighting} from "./Lighting.sol";
-import {OUTSIDE_BIT} from "./PrimitiveAssembly.sol";
 import "./Registers.sol";
 
 // bias of the lanes: half a level for colours

@@ -3,7 +3,6 @@ pragma solidity 0.8.37;
 
 import {Fixed} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
-import {Matrix} from "../math/Quaternion.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Scene, Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
 import {NoViewDirection} from "../scene/Checks.sol";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ALL_EDGES} from "./PrimitiveAssembly.sol";
 import {Rasterizer} from "./Rasterizer.sol";
 import {Shading} from "./Shading.sol";
 import "./Registers.sol";

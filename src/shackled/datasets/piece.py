@@ -16,7 +16,7 @@ class Piece:
     dataset: "common", "icons" or "genesis".
     title: for people. licence: of the model, as its source states it.
     commercial: whether the licence allows commercial use; what mints refuses a piece where it does not.
-    make: makes the scene. It may take a while, and raises InputError where a file is needed that has to be fetched first.
+    make: makes the scene; raises InputError where a file is needed that has to be fetched first.
     """
 
     name: str
