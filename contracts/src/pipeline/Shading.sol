@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {sqrt} from "../math/Roots.sol";
-import {FragmentShader, WEIGHTED_BIAS} from "./FragmentShader.sol";
+import {FragmentShader, OVERFLOW, WEIGHTED_BIAS} from "./FragmentShader.sol";
 import {Lighting} from "./Lighting.sol";
 import "./Registers.sol";
 
@@ -58,7 +58,7 @@ library Shading {
                 }
                 assembly ("memory-safe") {
                     // colours above 255 need a loop that keeps them there
-                    mode := iszero(iszero(and(or(or(attributesA, attributesB), attributesC), 0xfc000000000000fc000000000000fc0000)))
+                    mode := iszero(iszero(and(or(or(attributesA, attributesB), attributesC), OVERFLOW)))
                     mstore(MODE, or(mode, and(shr(139, word), 256)))
                     mstore(LANE_BIAS, COLOR_BIAS)
                 }
@@ -226,28 +226,33 @@ library Shading {
     /// w_i w_j is 1/4 at most.
     function isAffine(uint256 a, uint256 b, uint256 c) private pure returns (bool yes) {
         assembly ("memory-safe") {
-            // 1 / the least of the depths
-            let inverse := xor(a, mul(xor(a, b), lt(b, a)))
-            inverse := xor(inverse, mul(xor(inverse, c), lt(c, inverse)))
-            inverse := div(0x1000000000000000000000, shr(168, inverse))
-            b := sub(b, a)
-            c := sub(c, a)
-            a := sub(c, b)
-            // |z_i - z_j| / z, Q20
-            let rb := sar(168, b)
-            rb := shr(64, mul(xor(rb, sar(255, rb)), inverse))
-            let rc := sar(168, c)
-            rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
-            let ra := sar(168, a)
-            ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
-            yes := lt(or(or(rb, rc), ra), 0x1000000000)
-            // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
-            b := mul(b, rb)
-            c := mul(c, rc)
-            a := mul(a, ra)
-            rb := and(and(add(LIMITS, b), sub(LIMITS, b)), and(add(LIMITS, c), sub(LIMITS, c)))
-            rb := and(and(rb, GUARDS), and(add(LIMITS, a), sub(LIMITS, a)))
-            yes := and(yes, eq(rb, GUARDS))
+            let least := xor(a, mul(xor(a, b), lt(b, a)))
+            let most := xor(xor(a, b), least)
+            least := shr(168, xor(least, mul(xor(least, c), lt(c, least))))
+            most := shr(168, xor(most, mul(xor(most, c), lt(most, c))))
+            // colours of up to 255 may differ as they like where depths do not by more than 12 / 255
+            yes := iszero(or(gt(mul(22, sub(most, least)), least), and(or(or(a, b), c), OVERFLOW)))
+            if iszero(yes) {
+                let inverse := div(0x1000000000000000000000, least)
+                b := sub(b, a)
+                c := sub(c, a)
+                a := sub(c, b)
+                // |z_i - z_j| / z, Q20
+                let rb := sar(168, b)
+                rb := shr(64, mul(xor(rb, sar(255, rb)), inverse))
+                let rc := sar(168, c)
+                rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
+                let ra := sar(168, a)
+                ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
+                yes := lt(or(or(rb, rc), ra), 0x1000000000)
+                // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
+                b := mul(b, rb)
+                c := mul(c, rc)
+                a := mul(a, ra)
+                rb := and(and(add(LIMITS, b), sub(LIMITS, b)), and(add(LIMITS, c), sub(LIMITS, c)))
+                rb := and(and(rb, GUARDS), and(add(LIMITS, a), sub(LIMITS, a)))
+                yes := and(yes, eq(rb, GUARDS))
+            }
         }
     }
 }

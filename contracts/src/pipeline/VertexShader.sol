@@ -89,13 +89,10 @@ library VertexShader {
                 }
                 let x := div(sub(and(clip, 0xffffffffffffffffffffffff), 0x800000000000000000000000), divisor)
                 let y := div(sub(and(shr(96, clip), 0xffffffffffffffffffffffff), 0x800000000000000000000000), divisor)
-                switch or(slt(distance, mload(NEAR)), shr(20, or(x, y)))
-                case 0 {
-                    // colour bytes spread to their lanes, times 2^10
-                    mstore(add(record, 32), or(shl(168, depth), and(mul(data, 0x400000000000400000000000400), 0x3fc000000000003fc000000000003fc00)))
-                    mstore(record, or(or(or(shl(128, y), shl(64, x)), record), shl(41, gt(sub(x, mload(TILE_LEFT)), mload(TILE_SPAN)))))
-                }
-                default {
+                // colour bytes spread to their lanes, times 2^10
+                mstore(add(record, 32), or(shl(168, depth), and(mul(data, 0x400000000000400000000000400), 0x3fc000000000003fc000000000003fc00)))
+                mstore(record, or(or(or(shl(128, y), shl(64, x)), record), shl(41, gt(sub(x, mload(TILE_LEFT)), mload(TILE_SPAN)))))
+                if or(slt(distance, mload(NEAR)), shr(20, or(x, y))) {
                     // outcode: nearer than the near plane, left, right, above, below the guard band
                     x := sub(and(clip, 0xffffffffffffffffffffffff), 0x800000000000000000000000)
                     y := sub(and(shr(96, clip), 0xffffffffffffffffffffffff), 0x800000000000000000000000)

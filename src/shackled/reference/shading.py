@@ -190,7 +190,11 @@ def is_affine(a: int, b: int, c: int) -> bool:
     With weights w, depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three
     pairs of vertices, where w_i w_j is 1/4 at most.
     """
-    inverse = divide(1 << 84, min(a, b, c) >> 168)
+    least, most = min(a, b, c) >> 168, max(a, b, c) >> 168
+    # colours of up to 255 may differ as they like where depths do not by more than 12 / 255
+    if 22 * (most - least) <= least and (a | b | c) & ABOVE_255 == 0:
+        return True
+    inverse = divide(1 << 84, least)
     guards = GUARDS
     for change in (b - a, c - a, c - b):
         dz = change >> 168
