@@ -81,7 +81,7 @@ library FragmentShader {
                 let length := rayLength(x, y)
                 // normal * ray
                 depth := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), depth)))
-                for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
+                for { let record := LIGHTS } 1 {} {
                     if sgt(mload(add(record, LIGHT_FACING)), 0) {
                         let half := sub(mul(mload(add(record, LIGHT_FACING)), length), depth)
                         if sgt(half, 0) {
@@ -89,6 +89,8 @@ library FragmentShader {
                             sum := add(sum, mul(mload(add(record, LIGHT_COLOR)), gloss(div(mul(half, half), mul(shl(1, length), sub(shl(24, length), lightRay))))))
                         }
                     }
+                    record := add(record, LIGHT_SIZE)
+                    if eq(record, mload(LIGHTS_END)) { break }
                 }
                 sum := and(shr(6, sum), LANES_24)
             }
@@ -421,7 +423,7 @@ library FragmentShader {
             let normalRay := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), shl(8, shr(168, word)))))
             let length := mload(add(vertex, 0x40))
             vertex := add(vertex, 0x60)
-            for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
+            for { let record := LIGHTS } 1 {} {
                 if sgt(mload(add(record, LIGHT_FACING)), 0) {
                     let half := sub(mul(mload(add(record, LIGHT_FACING)), length), normalRay)
                     if sgt(half, 0) {
@@ -435,6 +437,8 @@ library FragmentShader {
                         }
                     }
                 }
+                record := add(record, LIGHT_SIZE)
+                if eq(record, mload(LIGHTS_END)) { break }
                 vertex := add(vertex, 32)
             }
             sum := add(word, and(shr(6, sum), LANES_24))
