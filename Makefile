@@ -9,7 +9,7 @@ NODE := contracts/node_modules/.package-lock.json
 
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types contracts docs unit build gas bench fuzz pictures clean
+.PHONY: help demo test lint types contracts docs unit build gas bench paper fuzz pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -65,6 +65,10 @@ gas: $(DEV) ## write the gas snapshot, benchmarks/gas.json
 bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python -m benchmarks
 	$(BIN)/python tools/readme.py
+
+paper: $(DEV) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
+	$(BIN)/shackled bench --all -o benchmarks/results
+	$(BIN)/python -m benchmarks.story
 
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python docs/draw_pictures.py

@@ -6,30 +6,17 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from shackled import Light, Material, Scene
+from shackled import Scene
+from shackled.bench.fits import Column, Fit, fit, quadratic_share
+from shackled.bench.linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE
 
 from .measure import gas
-from .scenes import GLOSSY, SUN, UNLIT, cube, square
+from .scenes import cube, square
 from .table import Section, table
 from .workload import workload_of
 
 TITLE = "Linearity"
-
-#: Into how many parts each side of the square is cut: 2 to 1152 triangles.
-DIVISIONS = tuple(range(1, 25))
-#: Sides of the canvas on which the cube is drawn.
-SIZES = (8, 16, 32, 64, 128, 256, 512)
-SQUARE_SIZE = 128
-
-LOOKS: dict[str, tuple[Material, tuple[Light, ...]]] = {
-    "unlit": (UNLIT, ()),
-    "matte": (Material("flat", 0.2, 0.7, 0.0), (SUN,)),
-    "glossy": (GLOSSY, (SUN,)),
-}
-
-Column = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -42,40 +29,16 @@ class Series:
     gas: Column
 
 
-@dataclass(frozen=True)
-class Fit:
-    """Least squares: gas = sum of coefficients times columns."""
-
-    coefficients: list[float]
-    r2: float
-
-
-def fit(columns: list[Column], gas: Column) -> Fit:
-    """The best fit with a constant, which is the first coefficient."""
-    matrix = np.stack([np.ones_like(gas), *columns], axis=1)
-    scale = np.abs(matrix).max(axis=0)
-    solution = np.linalg.lstsq(matrix / scale, gas, rcond=None)[0]
-    rest = gas - matrix / scale @ solution
-    around = gas - gas.mean()
-    return Fit((solution / scale).tolist(), float(1 - (rest @ rest) / (around @ around)))
-
-
-def quadratic_share(columns: list[Column], gas: Column) -> float:
-    """What part of the gas of the last scene a term with the square of the first column takes, if there is one."""
-    with_square = fit([*columns, columns[0] ** 2], gas)
-    return float(with_square.coefficients[-1] * columns[0][-1] ** 2 / gas[-1])
-
-
 def squares(look: str) -> list[Scene]:
     """The same square, cut ever finer."""
     material, lights = LOOKS[look]
-    return [square(divisions, SQUARE_SIZE, material, lights) for divisions in DIVISIONS]
+    return [square(divisions, SQUARE_SIDE, material, lights) for divisions in DIVISIONS]
 
 
 def cubes(look: str) -> list[Scene]:
     """The same cube on ever larger canvases."""
     material, lights = LOOKS[look]
-    return [cube(size, material, lights) for size in SIZES]
+    return [cube(size, material, lights) for size in SIDES]
 
 
 @cache
@@ -116,8 +79,8 @@ def section() -> Section:
         }
     text = (
         f"Squares: one of fixed size before the camera, cut into {2 * DIVISIONS[0] ** 2} to {2 * DIVISIONS[-1] ** 2}"
-        f" triangles, {SQUARE_SIZE} x {SQUARE_SIZE} pixels.\n"
-        f"Cubes: one on canvases of {SIZES[0]} x {SIZES[0]} to {SIZES[-1]} x {SIZES[-1]} pixels. All: both together."
+        f" triangles, {SQUARE_SIDE} x {SQUARE_SIDE} pixels.\n"
+        f"Cubes: one on canvases of {SIDES[0]} x {SIDES[0]} to {SIDES[-1]} x {SIDES[-1]} pixels. All: both together."
         " Matte: without highlights.\n\n"
         "triangles: faces of the mesh; pixels: of the canvas; rows: of pixels that each triangle has, summed, which\n"
         "grow with the root of the triangles. Square: the part of the gas of the largest scene that a term with the\n"

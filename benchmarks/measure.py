@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from shackled import Scene
 from shackled.artifacts import artifact, contracts
+from shackled.bench.deploy import deployment_gas
 from shackled.chain import CallResult, ContractChain, open_chain
-from shackled.chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyrevmChain
 from shackled.scene.codec import Rectangle, encode
 
 
@@ -31,15 +31,5 @@ def contract_figures() -> dict[str, int]:
     figures = {}
     for name in contracts():
         figures[f"{name} code size"] = len(artifact(name).runtime)
-        figures[f"{name} deployment"] = _Deployer().gas_of(name)
+        figures[f"{name} deployment"] = deployment_gas(name)
     return figures
-
-
-class _Deployer(PyrevmChain):
-    def gas_of(self, contract: str) -> int:
-        built = artifact(contract)
-        arguments = b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
-        evm = self._evm()
-        evm.deploy("0x" + SENDER.hex(), built.creation + arguments, None, DEFAULT_GAS_LIMIT)
-        used: int = evm.result.gas_used
-        return used

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-from functools import cache
-from pathlib import Path
-
 import numpy as np
 from eth_abi.abi import encode
 
 from shackled import Mesh
 from shackled.artifacts import artifact
-
-FIGURES = Path(__file__).with_name("original.csv")
+from shackled.bench.original import original
 
 LIGHTING = "(bool,int256,int256,int256,uint256,int256[3],int256[3],int256[3],int256[3])"
 PARAMETERS = f"(uint256[3][],int256[3][],int256[3][],int256[3],int256,int256[3][2],{LIGHTING},bool,bool,bool,bool)"
@@ -21,11 +16,9 @@ PARAMETERS = f"(uint256[3][],int256[3][],int256[3][],int256[3],int256,int256[3][
 LIGHT = (True, 0, 2000, 2000, 10, (40, 30, 0), (255, 255, 255), (1, 1, 1), (0, 0, 0))
 
 
-@cache
 def original_gas() -> dict[str, int]:
     """Execution gas of the original contracts, by the name of the scene."""
-    lines = [line for line in FIGURES.read_text("utf-8").splitlines() if not line.startswith("#")]
-    return {row["scene"]: int(row["gas"]) for row in csv.DictReader(lines)}
+    return {name: figures.gas for name, figures in original().items()}
 
 
 def original_call(mesh: Mesh, size: int, svg: bool) -> bytes:

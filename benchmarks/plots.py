@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .linearity import LOOKS, fit, series
+from shackled.bench.fits import fit
+from shackled.bench.linear import LOOKS
+
+from .linearity import series
 from .shared import ROOT
 
 FOLDER = ROOT / "docs" / "images"

@@ -13,6 +13,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from shackled import Camera, Light
+from shackled.artifacts import artifact
+from shackled.bench import scenes as paper
+from shackled.datasets.genesis import seed_of
 from shackled.scene.codec import Rectangle
 
 from . import shared
@@ -55,6 +58,12 @@ def own_figures() -> Figures:
         "cube, unlit, 512": cube(512, UNLIT),
         "cubes that meet, 128": cubes(128),
         "empty, 128": empty(128),
+        "experiment canvas, 8": paper.cube(8),
+        "experiment canvas, 128": paper.cube(128),
+        "experiment canvas, 128, orthographic": paper.cube(128, "orthographic"),
+        "experiment canvas, 512": paper.cube(512),
+        "experiment triangles, 1": paper.equal_triangles(1),
+        "experiment triangles, 16": paper.equal_triangles(16),
         "room that is clipped, 128": room(128),
         "square of 2 triangles, point light, 128": square(1, 128, lights=(LAMP,)),
         "square of 2 triangles, smooth, 128": square(1, 128, replace(GLOSSY, shading="smooth")),
@@ -79,6 +88,17 @@ def own_figures() -> Figures:
         figures[f"Original, cube, 128, {'SVG' if svg else 'BMP'}"] = call(
             "Original", original_call(cube_mesh(), 128, svg)
         ).gas
+    return figures | genesis_figures()
+
+
+def genesis_figures() -> Figures:
+    """Seed to piece and seed to picture: the mean of the first pieces of the collection, and one that is dear."""
+    figures = {}
+    for function in ("generate", "render"):
+        selector = artifact("Genesis").selectors[function]
+        gas = [call("Genesis", selector + seed_of(number)).gas for number in range(64)]
+        figures[f"Genesis, {function}, mean of 64 pieces"] = sum(gas) // len(gas)
+        figures[f"Genesis, {function}, the dearest of 64 pieces"] = max(gas)
     return figures
 
 

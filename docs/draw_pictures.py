@@ -1,6 +1,7 @@
 """Draws the pictures of the documentation, and notes what they cost: `make pictures`.
 
-Every pixel is one that the contracts made; the strip puts several pictures side by side.
+Every pixel is one that the contracts made; the strip puts several pictures side by side, and the sheets
+of pieces their names beneath them.
 """
 
 from __future__ import annotations
@@ -9,17 +10,27 @@ import json
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image as PillowImage
+from PIL import ImageDraw, ImageFont
 
 from shackled import Background, Image, Light, Material, Scene, load, render
+from shackled.datasets import Piece
+from shackled.datasets.common import builtin
+from shackled.datasets.genesis import generate, seed_of
+from shackled.datasets.genesis.contract import picture_on_chain
+from shackled.datasets.icons import pieces as icons
 from shackled.datasets.teapot import teapot
+from shackled.render import resize
 from shackled.scene.rotation import from_euler
 from shackled.scene.staging import Look, stage
+from shackled.stages import draw_stages
+from shackled.stages import strip as stages_strip
 
 HERE = Path(__file__).resolve().parent
 IMAGES = HERE / "images"
@@ -79,6 +90,28 @@ def strip() -> list[Image]:
     return [render(pot(4, look)) for look in looks]
 
 
+def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Image, list[int]]:
+    """Pieces, 128 x 128 pixels each, with their names beneath; and what each costs in gas."""
+    side, label = 128, 22
+    sheet = PillowImage.new("RGB", (columns * side, -(-len(pieces) // columns) * (side + label)), "#14161c")
+    pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
+    costs = []
+    for number, piece in enumerate(pieces):
+        x, y = number % columns * side, number // columns * (side + label)
+        image = render(piece.make(), size=side)
+        sheet.paste(PillowImage.fromarray(image.pixels), (x, y))
+        pen.text((x + side // 2, y + side + label // 2), piece.name.split("/")[-1], "#c8ccd4", font, anchor="mm")
+        costs.append(image.gas or 0)
+    return sheet, costs
+
+
+def genesis() -> tuple[PillowImage.Image, list[int]]:
+    """The first 24 pieces of the collection, each made by one call from its seed; and what each costs in gas."""
+    images = [picture_on_chain(generate(seed_of(number))) for number in range(24)]
+    rows = [np.hstack([image.pixels for image in images[start : start + 8]]) for start in (0, 8, 16)]
+    return PillowImage.fromarray(np.vstack(rows)), [image.gas or 0 for image in images]
+
+
 def main() -> None:
     """The command."""
     IMAGES.mkdir(exist_ok=True)
@@ -87,9 +120,17 @@ def main() -> None:
         image = draw()
         image.save(IMAGES / f"{name}.png")
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
+    stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
     images = strip()
     PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
     figures["strip"] = {"gas": [image.gas for image in images]}
+    for name, pieces, columns in (("icons", list(icons()), 7), ("common", builtin.pieces(), 8)):
+        sheet, costs = contact_sheet(pieces, columns)
+        sheet.save(IMAGES / f"{name}.png", optimize=True)
+        figures[name] = {"gas": costs}
+    sheet, costs = genesis()
+    sheet.save(IMAGES / "genesis.png", optimize=True)
+    figures["genesis"] = {"gas": costs}
     print(json.dumps(figures, indent=1))
     (IMAGES / "pictures.json").write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from benchmarks import linearity, stages
@@ -10,7 +14,11 @@ from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
 from shackled import Scene
+from shackled.bench import EXPERIMENTS, fits
 from shackled.chain import open_chain
+from shackled.gas.stages import STAGES
+
+ROOT = Path(__file__).resolve().parent.parent
 
 
 def faces(scene: Scene) -> int:
@@ -23,7 +31,7 @@ def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
     scenes = linearity.squares(look) + linearity.cubes(look)
     triangles = np.array([faces(scene) for scene in scenes], float)
     pixels = np.array([scene.width * scene.height for scene in scenes], float)
-    found = linearity.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))
+    found = fits.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))
     assert found.r2 >= 0.999
     assert min(found.coefficients) > 0
 
@@ -31,11 +39,11 @@ def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
 def test_a_fit_finds_a_line_and_a_square() -> None:
     x = np.arange(1.0, 20)
     line, curve = 5 + 3 * x, 5 + x**2
-    assert linearity.fit([x], line).coefficients == pytest.approx([5, 3])
-    assert linearity.fit([x], line).r2 == pytest.approx(1)
-    assert linearity.fit([x], curve).r2 < 0.999
-    assert linearity.quadratic_share([x], line) == pytest.approx(0, abs=1e-9)
-    assert linearity.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
+    assert fits.fit([x], line).coefficients == pytest.approx([5, 3])
+    assert fits.fit([x], line).r2 == pytest.approx(1)
+    assert fits.fit([x], curve).r2 < 0.999
+    assert fits.quadratic_share([x], line) == pytest.approx(0, abs=1e-9)
+    assert fits.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
 
 
 def test_the_workload_is_that_of_the_picture() -> None:
@@ -48,15 +56,31 @@ def test_the_workload_is_that_of_the_picture() -> None:
     assert work.rows >= work.drawn
 
 
+def test_the_story_has_the_results() -> None:
+    result = subprocess.run(
+        [sys.executable, "-m", "benchmarks.story", "--check"], cwd=ROOT, capture_output=True, text=True
+    )
+    assert result.returncode == 0, result.stderr
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_the_results_of_each_experiment_are_there(name: str) -> None:
+    results = ROOT / "benchmarks" / "results"
+    files = [path for path in results.iterdir() if path.stem.partition("-")[0] == name]
+    assert {path.suffix for path in files} == {".csv", ".md", ".png"}
+    assert max(path.stat().st_size for path in files) < 200_000
+    assert f"](results/{name}.png)" in (ROOT / "benchmarks" / "README.md").read_text("utf-8")
+
+
 @pytest.mark.skipif(stages.missing() is not None, reason=f"needs {stages.missing()}")
 def test_the_stages_add_up() -> None:
     scene = staged_teapot("flat", 24)
     spent = stages.gas_by_stage(scene)
     assert sum(spent.values()) == gas(scene)
-    assert min(spent[stage] for stage in stages.STAGES if stage != "encoding") > 0
+    assert min(spent[stage] for stage in STAGES if stage != "encoding") > 0
     # the same but for what is inverted in the end
     inverted = stages.gas_by_stage(staged_teapot("flat", 24, invert=True))
-    assert [stage for stage in stages.STAGES if inverted[stage] > spent[stage] + 300] == ["compositor"]
+    assert [stage for stage in STAGES if inverted[stage] > spent[stage] + 300] == ["compositor"]
     # no light, no work for it
     unlit = stages.gas_by_stage(staged_teapot("unlit", 24))
     assert unlit["fragment shader"] < spent["fragment shader"] / 10

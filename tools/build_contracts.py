@@ -15,7 +15,7 @@ import re
 import subprocess
 import sys
 import tempfile
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -24,11 +24,14 @@ SOURCES = CONTRACTS / "src"
 LIBRARIES = CONTRACTS / "node_modules"
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
 STANDARD_INPUT = "standard-input.json"
+#: Where in the sources each instruction comes from, for profiles.
+SOURCE_MAPS = "source-maps.json"
 
 #: EIP-170: the largest contract that a chain takes.
 MAX_RUNTIME_SIZE = 24576
 #: What verifiers of sources accept.
 MAX_STANDARD_INPUT_SIZE = 1 << 20
+MAX_SOURCE_MAPS_SIZE = 1 << 20
 
 #: No licence or pragma in a file (libraries), and the size of a contract, which is checked here with a plainer message.
 HARMLESS = {"1878", "3420", "5574"}
@@ -81,13 +84,20 @@ def _join(name: str, relative: str) -> str:
 
 
 def standard_input(sources: dict[str, str]) -> dict[str, Any]:
-    """The input of the compiler; outputs are asked for the contracts at the top of the source folder only."""
-    selection = {name: {"*": OUTPUTS} for name in sources if "/" not in name}
+    """The input of the compiler; outputs are asked only for the contracts that are named as their files."""
+    selection = {name: {PurePosixPath(name).stem: OUTPUTS} for name, text in sources.items() if _declares(name, text)}
     return {
         "language": "Solidity",
         "sources": {name: {"content": content} for name, content in sources.items()},
         "settings": SETTINGS | {"outputSelection": selection},
     }
+
+
+def _declares(name: str, text: str) -> bool:
+    """Whether a file of ours declares a contract of its own name."""
+    return (SOURCES / name).is_file() and bool(
+        re.search(rf"^contract {PurePosixPath(name).stem}\b", text, re.MULTILINE)
+    )
 
 
 def run_compiler(request: str) -> dict[str, Any]:
@@ -114,7 +124,11 @@ def build(folder: Path = SOURCES) -> dict[str, str]:
     if len(request_text) > MAX_STANDARD_INPUT_SIZE:
         raise SystemExit(f"{STANDARD_INPUT} has {len(request_text):,} bytes, more than {MAX_STANDARD_INPUT_SIZE:,}")
     files = {STANDARD_INPUT: request_text}
-    for source, contracts in run_compiler(request_text)["contracts"].items():
+    answer = run_compiler(_text(_with_source_maps(request)))
+    files[SOURCE_MAPS] = source_maps(answer)
+    if len(files[SOURCE_MAPS]) > MAX_SOURCE_MAPS_SIZE:
+        raise SystemExit(f"{SOURCE_MAPS} has {len(files[SOURCE_MAPS]):,} bytes, more than {MAX_SOURCE_MAPS_SIZE:,}")
+    for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
             if not output["evm"]["bytecode"]["object"]:
                 continue  # an interface
@@ -136,6 +150,53 @@ def build(folder: Path = SOURCES) -> dict[str, str]:
                 }
             )
     return files
+
+
+def _with_source_maps(request: dict[str, Any]) -> dict[str, Any]:
+    """The request that asks for source maps and syntax trees too, which verifiers of sources do not want."""
+    more = ["evm.deployedBytecode.sourceMap", "evm.deployedBytecode.functionDebugData"]
+    selection = {
+        source: {contract: [*wanted, *more] for contract, wanted in contracts.items()}
+        for source, contracts in request["settings"]["outputSelection"].items()
+    }
+    return request | {"settings": request["settings"] | {"outputSelection": selection | {"*": {"": ["ast"]}}}}
+
+
+def source_maps(answer: dict[str, Any]) -> str:
+    """Of each contract the compiler's source map and where its functions begin; of each source the functions in it.
+
+    As `shackled.gas.source_map` reads it. Places in sources are in bytes of UTF-8.
+    """
+    maps, used = {}, set()
+    for contracts in answer["contracts"].values():
+        for name, output in contracts.items():
+            deployed = output["evm"]["deployedBytecode"]
+            if not deployed["object"]:
+                continue
+            debug = deployed["functionDebugData"]
+            entries = {key: value["entryPoint"] for key, value in debug.items() if value["entryPoint"] is not None}
+            maps[name] = {"map": deployed["sourceMap"], "entries": entries}
+            used |= {int(field) for field in re.findall(r"(?:^|;)\d*:\d*:(\d+)", deployed["sourceMap"])}
+    sources = {
+        source["id"]: {"name": name, "functions": _functions(source["ast"], Path(name).stem)}
+        for name, source in answer["sources"].items()
+        if source["id"] in used
+    }
+    return json.dumps({"contracts": maps, "sources": sources}, sort_keys=True, separators=(",", ":")) + "\n"
+
+
+def _functions(node: Any, owner: str) -> list[list[Any]]:
+    """The functions in a syntax tree: name with that of the contract or file, begin, and length."""
+    if isinstance(node, list):
+        return [function for each in node for function in _functions(each, owner)]
+    if not isinstance(node, dict):
+        return []
+    if node.get("nodeType") == "ContractDefinition":
+        owner = node["name"]
+    if node.get("nodeType") == "FunctionDefinition":
+        begin, length, _ = map(int, node["src"].split(":"))
+        return [[f"{owner}.{node['name'] or node['kind']}", begin, length]]
+    return [function for value in node.values() for function in _functions(value, owner)]
 
 
 def _text(value: object) -> str:
@@ -163,7 +224,7 @@ def report_sizes(files: dict[str, str]) -> bool:
     """Prints the size of every contract; whether all are within the limit."""
     fits = True
     for name, text in files.items():
-        if name != STANDARD_INPUT:
+        if name not in (STANDARD_INPUT, SOURCE_MAPS):
             size = len(json.loads(text)["deployedBytecode"]) // 2
             fits &= size <= MAX_RUNTIME_SIZE
             remark = "" if size <= MAX_RUNTIME_SIZE else ", TOO LARGE"

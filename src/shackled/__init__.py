@@ -4,10 +4,10 @@ from importlib.metadata import PackageNotFoundError, version
 
 from .errors import InputError, RenderError
 from .image import Image
+from .load import load
 from .render import render
 from .scene.background import Background
 from .scene.camera import Camera
-from .scene.files.load import load
 from .scene.light import Light
 from .scene.material import Material
 from .scene.mesh import Mesh

@@ -7,3 +7,11 @@ class InputError(ValueError):
 
 class RenderError(RuntimeError):
     """A contract refused the call, or the call could not be made. The message is one line."""
+
+
+class FetchError(RuntimeError):
+    """A file could not be fetched, or not kept. The message is one line."""
+
+
+class OutOfGasError(RenderError):
+    """The gas of a call did not suffice."""

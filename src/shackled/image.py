@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import os
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from .errors import InputError, RenderError
+from .whole_file import write_whole
 
 #: What `Image.save` can write, by extension.
 FORMATS = (".png", ".bmp", ".svg", ".gif")
@@ -68,14 +67,7 @@ class Image:
         path = check_output(path)
         content = self.encode(path.suffix.lower())
         try:
-            with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-                file.write(content)
-            try:
-                os.chmod(file.name, 0o666 & ~_umask())
-                os.replace(file.name, path)
-            except OSError:
-                os.unlink(file.name)
-                raise
+            write_whole(path, content)
         except OSError as error:
             raise InputError(f"{path} cannot be written: {error.strerror}") from None
 
@@ -120,9 +112,3 @@ def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:
             f" instead of {width} x {height} in {size:,}"
         )
     return pixels
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -20,14 +20,14 @@ def render(
 ) -> Image:
     """Makes the picture of a scene.
 
-    scene: a Scene, or the path of a mesh or scene file.
+    scene: a Scene, the path of a mesh or scene file, or the name of a piece of a dataset.
     size: side of a square picture, or (width, height), in pixels; None takes the scene's.
     chain: where, by name or itself; None takes the fastest EVM that is installed.
     max_triangles: meshes of more are simplified.
     InputError for what is wrong with the scene, RenderError for what fails in the call.
     """
     if not isinstance(scene, Scene):
-        from .scene.files.load import load
+        from .load import load
 
         scene = load(scene)
     if size is not None:

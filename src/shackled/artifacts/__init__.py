@@ -61,7 +61,7 @@ def artifact(name: str) -> Artifact:
 def contracts() -> list[str]:
     """The names of all compiled contracts."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
-    return sorted(name for name in names if name != "standard-input")
+    return sorted(name for name in names if name not in ("standard-input", "source-maps"))
 
 
 def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..artifacts import artifact, contracts
-from ..errors import RenderError
+from ..errors import OutOfGasError, RenderError
 
 _PANIC = bytes.fromhex("4e487b71")
 _ERROR = bytes.fromhex("08c379a0")
@@ -37,6 +37,6 @@ def _describe(output: bytes) -> str:
     return f"{name}({', '.join(values)})"
 
 
-def out_of_gas(limit: int) -> RenderError:
+def out_of_gas(limit: int) -> OutOfGasError:
     """The error of a call that ran out of gas."""
-    return RenderError(f"the call ran out of gas: {limit:,} did not suffice")
+    return OutOfGasError(f"the call ran out of gas: {limit:,} did not suffice")

@@ -9,14 +9,24 @@ from typing import Annotated, NoReturn
 import typer
 
 from .. import __version__
-from ..errors import InputError, RenderError
+from ..errors import FetchError, InputError, RenderError
+from .bench import bench
+from .datasets import datasets
+from .gas import gas
+from .genesis import genesis
 from .render import render
+from .stages import stages
 
 #: What typer makes of a keyboard interrupt.
 INTERRUPTED = 130
 
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 app.command()(render)
+app.command()(gas)
+app.command()(bench)
+app.command()(genesis)
+app.command()(stages)
+app.add_typer(datasets, name="datasets")
 
 
 @app.callback(invoke_without_command=True)
@@ -38,7 +48,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)
-    except RenderError as error:
+    except (RenderError, FetchError) as error:
         return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -9,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from ..datasets import Piece
 from ..errors import InputError
 from ..scene.background import Background
 from ..scene.camera import Camera, Projection, half_height_of
-from ..scene.files.load import load
+from ..scene.files.load import load as load_file
 from ..scene.files.mesh_file import READERS
 from ..scene.light import Light
 from ..scene.material import Shading
@@ -53,12 +55,17 @@ class Changes:
     invert: bool | None = None
 
 
-def load_changed(path: str, changes: Changes) -> Scene:
-    """The scene of a file, with the changes. A mesh is framed as it will be seen."""
-    if Path(path).suffix.lower() in READERS:
-        scene = load(path, _look(changes))
+def load_changed(source: Path | Piece, changes: Changes) -> Scene:
+    """The scene of a file or piece, with the changes. A mesh is framed as it will be seen.
+
+    Who made a piece, and on what terms it may be used, is said on stderr where that matters.
+    """
+    if isinstance(source, Path) and source.suffix.lower() in READERS:
+        scene = load_file(source, _look(changes))
     else:
-        scene = load(path)
+        scene = source.make() if isinstance(source, Piece) else load_file(source)
+        if isinstance(source, Piece) and source.notice:
+            print(source.notice, file=sys.stderr)
         if changes.rotation is not None:
             scene = turn(scene, changes.rotation)
     if changes.size is not None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 
+from ..checks import choice
 from ..errors import InputError
 from ..scene.background import Background
 from ..scene.light import Light
+from ..scene.material import Shading
 from ..scene.scene import MAX_SIDE
 
 Color = tuple[int, int, int]
@@ -55,3 +57,13 @@ def parse_light(text: str) -> Light:
         raise InputError(f"--light must be directional:x,y,z or point:x,y,z, with :#rrggbb if wanted, not {text!r}")
     color = parse_color(rest[1], "--light") if len(rest) == 2 else (255, 255, 255)
     return Light("point" if kind == "point" else "directional", parse_vector(rest[0], "--light"), color)
+
+
+def parse_shading(shading: str | None, smooth: bool, unlit: bool) -> Shading | None:
+    """The shading, of --shading, --smooth and --unlit; None if none of them was given."""
+    chosen = {name for name, wanted in (("smooth", smooth), ("unlit", unlit)) if wanted}
+    if shading is not None:
+        chosen.add(choice(shading, "--shading", ("unlit", "flat", "smooth")))
+    if len(chosen) > 1:
+        raise InputError(f"the shading cannot be {' and '.join(sorted(chosen))} at once")
+    return chosen.pop() if chosen else None  # type: ignore[return-value]

@@ -12,13 +12,12 @@ import numpy as np
 import typer
 
 from ..chain import CHAINS, open_chain
-from ..checks import choice
-from ..errors import InputError
+from ..datasets import Piece
 from ..image import Image, check_output
+from ..load import locate
 from ..render import render as render_scene
-from ..scene.material import Shading
 from .look import Changes, load_changed
-from .parse import parse_background, parse_color, parse_light, parse_size, parse_vector
+from .parse import parse_background, parse_color, parse_light, parse_shading, parse_size, parse_vector
 
 
 def _option(name: str, text: str, kind: str | None = None, panel: str | None = None) -> Any:
@@ -26,7 +25,9 @@ def _option(name: str, text: str, kind: str | None = None, panel: str | None = N
 
 
 def render(
-    input: Annotated[str, typer.Argument(help="A mesh or scene file.", metavar="INPUT", show_default=False)],
+    input: Annotated[
+        str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
+    ],
     output: Annotated[
         str | None,
         _option("-o --output", ".png .bmp .svg or .gif; else INPUT's name and .png, in this folder.", "FILE"),
@@ -83,8 +84,10 @@ def render(
         bool | None, _option("--invert/--no-invert", "Turn each value v into 255 - v.", None, "Look")
     ] = None,
 ) -> None:
-    """Render a mesh or scene file to a picture."""
-    path = check_output(output if output is not None else f"{Path(input).stem or 'picture'}.png")
+    """Render a mesh file, a scene file or a piece of a dataset to a picture."""
+    source = locate(input)
+    stem = source.file_stem if isinstance(source, Piece) else source.stem
+    path = check_output(output if output is not None else f"{stem or 'picture'}.png")
     changes = Changes(
         size=None if size is None else parse_size(size),
         rotation=None if rotate is None else parse_vector(rotate, "--rotate"),
@@ -96,7 +99,7 @@ def render(
         half_height=half_height,
         near=near,
         lights=[parse_light(text) for text in light or []],
-        shading=_shading(shading, smooth, unlit),
+        shading=parse_shading(shading, smooth, unlit),
         ambient=ambient,
         diffuse=diffuse,
         specular=specular,
@@ -108,7 +111,7 @@ def render(
         invert=invert,
     )
     place = open_chain(chain)
-    scene = load_changed(input, changes)
+    scene = load_changed(source, changes)
     image = render_scene(scene, chain=place, max_triangles=max_triangles)
     image.save(path)
     if path.suffix.lower() == ".gif":
@@ -117,15 +120,6 @@ def render(
         print(json.dumps(_report(image, input, path)))
     else:
         print(_words(image, path))
-
-
-def _shading(shading: str | None, smooth: bool, unlit: bool) -> Shading | None:
-    chosen = {name for name, wanted in (("smooth", smooth), ("unlit", unlit)) if wanted}
-    if shading is not None:
-        chosen.add(choice(shading, "--shading", ("unlit", "flat", "smooth")))
-    if len(chosen) > 1:
-        raise InputError(f"the shading cannot be {' and '.join(sorted(chosen))} at once")
-    return chosen.pop() if chosen else None  # type: ignore[return-value]
 
 
 def _report(image: Image, input: str, path: Path) -> dict[str, Any]:

@@ -11,10 +11,12 @@ from . import lighting, primitive_assembly, rasterizer, vertex_shader, wireframe
 from .checks import check_scene
 from .compositor import background
 from .mesh import Mesh, open_mesh
+from .primitive_assembly import Triangle
 from .registers import PIXEL_BIAS, Registers
-from .structs import CULL_BACKFACES, SMOOTH, WIREFRAME, Rectangle, Scene
+from .structs import CULL_BACKFACES, SMOOTH, WIREFRAME, Object, Rectangle, Scene
 from .vector import to_matrix
-from .view import look_at
+from .vertex_shader import Vertex
+from .view import View, look_at
 
 
 @dataclass(frozen=True)
@@ -30,8 +32,32 @@ class Picture:
     lit_pixels: int
 
 
+@dataclass(frozen=True)
+class Geometry:
+    """What vertex shader and primitive assembly make of an object.
+
+    vertices: the records of all vertices of the mesh. triangles: those to draw.
+    """
+
+    object: Object
+    mesh: Mesh
+    vertices: list[Vertex]
+    triangles: list[Triangle]
+
+
 def draw(scene: Scene, tile: Rectangle) -> Picture:
     """Draws a part of the canvas. Raises Reverted where the contract refuses."""
+    registers, view, geometry, triangles = assemble(scene, tile)
+    for part in geometry:
+        lighting.set_object(view, scene, part.object, to_matrix(part.object.rotation), registers)
+        stage = wireframe if part.object.flags & WIREFRAME else rasterizer
+        stage.run(part.triangles, part.mesh, registers)
+    pixels = registers.image[:, :, ::-1]
+    return Picture(~pixels if scene.invert else pixels, triangles, int(np.count_nonzero(registers.depth)))
+
+
+def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geometry], int]:
+    """What there is before the first pixel is drawn, and the number of faces of which something is to be drawn."""
     check_scene(scene, tile)
     registers = Registers(
         tile=tile,
@@ -44,8 +70,8 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
     )
     view = look_at(scene.camera, scene.canvas.width, scene.canvas.height, registers)
     lighting.set_lights(view, scene.lights, registers)
-    triangles = 0
-    lists: list[tuple[Mesh, list[primitive_assembly.Triangle]]] = []
+    drawn = 0
+    geometry = []
     for index, obj in enumerate(scene.objects):
         mesh = open_mesh(obj.mesh)
         rotation = to_matrix(obj.rotation)
@@ -54,15 +80,10 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
         set_rounding(tile, bool(obj.flags & WIREFRAME), registers)
         vertices = vertex_shader.run(mesh, obj.material.shading == SMOOTH, registers)
         cull = bool(obj.flags & CULL_BACKFACES)
-        assembled, drawn = primitive_assembly.run(mesh, vertices, cull, index, registers)
-        triangles += drawn
-        lists.append((mesh, assembled))
-    for obj, (mesh, assembled) in zip(scene.objects, lists, strict=True):
-        lighting.set_object(view, scene, obj, to_matrix(obj.rotation), registers)
-        stage = wireframe if obj.flags & WIREFRAME else rasterizer
-        stage.run(assembled, mesh, registers)
-    pixels = registers.image[:, :, ::-1]
-    return Picture(~pixels if scene.invert else pixels, triangles, int(np.count_nonzero(registers.depth)))
+        triangles, count = primitive_assembly.run(mesh, vertices, cull, index, registers)
+        drawn += count
+        geometry.append(Geometry(obj, mesh, vertices, triangles))
+    return registers, view, geometry, drawn
 
 
 def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None:

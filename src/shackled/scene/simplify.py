@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from fast_simplification import replay_simplification
 from fast_simplification import simplify as collapse_edges
@@ -10,13 +12,19 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from .mesh import Mesh
 
+#: Tries at a collapse, one after the other until one is enough: how forceful it is, and its target as a share of the
+#: one that was asked for, for it may stop a little above its target, or far above it if it is not forceful enough.
+FORCEFUL = ((7, 1.0), (7, 0.9), (10, 0.8), (14, 0.5))
+#: These keep the shape better, and fail for more meshes.
+GENTLE = ((5, 1.0), (5, 0.9))
 
-def simplify(mesh: Mesh, max_triangles: int) -> Mesh:
+
+def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
     """A mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
 
     Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
-    they would no longer be those of the surface. A mesh that is small enough already is returned as it is. InputError
-    where edges cannot be collapsed so far.
+    they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
+    forcefully. InputError where edges cannot be collapsed so far.
     """
     if isinstance(max_triangles, bool) or not isinstance(max_triangles, int) or max_triangles < 1:
         raise InputError(
@@ -25,16 +33,10 @@ def simplify(mesh: Mesh, max_triangles: int) -> Mesh:
     if len(np.asarray(mesh.faces)) <= max_triangles:
         return mesh
     positions, faces, colors = _connect(mesh)
-    # the collapse may stop a little above its target, or far above it if it is not forceful enough
-    for agg, target in (
-        (7, max_triangles),
-        (7, 0.9 * max_triangles),
-        (10, 0.8 * max_triangles),
-        (14, 0.5 * max_triangles),
-    ):
+    for force, share in tries:
         if len(faces) <= max_triangles:
             break
-        positions, faces, colors = _collapse(positions, faces, colors, int(target), agg)
+        positions, faces, colors = _collapse(positions, faces, colors, int(share * max_triangles), force)
     if not 0 < len(faces) <= max_triangles:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
         raise InputError(

@@ -1,0 +1,91 @@
+"""Bring benchmarks/README.md and docs/energy.md up to date with benchmarks/results, what `shackled bench --all` wrote.
+
+python -m benchmarks.story            writes between the marks <!-- begin NAME --> and <!-- end NAME -->
+python -m benchmarks.story --check    writes nothing; fails if they are not up to date
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+import sys
+from pathlib import Path
+from statistics import fmean
+
+from shackled.bench import energy
+from shackled.bench.deploy import RENDERER
+from shackled.bench.original import DEPLOYMENT_GAS, original_gas
+from shackled.bench.scenes import cube
+from shackled.chain.embedded import intrinsic_gas
+from shackled.scene.codec import encode
+
+ROOT = Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "benchmarks" / "results"
+PAGES = (ROOT / "benchmarks" / "README.md", ROOT / "docs" / "energy.md")
+
+#: Of one piece, by the original's token.
+MINT_GAS = 124_000
+
+
+def content(name: str) -> str:
+    """What stands between the marks of that name: the text of an experiment without its title, or estimates."""
+    if name == "energy":
+        return estimates()
+    path = RESULTS / f"{name}.md"
+    if not path.exists():
+        raise SystemExit(f"there is no {path.relative_to(ROOT)}: run `shackled bench --all -o benchmarks/results`")
+    return path.read_text("utf-8").partition("\n\n")[2].strip()
+
+
+def estimates() -> str:
+    """Electricity of what the experiments have measured."""
+    deployment = sum(int(row["gas"]) for row in rows("deploy") if row["contract"] in RENDERER)
+    cubes = {int(row["side"]): int(row["gas"]) for row in rows("canvas") if row["projection"] == "perspective"}
+    before = original_gas("cube_persp_128")
+    assert before is not None
+    return energy.estimates(
+        {
+            "deployment of the renderer": deployment,
+            "deployment of the original": DEPLOYMENT_GAS,
+            "mint of a piece, as in the original": MINT_GAS,
+            "picture of a cube, 128 x 128": cubes[128] + intrinsic_gas(encode(bytes(4), cube(128))),
+        },
+        {
+            "picture of a cube, 128 x 128": cubes[128],
+            "the same in the original": before,
+            "a piece of Genesis, on average": round(fmean(int(row["gas"]) for row in rows("genesis"))),
+            "picture of a cube, 512 x 512": cubes[512],
+        },
+    )
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    """The figures of an experiment."""
+    with (RESULTS / f"{name}.csv").open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def filled(text: str) -> str:
+    """A page with what belongs between its marks."""
+
+    def fill(match: re.Match[str]) -> str:
+        return f"{match[1]}\n{content(match[2])}\n<!-- end {match[2]} -->"
+
+    return re.sub(r"(<!-- begin (\w+) -->)\n.*?<!-- end \2 -->", fill, text, flags=re.DOTALL)
+
+
+def main() -> int:
+    """The command."""
+    stale = [page for page in PAGES if filled(page.read_text("utf-8")) != page.read_text("utf-8")]
+    if "--check" in sys.argv[1:]:
+        for page in stale:
+            print(f"{page.relative_to(ROOT)} is not up to date: run python -m benchmarks.story", file=sys.stderr)
+        return 1 if stale else 0
+    for page in stale:
+        page.write_text(filled(page.read_text("utf-8")), "utf-8", newline="\n")
+        print(f"written: {page.relative_to(ROOT)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Seed, Tag, Random} from "./Random.sol";
+import {Hsv} from "./Hsv.sol";
+import {Prisms} from "./Prisms.sol";
+import {Paint, Scheme, LEFT, UP, DOWN, RANDOM, LARGEST, RADIUS, CENTER_X} from "./Schemes.sol";
+
+/// @notice A single prism, and the scheme would choose highlights among the others: the seed has no piece.
+error NoPrismToChoose();
+
+/// @title Colors: the colour of every vertex, from a gradient and a random offset in hue, saturation and value.
+library Colors {
+    using Random for Seed;
+
+    Tag private constant NONE = Tag.wrap(0);
+    Tag private constant JIGGLE_HUE = Tag.wrap(bytes32("0") | bytes32(uint256(1)));
+    Tag private constant JIGGLE_SATURATION = Tag.wrap(bytes32("1") | bytes32(uint256(1)));
+    Tag private constant JIGGLE_VALUE = Tag.wrap(bytes32("2") | bytes32(uint256(1)));
+
+    /// @dev Hue, saturation and value.
+    struct Hue {
+        int256 hue;
+        int256 saturation;
+        int256 value;
+    }
+
+    /// @return colors 0xRRGGBB for each vertex, in the order of the vertices.
+    function paint(Seed seed, Scheme memory scheme, Prisms memory prisms) internal pure returns (uint256[] memory colors) {
+        unchecked {
+            uint256 count = prisms.flatX.length;
+            colors = new uint256[](6 * count);
+            uint256 chosen = highlights(seed, scheme, prisms);
+            // the seed holds no prism: all of a kind have the same offsets
+            Hue[6] memory plain = offsets(seed, scheme.primary);
+            Hue[6] memory special;
+            if (chosen != 0) special = offsets(seed, scheme.highlight);
+            for (uint256 k; k != count; ++k) {
+                bool isChosen = (chosen >> k) & 1 == 1;
+                paintPrism(isChosen ? scheme.highlight : scheme.primary, isChosen ? special : plain, prisms, k, colors);
+            }
+        }
+    }
+
+    /// @dev Which prisms are highlights: bit k for prism k.
+    function highlights(Seed seed, Scheme memory scheme, Prisms memory prisms) private pure returns (uint256 chosen) {
+        unchecked {
+            uint256 total = prisms.flatX.length;
+            uint256 count = scheme.count < total ? scheme.count : total;
+            if (count == 0) return 0;
+            if (scheme.select == RANDOM) {
+                if (total == 1) revert NoPrismToChoose();
+                for (uint256 i; i != count; ++i) chosen |= 1 << (seed.hash(NONE, i, 0, 1) % (total - 1));
+                return chosen;
+            }
+            int256[] memory keys =
+                scheme.key == RADIUS ? prisms.flatRadius : scheme.key == CENTER_X ? prisms.flatX : prisms.flatY;
+            // of equal keys those with the smaller number come first: no two are equal now
+            for (uint256 k = 1; k != total; ++k) keys[k] = (scheme.select == LARGEST ? -keys[k] : keys[k]) * 16 + int256(k);
+            // the first prism comes first, whatever its key
+            chosen = 1;
+            for (uint256 k = 1; k != total; ++k) {
+                int256 key = keys[k];
+                uint256 before = 1;
+                for (uint256 i = 1; i != total; ++i) if (keys[i] < key) ++before;
+                if (before < count) chosen |= 1 << k;
+            }
+        }
+    }
+
+    /// @dev What is added at each vertex of a prism.
+    function offsets(Seed seed, Paint memory how) private pure returns (Hue[6] memory found) {
+        unchecked {
+            uint256 jiggle = how.jiggle;
+            if (jiggle == 0) return found;
+            uint256 word;
+            for (uint256 i; i != 6; ++i) {
+                if (i != 0 && !how.byVertex) {
+                    found[i] = found[0];
+                    continue;
+                }
+                Hue memory offset = found[i];
+                offset.hue = seed.draw(JIGGLE_HUE, word, 0, int256(2 * (jiggle >> 16)));
+                offset.saturation = seed.draw(JIGGLE_SATURATION, word, 0, int256(2 * ((jiggle >> 8) & 0xff)));
+                offset.value = seed.draw(JIGGLE_VALUE, word, 0, int256(2 * (jiggle & 0xff)));
+                word = uint256(offset.hue);
+            }
+        }
+    }
+
+    function paintPrism(Paint memory how, Hue[6] memory added, Prisms memory prisms, uint256 k, uint256[] memory colors)
+        private
+        pure
+    {
+        unchecked {
+            // along which the gradient runs
+            int256[] memory values = how.direction < UP ? prisms.x : prisms.y;
+            (int256 low, int256 high) = how.across ? (-prisms.half[how.direction >> 1], prisms.half[how.direction >> 1]) : range(values, k);
+            if (!how.across && (how.direction == LEFT || how.direction == DOWN)) (low, high) = (high, low);
+            for (uint256 i; i != 3; ++i) {
+                int256 part = high == low ? int256(1) : (values[6 * k + 3 + i] - low) * 1000 / (high - low);
+                (int256 hue, int256 saturation, int256 value) =
+                    Hsv.fromRgb(mix(how, 16, part), mix(how, 8, part), mix(how, 0, part));
+                colors[6 * k + i] = colorOf(hue, saturation, value, added[i], how.shift);
+                colors[6 * k + 3 + i] = colorOf(hue, saturation, value, added[3 + i], 0);
+            }
+        }
+    }
+
+    /// @dev The least and the largest coordinate at the near end of a prism.
+    function range(int256[] memory values, uint256 k) private pure returns (int256 low, int256 high) {
+        unchecked {
+            (int256 a, int256 b, int256 c) = (values[6 * k + 3], values[6 * k + 4], values[6 * k + 5]);
+            (low, high) = a < b ? (a, b) : (b, a);
+            if (c < low) low = c;
+            if (c > high) high = c;
+        }
+    }
+
+    /// @dev A channel of the gradient; beyond its ends it goes on, but not below 0.
+    function mix(Paint memory how, uint256 shift, int256 part) private pure returns (int256 channel) {
+        unchecked {
+            int256 start = int256((how.start >> shift) & 0xff);
+            int256 end = int256((how.end >> shift) & 0xff);
+            channel = start + (end - start) * part / 1000;
+            if (channel < 0) channel = 0;
+        }
+    }
+
+    function colorOf(int256 hue, int256 saturation, int256 value, Hue memory added, int256 shift) private pure returns (uint256) {
+        unchecked {
+            (int256 red, int256 green, int256 blue) =
+                Hsv.toRgb(clamp(hue + added.hue), clamp(saturation + added.saturation), clamp(value + added.value));
+            return uint256((clamp(red - shift) << 16) | (clamp(green - shift) << 8) | clamp(blue - shift));
+        }
+    }
+
+    function clamp(int256 value) private pure returns (int256) {
+        return value < 0 ? int256(0) : value > 255 ? int256(255) : value;
+    }
+}

@@ -1,0 +1,127 @@
+"""Foundry's anvil, a node for development, as a place where the contracts run."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+import subprocess
+import time
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import requests
+
+from ..artifacts import artifact
+from ..chain import CallResult, ContractChain
+from ..chain.embedded import intrinsic_gas
+from ..errors import RenderError
+
+#: Where `npm ci` puts it in a clone of the repository.
+BINARIES = Path(__file__).resolve().parents[3] / "contracts" / "node_modules" / ".bin"
+GAS_LIMIT = 1_000_000_000
+PATIENCE = 60
+
+
+def find_anvil() -> str | None:
+    """The binary, of the path or of a clone."""
+    return shutil.which("anvil", path=f"{os.environ.get('PATH', '')}{os.pathsep}{BINARIES}")
+
+
+class AnvilChain(ContractChain):
+    """A node with the contracts, which runs while the context is open. Rules and gas are those of the embedded EVMs."""
+
+    name = "node (anvil)"
+
+    def __init__(self, binary: str) -> None:
+        """`binary`: its path."""
+        self.binary = binary
+        self._addresses: dict[str, str] = {}
+
+    def __enter__(self) -> AnvilChain:
+        with socket.socket() as found:
+            found.bind(("127.0.0.1", 0))
+            port = found.getsockname()[1]
+        self.url = f"http://127.0.0.1:{port}"
+        rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
+        self.process = subprocess.Popen(
+            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *rules],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            self._wait()
+            self.sender = self.rpc("eth_accounts")[0]
+        except BaseException:
+            self._stop()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stop()
+
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """A read call, which says no gas, and the same as a transaction for that."""
+        return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data), intrinsic_gas(data))
+
+    def transact(self, contract: str, data: bytes) -> int:
+        """The execution gas of the same call as a transaction."""
+        receipt = self._send({"to": self.address(contract), "data": "0x" + data.hex()})
+        return int(receipt["gasUsed"], 16) - intrinsic_gas(data)
+
+    def address(self, contract: str) -> str:
+        """Where a contract stands; it is deployed when it is first asked for."""
+        if contract not in self._addresses:
+            built = artifact(contract)
+            arguments = "".join(self.address(part)[2:].rjust(64, "0") for part in built.parts)
+            receipt = self._send({"data": "0x" + built.creation.hex() + arguments})
+            self._addresses[contract] = receipt["contractAddress"]
+        return self._addresses[contract]
+
+    def rpc(self, method: str, *parameters: Any) -> Any:
+        """What the node answers."""
+        request: Any = {"jsonrpc": "2.0", "id": 1, "method": method, "params": parameters}
+        answer = requests.post(self.url, json=request, timeout=PATIENCE).json()
+        if "error" in answer:
+            raise RenderError(f"anvil refused {method}: {answer['error'].get('message', '')}")
+        return answer["result"]
+
+    def read(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:
+        """What a read call returns."""
+        gas = hex((gas_limit or GAS_LIMIT // 2) + intrinsic_gas(data))
+        call = {"from": self.sender, "to": self.address(contract), "data": "0x" + data.hex(), "gas": gas}
+        return bytes.fromhex(self.rpc("eth_call", call, "latest")[2:])
+
+    def _send(self, transaction: dict[str, str]) -> Any:
+        sender = {"from": self.sender, "gas": hex(GAS_LIMIT), "gasPrice": "0x0"}
+        sent = self.rpc("eth_sendTransaction", sender | transaction)
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            receipt = self.rpc("eth_getTransactionReceipt", sent)
+            if receipt is not None:
+                if int(receipt["status"], 16) != 1:
+                    raise RenderError("anvil: the transaction failed")
+                return receipt
+            time.sleep(0.02)
+        raise RenderError(f"anvil: no receipt after {PATIENCE} s")
+
+    def _wait(self) -> None:
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end and self.process.poll() is None:
+            try:
+                self.rpc("eth_chainId")
+                return
+            except requests.RequestException:
+                time.sleep(0.05)
+        raise RenderError(f"{self.binary} does not answer")
+
+    def _stop(self) -> None:
+        self.process.terminate()
+        try:
+            self.process.wait(10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()

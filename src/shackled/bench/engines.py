@@ -1,0 +1,131 @@
+"""The same calls in every EVM at hand."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from ..artifacts import artifact
+from ..chain import CHAINS, ContractChain, open_chain
+from ..datasets.teapot import teapot
+from ..errors import RenderError
+from ..scene.codec import encode
+from ..scene.scene import Scene
+from ..scene.staging import Look, stage
+from .anvil import AnvilChain, find_anvil
+from .lab import Lab
+from .plots import FOURTH, ORIGINAL, OURS, THIRD
+from .report import Cell, Report
+from .scenes import cube, equal_triangles
+from .table import millions, table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: The names of engines: those of chains, and the node.
+ENGINES = ("pyrevm", "pyevm", "anvil")
+NAMES = {"pyrevm": "pyrevm", "pyevm": "py-evm", "anvil": "anvil (eth_call over HTTP)"}
+#: Calls are made again while they have taken less than this together, in seconds; the shortest counts.
+ENOUGH = 1.0
+
+
+@dataclass(frozen=True)
+class Run:
+    """One call: seconds, execution gas, what is returned."""
+
+    seconds: float
+    gas: int
+    output: bytes
+
+
+def run(lab: Lab) -> Report:
+    """A few scenes in each. Nothing else is measured at the same time, so that the times mean something."""
+    scenes = all_scenes(lab.quick)
+    engines = [name for name in ENGINES if is_at_hand(name)]
+    runs: dict[tuple[str, str], Run] = {}
+    for engine in engines:
+        with opened(engine) as chain:
+            found = lab.map(engine, partial(measure, chain), scenes.values(), alone=True)
+        runs |= {(engine, name): each for name, each in zip(scenes, found, strict=True)}
+    for name in scenes:
+        if len({(runs[engine, name].gas, runs[engine, name].output) for engine in engines}) != 1:
+            raise RenderError(f"the engines do not agree on the scene {name}")
+    rows: list[list[Cell]] = [[engine, name, each.gas, round(each.seconds, 6)] for (engine, name), each in runs.items()]
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for engine, color in zip(engines, (OURS, ORIGINAL, THIRD, FOURTH), strict=False):
+            points = sorted((runs[engine, name].gas / 1e6, runs[engine, name].seconds) for name in scenes)
+            axes.plot(*zip(*points, strict=True), "o-", color=color, ms=4, lw=1.2, label=NAMES[engine])
+        axes.set(xscale="log", yscale="log", xlabel="gas of the picture, millions", ylabel="seconds")
+        axes.legend()
+
+    return Report("Engines", ["engine", "scene", "gas", "seconds"], rows, _text(engines, list(scenes), runs), draw)
+
+
+def all_scenes(quick: bool) -> dict[str, Scene]:
+    """By name, from the cheapest to the dearest."""
+    if quick:
+        return {"cube, 8 x 8": cube(8)}
+    return {
+        "cube, 32 x 32": cube(32),
+        "16 triangles, 128 x 128": equal_triangles(16),
+        "cube, 128 x 128": cube(128),
+        "teapot of 1,008 triangles, 128 x 128": stage(teapot(4), Look(128, 128)),
+    }
+
+
+def is_at_hand(engine: str) -> bool:
+    """Whether it is installed."""
+    return find_anvil() is not None if engine == "anvil" else find_spec(CHAINS[engine]) is not None
+
+
+@contextmanager
+def opened(engine: str) -> Iterator[ContractChain]:
+    """The engine with the contracts in it."""
+    if engine != "anvil":
+        chain = open_chain(engine)
+        assert isinstance(chain, ContractChain)
+        chain.address("Renderer")  # type: ignore[attr-defined]
+        yield chain
+        return
+    binary = find_anvil()
+    assert binary is not None
+    with AnvilChain(binary) as node:
+        node.address("Renderer")
+        yield node
+
+
+def measure(chain: ContractChain, scene: Scene) -> Run:
+    """The shortest of some calls; the first is not counted where there are several."""
+    data = encode(artifact("Renderer").selectors["render"], scene)
+    result = chain.call("Renderer", data)
+    call = chain.read if isinstance(chain, AnvilChain) else chain.call
+    seconds: list[float] = []
+    while sum(seconds) < ENOUGH:
+        started = time.perf_counter()
+        call("Renderer", data)
+        seconds.append(time.perf_counter() - started)
+    return Run(min(seconds), result.gas, result.output)
+
+
+def _text(engines: list[str], scenes: list[str], runs: dict[tuple[str, str], Run]) -> str:
+    lines = []
+    for name in scenes:
+        gas = runs[engines[0], name].gas
+        times = [f"{runs[engine, name].seconds * 1000:,.1f}" for engine in engines]
+        lines.append([name, millions(gas), *times])
+    speeds = []
+    for engine in engines:
+        last = runs[engine, scenes[-1]]
+        speeds.append(f"{NAMES[engine]} {last.gas / last.seconds / 1e6:,.{0 if last.seconds < 1 else 1}f}")
+    return (
+        "The same bytes for the same gas in each. The times are of the machine on which this ran, and the only figures"
+        " here that differ from machine to machine. Millions of gas a second, for the last scene:"
+        f" {', '.join(speeds)}.\n\n" + table(["scene", "gas", *(f"{NAMES[engine]}, ms" for engine in engines)], lines)
+    )

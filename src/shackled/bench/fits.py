@@ -1,0 +1,40 @@
+"""Straight lines through measurements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Column = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Least squares: gas = sum of coefficients times columns; the first coefficient is the constant."""
+
+    coefficients: list[float]
+    r2: float
+
+
+def fit(columns: Sequence[ArrayLike], gas: ArrayLike) -> Fit:
+    """The best fit with a constant."""
+    values = np.asarray(gas, np.float64)
+    matrix = np.stack([np.ones_like(values), *(np.asarray(column, np.float64) for column in columns)], axis=1)
+    scale = np.abs(matrix).max(axis=0)
+    solution = np.linalg.lstsq(matrix / scale, values, rcond=None)[0]
+    return Fit((solution / scale).tolist(), r2_of(values, matrix / scale @ solution))
+
+
+def r2_of(values: Column, fitted: Column) -> float:
+    """The share of the variance that is explained."""
+    rest, around = values - fitted, values - values.mean()
+    return float(1 - (rest @ rest) / (around @ around))
+
+
+def quadratic_share(columns: list[Column], gas: Column) -> float:
+    """What part of the gas of the last scene a term with the square of the first column takes, if there is one."""
+    with_square = fit([*columns, columns[0] ** 2], gas)
+    return float(with_square.coefficients[-1] * columns[0][-1] ** 2 / gas[-1])

@@ -1,0 +1,74 @@
+"""What an experiment found, and the files that it becomes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PIL import Image as PillowImage
+
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Cell = str | int | float | None
+
+
+@dataclass(frozen=True)
+class Report:
+    """What an experiment found.
+
+    head, rows: of the CSV file, figures as they were measured; None leaves a cell empty.
+    text: Markdown, what the figures say and a table of them.
+    draw: draws the plot. shape: its width and height in inches.
+    pictures: what was rendered, by the ends of file names.
+    """
+
+    title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[Cell]]
+    text: str
+    draw: Callable[[Figure], None]
+    shape: tuple[float, float] = (6.4, 3.6)
+    pictures: Mapping[str, PillowImage.Image] = field(default_factory=dict)
+
+    def save(self, name: str, folder: Path) -> list[Path]:
+        """Writes NAME.csv, NAME.md, NAME.png and the pictures; returns their paths."""
+        from .plots import plot
+
+        files = {
+            f"{name}.csv": self.csv().encode(),
+            f"{name}.md": f"# {self.title}\n\n{wrapped(self.text)}\n".encode(),
+            f"{name}.png": plot(self.draw, self.shape),
+        }
+        for end, picture in self.pictures.items():
+            stream = io.BytesIO()
+            picture.save(stream, "png", optimize=True)
+            files[f"{name}-{end}.png"] = stream.getvalue()
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            for file, content in files.items():
+                (folder / file).write_bytes(content)
+        except OSError as error:
+            raise InputError(f"nothing can be written to the folder {folder}: {error.strerror}") from None
+        return [folder / file for file in files]
+
+    def csv(self) -> str:
+        """The figures, a line each."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(self.head)
+        writer.writerows(self.rows)
+        return stream.getvalue()
+
+
+def wrapped(text: str) -> str:
+    """Markdown whose paragraphs have lines of up to 120 characters; tables stay as they are."""
+    blocks = text.strip().split("\n\n")
+    return "\n\n".join(block if block.startswith("|") else textwrap.fill(block, 120) for block in blocks)

@@ -1,0 +1,198 @@
+"""shackled datasets"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from itertools import groupby
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    DownloadColumn,
+    Progress,
+    TextColumn,
+    TimeRemainingColumn,
+    track,
+)
+
+from ..checks import choice
+from ..datasets import DATASETS, Piece, pieces
+from ..datasets.costs import Cost, cost
+from ..errors import InputError
+
+CONSOLE = Console(stderr=True)
+
+#: How many Genesis pieces a gallery shows unless all are wanted.
+GENESIS_SHOWN = 48
+
+datasets = typer.Typer(no_args_is_help=True, help="The pieces that are known by name.")
+
+
+def _check_dataset(name: str | None) -> str | None:
+    return name if name is None else choice(name, "the dataset", tuple(DATASETS))
+
+
+@datasets.command("list")
+def list_(
+    dataset: Annotated[
+        str | None, typer.Argument(help=f"{', '.join(DATASETS)}; else all.", metavar="DATASET", show_default=False)
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print a list of JSON objects.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="A line for each Genesis piece too.")] = False,
+) -> None:
+    """Name the pieces, with triangles, gas to render them at 128 x 128, and licence."""
+    wanted = _check_dataset(dataset)
+    rows = [(piece, cost(piece)) for piece in pieces(wanted)]
+    if as_json:
+        print(json.dumps([_object(piece, figures) for piece, figures in rows], ensure_ascii=False))
+        return
+    for name, group in groupby(rows, lambda row: row[0].dataset):
+        members = list(group)
+        print(f"{name}: {len(members):,} pieces")
+        lines = [_summary(members)] if name == "genesis" and not every else [_line(*row) for row in members]
+        widths = [max(len(line[column]) for line in lines) for column in range(4)]
+        for line in lines:
+            print(
+                f"  {line[0]:{widths[0]}}  {line[1]:>{widths[1]}} triangles  {line[2]:>{widths[2]}} gas"
+                f"  {line[3]:{widths[3]}}  {line[4]}"
+            )
+
+
+def _object(piece: Piece, figures: Cost) -> dict[str, Any]:
+    return {
+        "name": piece.name,
+        "dataset": piece.dataset,
+        "title": piece.title,
+        "triangles": figures.triangles,
+        "gas": figures.gas,
+        "licence": piece.licence,
+        "commercial": piece.commercial,
+        "credit": piece.credit,
+        "fetched": piece.ready(),
+    }
+
+
+def _line(piece: Piece, figures: Cost) -> tuple[str, str, str, str, str]:
+    triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
+    gas = "-" if figures.gas is None else f"{figures.gas:,}"
+    terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
+    if not piece.ready():
+        terms += f"; run: shackled datasets fetch {piece.name}"
+    return piece.name, triangles, gas, piece.title, terms
+
+
+def _summary(rows: Sequence[tuple[Piece, Cost]]) -> tuple[str, str, str, str, str]:
+    triangles = [figures.triangles for _, figures in rows if figures.triangles is not None]
+    gas = [figures.gas for _, figures in rows if figures.gas is not None]
+    first, last = rows[0][0], rows[-1][0]
+    return (
+        f"{first.name} .. {last.name}",
+        f"{min(triangles):,} to {max(triangles):,}" if triangles else "-",
+        f"{min(gas):,} to {max(gas):,}" if gas else "-",
+        "",
+        first.licence,
+    )
+
+
+@datasets.command()
+def fetch(
+    names: Annotated[list[str], typer.Argument(help="Models, as `list` names them.", metavar="NAME...")],
+    own: Annotated[
+        Path | None,
+        typer.Option("--from", help="A mesh file or archive of yours, in place of a download.", metavar="FILE"),
+    ] = None,
+    cache: Annotated[
+        Path | None,
+        typer.Option("--cache", help="Where to keep it; else $SHACKLED_CACHE, else that of the system.", metavar="DIR"),
+    ] = None,
+    again: Annotated[bool, typer.Option("--again", help="Prepare anew what is there already.")] = False,
+) -> None:
+    """Download models of other people, clean and simplify them, and keep the result."""
+    from ..datasets.cache import VARIABLE
+    from ..datasets.common.models import model
+
+    if own is not None and len(names) != 1:
+        raise InputError("--from is the file of one model: give one NAME with it")
+    if cache is not None:
+        os.environ[VARIABLE] = str(cache)
+    for each in [model(name) for name in names]:
+        _fetch(each, own, again)
+
+
+def _fetch(model: Any, own: Path | None, again: bool) -> None:
+    from ..datasets.common.fetch import fetch, take
+
+    terms = "" if model.commercial else "; not for commercial use"
+    print(f"{model.name}: {model.title} by {model.author}; licence: {model.licence}{terms}", file=sys.stderr)
+    if own is not None:
+        if not take(model, own):
+            print(
+                f"{model.name}: {own} is not the published file, so its checksum was not compared;"
+                " its licence is for you to know",
+                file=sys.stderr,
+            )
+    else:
+        with _download_bar(model.name) as show:
+            done = fetch(model, again, show)
+        if not done:
+            source = "from a file of yours; --again downloads the published one" if model.is_own() else "already"
+            print(f"{model.name}: it is here {source}", file=sys.stderr)
+    name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
+    print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
+
+
+@contextmanager
+def _download_bar(name: str) -> Iterator[Any]:
+    columns = (TextColumn("{task.description}"), BarColumn(), DownloadColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=CONSOLE, transient=True, disable=not CONSOLE.is_terminal) as bar:
+        task = bar.add_task(name, total=None, visible=False)
+        yield lambda here, whole: bar.update(task, completed=here, total=whole, visible=True)
+
+
+@datasets.command()
+def gallery(
+    outputs: Annotated[
+        list[Path] | None, typer.Option("-o", "--output", help=".html or .png; may be given twice.", metavar="FILE")
+    ] = None,
+    dataset: Annotated[
+        str | None, typer.Argument(help=f"{', '.join(DATASETS)}; else all.", metavar="DATASET", show_default=False)
+    ] = None,
+    every: Annotated[bool, typer.Option("--all", help=f"All Genesis pieces, not {GENESIS_SHOWN} of them.")] = False,
+    jobs: Annotated[int | None, typer.Option("--jobs", help="Worker processes; else one a core.", min=1)] = None,
+) -> None:
+    """Draw all pieces by the contracts: a page that stands alone, or a contact sheet. What was drawn once is kept."""
+    from ..datasets.drawing import draw_all
+    from ..datasets.gallery import page, sheet
+    from ..whole_file import write_whole
+
+    wanted = _check_dataset(dataset)
+    paths = outputs or [Path("gallery.html")]
+    for path in paths:
+        if path.suffix.lower() not in (".html", ".png"):
+            raise InputError(f"the gallery {path} must end in .html or .png")
+        if path.is_dir():
+            raise InputError(f"{path} is a folder, not the file of a gallery")
+        if not path.parent.is_dir():
+            raise InputError(f"the folder {path.parent} of the gallery {path.name} does not exist")
+    shown, genesis = [], 0
+    for piece in pieces(wanted):
+        genesis += piece.dataset == "genesis"
+        if every or piece.dataset != "genesis" or genesis <= GENESIS_SHOWN:
+            shown.append(piece)
+    ready = [piece for piece in shown if piece.ready()]
+    bar = track(draw_all(ready, processes=jobs), "drawing", len(ready), console=CONSOLE, transient=True)
+    drawings = {drawing.name: drawing for drawing in bar}
+    for path in paths:
+        html = path.suffix.lower() == ".html"
+        try:
+            write_whole(path, page(shown, drawings).encode() if html else sheet(shown, drawings))
+        except OSError as error:
+            raise InputError(f"{path} cannot be written: {error.strerror}") from None
+        print(f"{path}: {len(drawings if not html else shown):,} pieces")

@@ -1,0 +1,149 @@
+"""shackled gas"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..chain import CHAINS, open_chain
+from ..datasets import Piece
+from ..errors import InputError
+from ..gas.exact import counting
+from ..gas.flame_graph import flame_graph
+from ..gas.profile import Profile
+from ..gas.report import make_report
+from ..gas.speedscope import speedscope
+from ..gas.trace import require_tracer
+from ..load import locate
+from ..render import simplify_scene
+from ..whole_file import write_whole
+from .gas_progress import Progress
+from .gas_tables import print_profile, print_report
+from .look import Changes, load_changed
+from .parse import parse_shading, parse_size, parse_vector
+
+#: What --profile writes, by extension.
+FORMATS = (".json", ".svg")
+
+
+def _option(name: str, text: str, kind: str | None = None, panel: str | None = None) -> Any:
+    return typer.Option(*name.split(), help=text, metavar=kind, rich_help_panel=panel, show_default=False)
+
+
+def gas(
+    input: Annotated[
+        str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
+    ],
+    size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
+    chain: Annotated[
+        str | None, _option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+    ] = None,
+    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of tables.")] = False,
+    profile: Annotated[
+        str | None,
+        _option(
+            "--profile", "Gas by function and line too, and as a flame graph: .svg, or .json for speedscope.", "FILE"
+        ),
+    ] = None,
+    stages: Annotated[
+        bool, _option("--stages/--no-stages", "Gas by stage, which takes a slow EVM some seconds, or not.")
+    ] = True,
+    gas_price: Annotated[float, _option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
+    eth_price: Annotated[float | None, _option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
+    lower: Annotated[
+        int, _option("--lower", "Where the search begins: gas that does not suffice; else 0.", "GAS", "Search")
+    ] = 0,
+    upper: Annotated[
+        int | None,
+        _option("--upper", "Gas that does suffice; else it is doubled until it does.", "GAS", "Search"),
+    ] = None,
+    max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N", "Look")] = None,
+    rotate: Annotated[
+        str | None, _option("--rotate", "Turn the scene about x, then y, then z, in degrees.", "X,Y,Z", "Look")
+    ] = None,
+    orthographic: Annotated[
+        bool | None, _option("--orthographic/--perspective", "How the camera projects.", None, "Look")
+    ] = None,
+    shading: Annotated[str | None, _option("--shading", "unlit, flat or smooth.", "KIND", "Look")] = None,
+    smooth: Annotated[bool, _option("--smooth", "As --shading smooth.", None, "Look")] = False,
+    unlit: Annotated[bool, _option("--unlit", "As --shading unlit.", None, "Look")] = False,
+    cull: Annotated[bool | None, _option("--cull/--no-cull", "Leave out faces that turn away.", None, "Look")] = None,
+    wireframe: Annotated[
+        bool | None, _option("--wireframe/--filled", "Draw the edges only, or whole faces.", None, "Look")
+    ] = None,
+) -> None:
+    """Measure the gas of a picture: exactly, by a search over gas limits, by stage and by line, and where it fits."""
+    path = None if profile is None else _check_profile(profile)
+    _check_price(gas_price, "--gas-price", "gwei a gas")
+    if eth_price is not None:
+        _check_price(eth_price, "--eth-price", "US dollars an ether")
+    if path is not None and not stages:
+        raise InputError("--profile is made of what --no-stages leaves out: give one of them")
+    if stages:
+        _require_tracer()
+    place = counting(open_chain(chain))
+    source = locate(input)
+    changes = Changes(
+        size=None if size is None else parse_size(size),
+        rotation=None if rotate is None else parse_vector(rotate, "--rotate"),
+        projection=None if orthographic is None else "orthographic" if orthographic else "perspective",
+        shading=parse_shading(shading, smooth, unlit),
+        cull=cull,
+        wireframe=wireframe,
+    )
+    scene = load_changed(source, changes)
+    if max_triangles is not None:
+        scene = simplify_scene(scene, max_triangles)
+    with Progress(quiet=as_json) as progress:
+        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced)
+    if path is not None and report.profile is not None:
+        _write_profile(path, report.profile, input)
+    if isinstance(source, Piece) and source.notice:
+        print(source.notice, file=sys.stderr)
+    if as_json:
+        written = {} if path is None else {"profile": str(path)}
+        print(json.dumps({"input": input} | report.to_json(gas_price, eth_price) | written))
+        return
+    print_report(report, gas_price, eth_price)
+    if path is not None and report.profile is not None:
+        print_profile(report.profile)
+        print(f"flame graph: {path}")
+
+
+def _require_tracer() -> None:
+    try:
+        require_tracer()
+    except InputError as error:
+        raise InputError(f"{error}; --no-stages leaves them out") from None
+
+
+def _check_profile(name: str) -> Path:
+    path = Path(name)
+    if path.suffix.lower() not in FORMATS:
+        raise InputError(f"--profile writes {' or '.join(FORMATS)} files, not {name!r}")
+    if not path.parent.is_dir():
+        raise InputError(f"--profile: the folder {path.parent} of {path.name} does not exist")
+    if path.is_dir():
+        raise InputError(f"--profile: {name!r} is a folder")
+    return path
+
+
+def _check_price(value: float, name: str, unit: str) -> None:
+    if not (math.isfinite(value) and value >= 0):
+        raise InputError(f"{name} must be 0 or more {unit}, not {value}")
+
+
+def _write_profile(path: Path, profile: Profile, name: str) -> None:
+    if path.suffix.lower() == ".json":
+        text = json.dumps(speedscope(profile, name), separators=(",", ":")) + "\n"
+    else:
+        text = flame_graph(profile, name)
+    try:
+        write_whole(path, text.encode())
+    except OSError as error:
+        raise InputError(f"{path} cannot be written: {error.strerror}") from None

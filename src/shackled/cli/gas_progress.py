@@ -1,0 +1,81 @@
+"""What `shackled gas` shows on stderr while it measures: the bracket as it narrows, then the trace."""
+
+from __future__ import annotations
+
+import sys
+from types import TracebackType
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress import BarColumn, TaskProgressColumn, TextColumn
+from rich.progress import Progress as Bars
+from rich.table import Table
+from rich.text import Text
+
+from ..gas.search import Step
+
+#: Steps that are shown at a time.
+ROWS = 12
+BAR = 32
+
+
+class Progress:
+    """Shows steps and progress; nothing if it is quiet, a line for each step where stderr is no terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        """`quiet` shows on a terminal only."""
+        self._console = Console(stderr=True)
+        self._quiet = quiet
+        self._steps: list[Step] = []
+        self._bars = Bars(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), console=self._console)
+        self._live: Live | None = None
+
+    def __enter__(self) -> Progress:
+        """Starts."""
+        if self._console.is_terminal:
+            self._live = Live(console=self._console)
+            self._live.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leaves what was shown last."""
+        if self._live is not None:
+            self._live.stop()
+
+    def step(self, step: Step) -> None:
+        """A step of the search."""
+        self._steps.append(step)
+        if self._live is not None:
+            self._live.update(self._view())
+        elif not self._quiet:
+            verdict = "suffices" if step.enough else "runs out"
+            print(f"call {len(self._steps):2}: {step.limit:>14,} {verdict}; {bracket(step)}", file=sys.stderr)
+
+    def traced(self, used: int, total: int) -> None:
+        """How much gas the trace has used."""
+        if self._live is not None:
+            if not self._bars.tasks:
+                self._bars.add_task("tracing", total=total)
+            self._bars.update(self._bars.tasks[0].id, completed=used)
+            self._live.update(self._view())
+
+    def _view(self) -> Group:
+        table = Table("call", "gas limit", "", "still to halve", "bracket", box=None, header_style="dim")
+        table.columns[0].justify = table.columns[1].justify = "right"
+        first = max(0, len(self._steps) - ROWS)
+        for number, step in enumerate(self._steps[first:], first + 1):
+            verdict = Text("suffices", "green") if step.enough else Text("runs out", "red")
+            table.add_row(str(number), f"{step.limit:,}", verdict, _bar(step), bracket(step))
+        return Group(table, self._bars) if self._bars.tasks else Group(table)
+
+
+def bracket(step: Step) -> str:
+    """What is known after a step."""
+    return f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
+
+
+def _bar(step: Step) -> Text:
+    """What is not known yet: a character for each call that it takes to halve it away."""
+    return Text("█" * (BAR if step.upper is None else min(BAR, (step.upper - step.lower - 1).bit_length())))

@@ -1,0 +1,116 @@
+"""What `shackled gas` prints for people."""
+
+from __future__ import annotations
+
+import sys
+
+from rich.console import Console
+from rich.table import Table
+
+from ..gas.limits import limits
+from ..gas.profile import Profile
+from ..gas.report import Report
+
+BAR = 24
+#: How many functions and lines are worth a row.
+ROWS = 20
+
+
+def print_report(report: Report, gas_price: float, eth_price: float | None) -> None:
+    """Gas, search, stages, price, and where it fits."""
+    console = _console()
+    for label, value in _figures(report, gas_price, eth_price).items():
+        console.print(f"{label:12} {value}", highlight=False, markup=False, soft_wrap=True)
+    if report.profile is not None:
+        console.print()
+        console.print(_stages(report.profile))
+    console.print()
+    console.print(_fits(report))
+    console.print(
+        "As documented at the sources on these dates, not measured; operators change them. "
+        "Requests count what is paid before the execution.",
+        style="dim",
+        soft_wrap=True,
+    )
+
+
+def print_profile(profile: Profile) -> None:
+    """Gas by function, and by line."""
+    console = _console()
+    functions = Table("function", "its own gas", "", "with calls", box=None, header_style="bold")
+    _right(functions, 1, 2, 3)
+    for each in profile.functions()[:ROWS]:
+        functions.add_row(each.name, f"{each.own:,}", _share(each.own, profile.gas), f"{each.total:,}")
+    lines = Table("line", "function", "gas", "", box=None, header_style="bold")
+    _right(lines, 2, 3)
+    for place, function, gas in profile.lines()[:ROWS]:
+        lines.add_row(place, function, f"{gas:,}", _share(gas, profile.gas))
+    for table in (functions, lines):
+        console.print()
+        console.print(table)
+    console.print()
+
+
+def _console() -> Console:
+    # what is written to a file is as wide as it needs to be
+    return Console(file=sys.stdout, width=None if sys.stdout.isatty() else 160)
+
+
+def _figures(report: Report, gas_price: float, eth_price: float | None) -> dict[str, str]:
+    exact, found, margin = report.exact, report.search, report.margin
+    bracket = next(step for step in found.steps if step.upper is not None)
+    last = found.steps[-1]
+    ether = report.ether(gas_price)
+    dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} an ether"
+    per = (report.per(report.triangles), report.per(report.lit_pixels))
+    figures = {
+        "picture": f"{report.scene.width} x {report.scene.height} pixels; "
+        f"{report.triangles:,} triangles, {report.lit_pixels:,} lit pixels",
+        "gas": f"{exact.gas:,} of the execution, exact ({report.chain})",
+        "searched": f"{found.gas:,} by {found.calls} calls, which narrowed the limits from "
+        f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
+        "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: "
+        + (
+            f"a 64th of the gas is not handed on to the Engine, which needs {exact.engine_gas:,}, "
+            f"so {margin.kept:,} must be left over; the Renderer uses {margin.after:,} of that after it"
+        ),
+        "intrinsic": f"{exact.intrinsic_gas:,} to send the scene: not in the figures above",
+        "each": ", ".join(
+            f"{gas:,.0f} a {what}" for gas, what in zip(per, ("triangle", "lit pixel"), strict=True) if gas is not None
+        ),
+        "transaction": f"{exact.transaction_gas:,} gas, {ether:.6g} ether at {gas_price:g} gwei{dollars}; "
+        f"needs a limit of {report.request_limit:,}",
+    }
+    return {label: text for label, text in figures.items() if text}
+
+
+def _stages(profile: Profile) -> Table:
+    table = Table("stage", "gas", "", "", box=None, header_style="bold")
+    _right(table, 1, 2)
+    stages = profile.stages()
+    most = max(stages.values())
+    for stage, gas in stages.items():
+        bar = "█" * round(BAR * gas / most) if most else ""
+        table.add_row(stage, f"{gas:,}", _share(gas, profile.gas), bar)
+    table.add_row("together", f"{profile.gas:,}", "", "", style="bold")
+    return table
+
+
+def _fits(report: Report) -> Table:
+    table = Table("where it fits", "limit", "of it", "", "source", "date", box=None, header_style="bold")
+    _right(table, 1, 2)
+    table.columns[4].overflow = "fold"
+    for limit in limits():
+        fits = "[green]yes[/]" if report.request_limit <= limit.gas else "[red]no[/]"
+        share = f"{100 * report.request_limit / limit.gas:.0f} %"
+        table.add_row(limit.name, f"{limit.gas:,}", share, fits, limit.source, limit.date)
+    return table
+
+
+def _right(table: Table, *columns: int) -> None:
+    for column in columns:
+        table.columns[column].justify = "right"
+
+
+def _share(part: int, whole: int) -> str:
+    return f"{100 * part / whole:.2f} %" if whole else ""

@@ -1,0 +1,111 @@
+"""shackled genesis"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..datasets.genesis.piece import GenesisPiece
+from ..errors import InputError
+
+
+def genesis(
+    seeds: Annotated[
+        list[str] | None,
+        typer.Argument(help="64 hexadecimal digits each, or a number from 0 to 1023.", metavar="SEED"),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="A JSON object a line: seed, traits, mesh, colours.")] = False,
+    output: Annotated[
+        str | None,
+        typer.Option("-o", "--output", help="The picture of one SEED: .png .bmp .svg or .gif.", metavar="FILE"),
+    ] = None,
+    sheet: Annotated[
+        str | None, typer.Option("--sheet", help="All 1024 pieces in one picture, .png.", metavar="FILE")
+    ] = None,
+    count: Annotated[
+        int | None, typer.Option("--count", help="So many of them.", metavar="N", rich_help_panel="Sheet")
+    ] = None,
+    size: Annotated[
+        int | None, typer.Option("--size", help="Pixels a piece, else 128.", metavar="N", rich_help_panel="Sheet")
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option("--jobs", help="Worker processes, else one a core.", metavar="N", min=1, rich_help_panel="Sheet"),
+    ] = None,
+) -> None:
+    """Make Genesis pieces from seeds, in the contract: traits, mesh, picture; or draw the whole collection.
+
+    A sheet that was stopped goes on where it was.
+    """
+    if sheet is None:
+        if not seeds:
+            raise InputError(
+                "a SEED is missing: 64 hexadecimal digits, or a number from 0 to 1023; or give --sheet FILE"
+            )
+        if count is not None or size is not None or workers is not None:
+            raise InputError("--count, --size and --jobs belong to --sheet FILE")
+        _pieces(seeds, as_json, output)
+        return
+    if seeds or as_json or output is not None:
+        raise InputError("--sheet FILE draws the collection: give no SEED, --json or --output with it")
+    _sheet(sheet, count, size, workers)
+
+
+def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
+    from ..datasets.genesis import parse_seed
+    from ..datasets.genesis.contract import generate_on_chain
+    from ..image import check_output
+
+    if output is not None and len(seeds) > 1:
+        raise InputError(f"--output is the picture of one SEED, and {len(seeds)} were given")
+    path = None if output is None else check_output(output)
+    for number, (text, seed) in enumerate([(text, parse_seed(text)) for text in seeds]):
+        piece, gas = generate_on_chain(seed)
+        rendering = None if path is None else _draw(piece, path)
+        if as_json:
+            print(json.dumps(piece.document(), separators=(",", ":")))
+            continue
+        rows = {
+            "piece": text if len(text) < 64 else "",
+            "seed": seed.hex(),
+            "structure": piece.structure,
+            "chroma": piece.chroma,
+            "symmetry": piece.pseudosymmetry,
+            "prisms": f"{piece.prisms}, {len(piece.faces)} triangles",
+            "style": ", ".join(
+                word for word, holds in (("wireframe", piece.wireframe), ("inverted", piece.invert)) if holds
+            ),
+            "gas": f"{gas:,} for the piece" + ("" if rendering is None else f", {rendering:,} from seed to picture"),
+            "picture": "" if path is None else str(path),
+        }
+        print("\n" * (number > 0) + "\n".join(f"{name:9} {value}" for name, value in rows.items() if value))
+
+
+def _draw(piece: GenesisPiece, path: Path) -> int:
+    """Writes the picture of a piece, made by one call; the gas of that."""
+    from ..datasets.genesis.contract import picture_on_chain
+
+    image = picture_on_chain(piece)
+    image.save(path)
+    assert image.gas is not None
+    return image.gas
+
+
+def _sheet(sheet: str, count: int | None, size: int | None, workers: int | None) -> None:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from ..datasets.drawing import SIZE
+    from ..datasets.genesis import COUNT
+    from ..datasets.genesis.sheet import render_sheet
+
+    columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    count, size = COUNT if count is None else count, SIZE if size is None else size
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("drawing", total=count)
+        render_sheet(sheet, count, size, workers, lambda done, total: bar.update(task, completed=done, total=total))
+    print(f"{sheet}: {count:,} pieces")

@@ -1,0 +1,346 @@
+"""Meshes that a formula gives. All are about the origin and about 2 across, with y up; faces are seen from outside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...checks import color as checked_color
+from ...scene.mesh import Mesh, vertex_normals
+
+Array = NDArray[np.float64]
+#: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
+Surface = Callable[[Array, Array], Array]
+
+TURN = 2 * np.pi
+
+
+# ---- surfaces over a grid of two parameters ----
+
+
+def patch(surface: Surface, across: int, down: int) -> Mesh:
+    """A surface of 2 * across * down triangles, seen from where d/du x d/dv points.
+
+    Points that meet are one vertex, so that seams and poles are smooth, and what has no area there is left out.
+    """
+    u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
+    points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
+    positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
+    return _smooth(positions, _with_area(number.reshape(-1)[faces]))
+
+
+def one_sided(surface: Surface, across: int, down: int) -> Mesh:
+    """A surface without inside and outside, as in `patch`, with the faces of both sides: each is lit and seen from its
+    own. The vertices where it closes upon itself are not one, for their normals may point opposite ways.
+    """
+    u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
+    step = 1e-5
+    along = surface(u + step, v) - surface(u - step, v)
+    beside = surface(u, v + step) - surface(u, v - step)
+    normals = np.cross(along, beside).reshape(-1, 3)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
+    return Mesh(
+        np.concatenate([points, points]),
+        np.concatenate([faces, faces[:, ::-1] + len(points)]),
+        normals=np.concatenate([normals, -normals]),
+    )
+
+
+def sphere(across: int = 32, down: int = 16) -> Mesh:
+    """Radius 1, by circles of longitude and latitude."""
+    return patch(lambda u, v: _around(TURN * u, -np.cos(np.pi * v), np.sin(np.pi * v)), across, down)
+
+
+def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down: int = 16) -> Mesh:
+    """A ring about the y axis."""
+
+    def surface(u: Array, v: Array) -> Array:
+        return _around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
+
+    return patch(lambda u, v: surface(u, -v), across, down)
+
+
+def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84, down: int = 7) -> Mesh:
+    """A tube along a knot that winds p times about the axis of a torus (z), and q times about its ring."""
+
+    def center(t: Array) -> Array:
+        reach = 0.6 + 0.25 * np.cos(q * t)
+        return np.stack([reach * np.cos(p * t), reach * np.sin(p * t), -0.25 * np.sin(q * t)], axis=-1)
+
+    return patch(tube(lambda u: center(TURN * u), thickness), across, down)
+
+
+def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: int = 8) -> Mesh:
+    """A tube along a helix about the y axis, its ends closed."""
+
+    def center(u: Array) -> Array:
+        return np.stack([0.6 * np.cos(TURN * turns * u), 1.6 * u - 0.8, -0.6 * np.sin(TURN * turns * u)], axis=-1)
+
+    def surface(u: Array, v: Array) -> Array:
+        # the first and the last step go from the middle of the end to its edge
+        along = np.clip((u * across - 1) / (across - 2), 0, 1)
+        return tube(center, thickness, np.where((u <= 0) | (u >= 1), 0.0, 1.0))(along, v)
+
+    return patch(surface, across, down)
+
+
+def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 1.0) -> Surface:
+    """The surface at the distance thickness * width of a curve that is never straight."""
+
+    def surface(u: Array, v: Array) -> Array:
+        step = 1e-4
+        before, here, after = center(u - step), center(u), center(u + step)
+        forward = _unit(after - before)
+        inward = after - 2 * here + before
+        inward = _unit(inward - (inward * forward).sum(axis=-1, keepdims=True) * forward)
+        beside = np.cross(forward, inward)
+        angle = TURN * v[..., None]
+        offset = thickness * (np.cos(angle) * inward + np.sin(angle) * beside)
+        return np.asarray(here + np.asarray(width)[..., None] * offset)
+
+    return lambda u, v: surface(u, -v)
+
+
+def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
+    """A band that is half a turn twisted: one side, one edge."""
+
+    def surface(u: Array, v: Array) -> Array:
+        angle, offset = TURN * u, width * (2 * v - 1)
+        reach = 0.72 + offset * np.cos(angle / 2)
+        return _around(angle, offset * np.sin(angle / 2), reach)
+
+    return one_sided(surface, across, down)
+
+
+def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
+    """A closed surface with one side, as a bottle whose neck goes through its wall to meet the bottom from inside."""
+
+    def surface(u: Array, v: Array) -> Array:
+        # the middle line goes up inside the belly, over the top, down through the neck: a closed curve in x and y, with
+        # the radius of the tube about it
+        a, b = TURN * u, TURN * v
+        r = 4 * (1 - np.cos(a) / 2)
+        in_belly = a < np.pi
+        x = 6 * np.cos(a) * (1 + np.sin(a)) + r * np.cos(b) * np.where(in_belly, np.cos(a), -1.0)
+        y = 16 * np.sin(a) + np.where(in_belly, r * np.sin(a) * np.cos(b), 0.0)
+        z = r * np.sin(b)
+        return np.stack([x, y, z], axis=-1) / 20
+
+    return one_sided(surface, across, down)
+
+
+def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: int = 36, down: int = 16) -> Mesh:
+    """Between a cube (0, 0), a ball (1, 1) and an octahedron (2, 2)."""
+
+    def power(x: Array, exponent: float) -> Array:
+        return np.asarray(np.sign(x) * np.abs(np.where(np.abs(x) < 1e-12, 0, x)) ** exponent)
+
+    def surface(u: Array, v: Array) -> Array:
+        a, b = TURN * u, np.pi * (v - 0.5)
+        reach = power(np.cos(b), roundness)
+        return np.stack(
+            [reach * power(np.cos(a), squareness), power(np.sin(b), roundness), -reach * power(np.sin(a), squareness)],
+            axis=-1,
+        )
+
+    return patch(surface, across, down)
+
+
+def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
+    """A tube that grows as it winds down about the y axis, open at its end."""
+
+    def surface(u: Array, v: Array) -> Array:
+        angle, growth = TURN * turns * u, np.exp(0.62 * turns * (u - 1))
+        radius, turn = 0.46 * growth, -TURN * v
+        reach = 0.44 * growth + radius * np.cos(turn)
+        return _around(angle, 0.95 - 1.55 * growth - 1.1 * radius * np.sin(turn), reach)
+
+    return patch(surface, across, down)
+
+
+# ---- what has edges ----
+
+
+def cylinder(around: int = 40) -> Mesh:
+    """Radius 0.75, height 1.8, along the y axis."""
+    return _lathe([0, 0.75, 0.75, 0], [-0.9, -0.9, 0.9, 0.9], around)
+
+
+def cone(around: int = 40) -> Mesh:
+    """Radius 0.85, height 1.8, its point upward."""
+    return _lathe([0, 0.85, 0], [-0.9, -0.9, 0.9], around)
+
+
+def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
+    """What a broken line sweeps about the y axis, from the bottom up; smooth around, with edges between its parts."""
+    parts = []
+    k, top = np.arange(around), around + 1
+    angle = TURN * np.arange(around + 1) / around
+    up = np.array([0.0, 1.0, 0.0])
+    for r0, h0, r1, h1 in zip(radii, heights, radii[1:], heights[1:], strict=False):
+        ring = _around(angle, np.zeros(1), np.ones(1))
+        points = np.concatenate([r0 * ring + h0 * up, r1 * ring + h1 * up])
+        # at a tip each face has the normal of its own middle
+        middle = _around(angle + TURN / around / 2, np.zeros(1), np.ones(1))
+        outward = np.concatenate([ring if r0 else middle, ring if r1 else middle])
+        lower = np.stack([k, k + 1, top + (k + 1 if r1 else k)], axis=-1)
+        upper = np.stack([k, top + k + 1, top + k], axis=-1)
+        faces = np.concatenate([lower[: around if r0 else 0], upper[: around if r1 else 0]])
+        points = np.round(points, 9) + 0.0  # so that the last edge is the first one, and parts meet
+        parts.append(Mesh(points, faces, normals=_unit((h1 - h0) * outward + (r0 - r1) * up)))
+    return joined(*parts)
+
+
+def cube() -> Mesh:
+    """Sides of length 1.2; each corner has the colour of its place: red along x, green along y, blue along z."""
+    corners = np.array(list(product((0, 1), repeat=3)))
+    return Mesh(1.2 * corners - 0.6, _faces_of(corners), colors=255 * corners)
+
+
+def tetrahedron() -> Mesh:
+    """4 triangles."""
+    return hull([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
+
+
+def octahedron() -> Mesh:
+    """8 triangles."""
+    return hull(np.concatenate([np.eye(3), -np.eye(3)]))
+
+
+def icosahedron() -> Mesh:
+    """20 triangles."""
+    phi = (1 + 5**0.5) / 2
+    return hull([np.roll((0, s, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)])
+
+
+def dodecahedron() -> Mesh:
+    """12 pentagons."""
+    phi = (1 + 5**0.5) / 2
+    corners = [np.roll((0, s / phi, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)]
+    return hull(np.array([*corners, *product((-1, 1), repeat=3)]))
+
+
+def icosphere(halvings: int = 2) -> Mesh:
+    """Radius 1: an icosahedron whose edges are halved again and again; 20 * 4^halvings triangles."""
+    positions, faces = np.asarray(icosahedron().positions), np.asarray(icosahedron().faces)
+    for _ in range(halvings):
+        a, b, c = positions[faces].transpose(1, 0, 2)
+        ab, bc, ca = _unit(a + b), _unit(b + c), _unit(c + a)
+        soup = np.stack([a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca], axis=1).reshape(-1, 3)
+        positions, number = np.unique(np.round(soup, 9) + 0.0, axis=0, return_inverse=True)
+        faces = number.reshape(-1, 3)
+    return _smooth(_unit(positions), faces)
+
+
+def hull(points: ArrayLike) -> Mesh:
+    """The convex polyhedron of corners that all lie on it, its faces as fans; on the unit sphere if they are."""
+    corners = _unit(np.asarray(points, dtype=np.float64))
+    return Mesh(corners, _faces_of(corners))
+
+
+def menger_sponge(depth: int = 2) -> Mesh:
+    """A cube with square tunnels, in each of the cubes that stay again; only the faces that can be seen from outside
+    or from within the tunnels. 12, 144, 2,112 triangles for depth 0, 1, 2.
+    """
+    side = 3**depth
+    place = np.indices((side,) * 3)
+    solid = np.ones((side,) * 3, dtype=bool)
+    for level in range(depth):
+        solid &= ((place // 3**level % 3 == 1).sum(axis=0)) < 2
+    padded = np.pad(solid, 1)
+    quads = []
+    for axis, sign in product(range(3), (-1, 1)):
+        shown = solid & ~np.roll(padded, -sign, axis=axis)[1:-1, 1:-1, 1:-1]
+        cells = np.argwhere(shown)
+        along, first, second = np.eye(3)[[axis, (axis + 1) % 3, (axis + 2) % 3]]
+        corner = cells + (along if sign > 0 else 0 * along)
+        if sign < 0:
+            first, second = second, first
+        quads.append(np.stack([corner, corner + first, corner + first + second, corner + second], axis=1))
+    soup = np.concatenate(quads)
+    positions, number = np.unique(soup.reshape(-1, 3), axis=0, return_inverse=True)
+    four = number.reshape(-1, 4)
+    faces = np.concatenate([four[:, [0, 1, 2]], four[:, [0, 2, 3]]])
+    return Mesh(positions * (1.3 / side) - 0.65, faces)
+
+
+# ---- colours ----
+
+
+def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
+    """The mesh in colours from `low` to `high` along an axis."""
+    height = np.asarray(mesh.positions) @ np.asarray(axis, dtype=np.float64)
+    share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
+    ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
+    return Mesh(mesh.positions, mesh.faces, np.rint((1 - share) * ends[0] + share * ends[1]), mesh.normals)
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    """All of them as one mesh, with the normals if all have some."""
+    starts = np.cumsum([0, *(len(np.asarray(mesh.positions)) for mesh in meshes)])
+    normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
+    return Mesh(
+        np.concatenate([np.asarray(mesh.positions) for mesh in meshes]),
+        np.concatenate([np.asarray(mesh.faces) + start for mesh, start in zip(meshes, starts, strict=False)]),
+        np.concatenate([np.asarray(mesh.colors) for mesh in meshes]),
+        np.concatenate(normals) if len(normals) == len(meshes) else None,
+    )
+
+
+# ---- parts of the above ----
+
+
+def _around(angle: Array, height: Array, reach: Array) -> Array:
+    """Points about the y axis."""
+    x, y, z = np.broadcast_arrays(reach * np.cos(angle), height, -reach * np.sin(angle))
+    return np.stack([x, y, z], axis=-1)
+
+
+def _unit(vectors: Array) -> Array:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+
+
+def _grid(across: int, down: int) -> NDArray[np.int64]:
+    number = np.arange((across + 1) * (down + 1)).reshape(across + 1, down + 1)
+    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
+
+
+def _with_area(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    a, b, c = faces.T
+    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+
+
+def _smooth(positions: Array, faces: NDArray[np.int64]) -> Mesh:
+    return Mesh(positions, faces, normals=vertex_normals(positions, faces))
+
+
+def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
+    """(m, 3): the faces of the convex polyhedron with these corners, seen from outside."""
+    corners = np.asarray(points, dtype=np.float64)
+    corners = corners - corners.mean(axis=0)
+    count = len(corners)
+    planes: dict[tuple[int, ...], Array] = {}
+    for a, b, c in product(range(count), repeat=3):
+        if not a < b < c:
+            continue
+        normal = np.cross(corners[b] - corners[a], corners[c] - corners[a])
+        distance = normal @ corners[a]
+        if abs(distance) < 1e-9:  # through the middle
+            continue
+        normal = _unit(normal) * np.sign(distance)
+        heights = corners @ normal
+        if heights.max() <= heights[a] + 1e-9:
+            planes[tuple(np.flatnonzero(heights > heights[a] - 1e-9))] = normal
+    faces = []
+    for numbers, normal in planes.items():
+        around = corners[list(numbers)] - corners[list(numbers)].mean(axis=0)
+        first = _unit(around[0])
+        angle = np.arctan2(around @ np.cross(normal, first), around @ first)
+        ordered = np.array(numbers)[np.argsort(angle)]
+        faces += [(ordered[0], ordered[k], ordered[k + 1]) for k in range(1, len(ordered) - 1)]
+    return np.array(faces)

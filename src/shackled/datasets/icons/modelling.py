@@ -1,0 +1,362 @@
+"""Solids: closed surfaces of coloured triangles, made by lofting rings of points, and put together without booleans.
+
++x is right, +y up, +z toward the viewer; lengths are in units of the model (icons are some 2 units large), angles in
+degrees, colours as everywhere ("#rrggbb" or red, green, blue 0..255). Triangles run counter-clockwise as seen from
+outside. Parts of a whole may reach into each other: the depth buffer hides what is inside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ... import checks
+from ...scene.mesh import Mesh
+from ...scene.rotation import from_euler, rotate
+from .outlines import chamfered, inset, rectangle, regular, triangulate
+
+Array = NDArray[np.float64]
+Where = Callable[[Array], NDArray[np.bool_]]
+
+#: The meshes have whole coordinates, so many to a unit.
+STEPS = 10_000
+
+#: Points nearer than this are one.
+SAME = 1e-9
+
+
+@dataclass(frozen=True)
+class Solid:
+    """Triangles, each with its own corners and colours; edges are shared where corners are equal.
+
+    corners: (m, 3, 3), for each triangle three points. colors: (m, 3, 3), for each of them red, green, blue, 0..255.
+    """
+
+    corners: Array
+    colors: NDArray[np.uint8]
+
+    def __add__(self, other: Solid) -> Solid:
+        return union(self, other)
+
+    # ---- moving ----
+
+    def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
+        """Moved by so many units."""
+        return replace(self, corners=self.corners + np.array((x, y, z)))
+
+    def turned(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
+        """Turned about the x, then the y, then the z axis, counter-clockwise as seen from its positive end."""
+        return replace(self, corners=rotate(from_euler((x, y, z)), self.corners.reshape(-1, 3)).reshape(-1, 3, 3))
+
+    def scaled(self, x: float = 1, y: float = 1, z: float = 1) -> Solid:
+        """Scaled about the origin; a negative factor mirrors, and the triangles still face outward."""
+        return self.bent(lambda points: points * (x, y, z))
+
+    def mirrored(self) -> Solid:
+        """The mirror image, left and right exchanged."""
+        return self.scaled(x=-1)
+
+    def bent(self, function: Callable[[Array], Array]) -> Solid:
+        """Each point (of (n, 3)) taken elsewhere; `function` must not turn the solid inside out other than by
+        mirroring it.
+        """
+        return _outward(replace(self, corners=function(self.corners.reshape(-1, 3)).reshape(-1, 3, 3)))
+
+    # ---- colouring ----
+
+    def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
+        """In one colour; or only the triangles whose centres, (m, 3), `where` says yes to."""
+        mask = np.ones(len(self.corners), dtype=bool) if where is None else where(self.corners.mean(axis=1))
+        channels = np.array(checks.color(color, "the colour of a solid"), dtype=np.uint8)
+        return replace(self, colors=np.where(mask[:, None, None], channels, self.colors))
+
+    def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
+        """In a gradient along an axis, from the farthest point on its negative side to that on its positive one."""
+        along = self.corners @ np.asarray(axis, dtype=np.float64)
+        part = ((along - along.min()) / np.ptp(along))[..., None]
+        start, end = (np.array(checks.color(color, "the colour of a solid")) for color in (low, high))
+        return replace(self, colors=np.rint(start + (end - start) * part).astype(np.uint8))
+
+    # ---- the result ----
+
+    def volume(self) -> float:
+        """The sum of the volumes of the parts."""
+        a, b, c = (self.corners - self.corners.mean(axis=(0, 1))).transpose(1, 0, 2)
+        return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
+
+    def mesh(self, crease: float | None = None) -> Mesh:
+        """The mesh, in `STEPS` whole coordinates a unit, for flat shading; or with normals for smooth shading.
+
+        crease: with it, edges at which the surface turns by fewer degrees look round, all others stay sharp.
+
+        Vertices are shared wherever place, colour and normal are the same.
+        """
+        corners = np.rint(self.corners * STEPS)
+        kept = _distinct(corners)
+        corners, colors = corners[kept], self.colors[kept]
+        columns = [corners.reshape(-1, 3), colors.reshape(-1, 3).astype(np.float64)]
+        if crease is not None:
+            columns.append(np.rint(_normals(corners, crease).reshape(-1, 3) * 2**20))
+        vertices, numbers = np.unique(np.hstack(columns), axis=0, return_inverse=True)
+        normals = None if crease is None else vertices[:, 6:] / 2**20
+        return Mesh(vertices[:, :3], numbers.reshape(-1, 3), vertices[:, 3:6], normals)
+
+
+def union(*solids: Solid) -> Solid:
+    """All of them as one; where they overlap, nothing is cut away."""
+    return Solid(np.concatenate([s.corners for s in solids]), np.concatenate([s.colors for s in solids]))
+
+
+def above(y: float) -> Where:
+    """For `painted`: what lies higher than that."""
+    return lambda at: at[:, 1] > y
+
+
+def below(y: float) -> Where:
+    """For `painted`: what lies lower than that."""
+    return lambda at: at[:, 1] < y
+
+
+def from_axis(at: Array) -> Array:
+    """(n,): the distances of points (n, 3) from the y axis."""
+    return np.asarray(np.hypot(at[:, 0], at[:, 2]))
+
+
+def both(solid: Solid) -> Solid:
+    """The solid, and its mirror image on the other side of x = 0."""
+    return solid + solid.mirrored()
+
+
+def around(solid: Solid, count: int, start: float = 0) -> Solid:
+    """So many copies around the y axis, the first turned by `start` degrees."""
+    return union(*(solid.turned(y=start + 360 * i / count) for i in range(count)))
+
+
+# ---- what everything is made by ----
+
+
+def loft(rings: ArrayLike, closed: bool = False) -> Solid:
+    """A skin over rings of points, (k, n, 3), with flat ends; or back to the first ring, without ends, if `closed`.
+
+    The points of a ring go around the solid; those that are the same are joined, a whole ring of them is a tip.
+    """
+    points = np.asarray(rings, dtype=np.float64)
+    here = points if closed else points[:-1]
+    there = np.roll(points, -1, axis=0) if closed else points[1:]
+    a, b, c, d = (p.reshape(-1, 3) for p in (here, np.roll(here, -1, axis=1), np.roll(there, -1, axis=1), there))
+    triangles = [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
+    if not closed:
+        triangles += [_cap(points[0])[:, ::-1], _cap(points[-1])]
+    corners = np.concatenate(triangles)
+    corners = corners[_distinct(corners)]
+    return _outward(Solid(corners, np.full(corners.shape, 200, dtype=np.uint8)))
+
+
+def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
+    """A polygon (n, 2) of the x-y plane, `depth` thick, half of it on either side of the plane.
+
+    bevel: so much of both faces' rims is cut off at 45 degrees.
+    """
+    points, z = np.asarray(outline, dtype=np.float64), depth / 2
+    if bevel == 0:
+        return loft([_at(points, -z), _at(points, z)])
+    small = inset(points, bevel)
+    return loft([_at(small, -z), _at(points, bevel - z), _at(points, z - bevel), _at(small, z)])
+
+
+def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
+    """A profile of (radius, y) points, (k, 2), turned about the y axis; with flat ends where it does not begin or end
+    on the axis, or, if `closed`, a ring whose section is the polygon.
+    """
+    circle = regular(segments, 1.0, 180 / segments)
+    radius, y = np.asarray(profile, dtype=np.float64).T
+    rings = np.empty((len(radius), segments, 3))
+    rings[..., 0] = radius[:, None] * circle[:, 0]
+    rings[..., 1] = y[:, None]
+    rings[..., 2] = radius[:, None] * circle[:, 1]
+    return loft(rings, closed)
+
+
+def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Sequence[float] | None = None) -> Solid:
+    """A polygon (n, 2) carried along a path (k, 3), always upright on it, and scaled by (k,) factors.
+
+    closed: the path, then in a plane, returns to its first point; otherwise the ends are flat.
+    """
+    points, section = np.asarray(path, dtype=np.float64), np.asarray(outline, dtype=np.float64)
+    factors = np.ones(len(points)) if scales is None else np.asarray(scales, dtype=np.float64)
+    along = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0)
+    if not closed:
+        along[0], along[-1] = points[1] - points[0], points[-1] - points[-2]
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.eye(3)[np.abs(along[0]).argmin()]
+    rings = []
+    for point, tangent, factor in zip(points, along, factors, strict=True):
+        # the direction before, upright on the path again: the section does not twist
+        across = across - (across @ tangent) * tangent
+        across /= np.linalg.norm(across)
+        rings.append(point + factor * section @ np.stack([across, np.cross(tangent, across)]))
+    return loft(rings, closed)
+
+
+# ---- shapes ----
+
+
+def box(width: float, height: float, depth: float) -> Solid:
+    """A box about the origin: 12 triangles."""
+    return prism(rectangle(width, height), depth)
+
+
+def bevelled_box(width: float, height: float, depth: float, bevel: float) -> Solid:
+    """A box about the origin whose edges are cut off, `bevel` from each: 44 triangles."""
+    z = depth / 2
+    # each corner twice, for the two corners of the ring beside it
+    small = np.repeat(rectangle(width - 2 * bevel, height - 2 * bevel), 2, axis=0)
+    full = np.roll(chamfered(width, height, bevel), 1, axis=0)
+    return loft([_at(small, -z), _at(full, bevel - z), _at(full, z - bevel), _at(small, z)])
+
+
+def cylinder(radius: float, height: float, segments: int, top: float | None = None) -> Solid:
+    """A cylinder about the origin along y; or, with another radius at the top, a part of a cone."""
+    return revolve([(radius, -height / 2), (radius if top is None else top, height / 2)], segments)
+
+
+def cone(radius: float, height: float, segments: int) -> Solid:
+    """A cone that stands on the origin, its tip at y = height."""
+    return revolve([(radius, 0), (0, height)], segments)
+
+
+def sphere(radius: float, segments: int, rings: int) -> Solid:
+    """A sphere about the origin of 2 * segments * (rings - 1) triangles, with poles at top and bottom."""
+    angles = np.linspace(-90, 90, rings + 1)
+    profile = np.stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))], axis=1) * radius
+    profile[[0, -1], 0] = 0
+    return revolve(profile, segments)
+
+
+def icosphere(radius: float, divisions: int) -> Solid:
+    """A sphere about the origin of 20 * 4^divisions nearly equal triangles."""
+    golden = (1 + 5**0.5) / 2
+    pairs = [(s, t * golden) for s in (-1, 1) for t in (-1, 1)]
+    points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs], dtype=np.float64)
+    distance = np.linalg.norm(points[:, None] - points, axis=2)
+    near = np.isclose(distance, 2)
+    corners = points[
+        [(i, j, k) for i in range(12) for j in range(i) for k in range(j) if near[i, j] & near[j, k] & near[k, i]]
+    ]
+    inward = np.linalg.det(corners) < 0
+    corners[inward] = corners[inward][:, ::-1]
+    for _ in range(divisions):
+        a, b, c = corners.transpose(1, 0, 2)
+        d, e, f = a + b, b + c, c + a
+        parts = [(a, d, f), (d, b, e), (f, e, c), (d, e, f)]
+        corners = np.concatenate([np.stack(part, axis=1) for part in parts])
+        corners /= np.linalg.norm(corners, axis=2, keepdims=True)
+    corners = radius * corners / np.linalg.norm(corners, axis=2, keepdims=True)
+    return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
+
+
+def torus(radius: float, thickness: float, segments: int, sides: int) -> Solid:
+    """A ring about the y axis, `thickness` being the radius of its section: 2 * segments * sides triangles."""
+    return revolve(regular(sides, thickness) + np.array((radius, 0)), segments, closed=True)
+
+
+def tube(
+    path: ArrayLike, radius: float, sides: int, closed: bool = False, scales: Sequence[float] | None = None
+) -> Solid:
+    """A round rod along a path (k, 3): `sweep` of a regular polygon."""
+    return sweep(regular(sides, radius), path, closed, scales)
+
+
+def link(length: float, width: float, thickness: float, steps: int, sides: int) -> Solid:
+    """A link of a chain in the x-y plane, along x: two half circles of `steps` parts each, joined by straight rods.
+
+    length, width: from one middle of the rod to that opposite. thickness: the radius of the rod.
+    """
+    radius = width / 2
+    angles = np.radians(np.linspace(-90, 90, steps + 1))
+    half = np.stack([(length - width) / 2 + radius * np.cos(angles), radius * np.sin(angles), 0 * angles], axis=1)
+    return tube(np.vstack([half, half * (-1, -1, 1)]), thickness, sides, closed=True)
+
+
+def pixels(rows: Sequence[str], palette: dict[str, str], depth: float) -> Solid:
+    """A picture of characters as a relief of boxes, one unit a pixel, about the origin; " " is empty.
+
+    Neighbours of the same colour in a row, and equal runs in rows below one another, become one box.
+    """
+    height, width = len(rows), max(map(len, rows))
+    runs: dict[tuple[int, int, str], tuple[int, int]] = {}
+    boxes: list[tuple[int, int, int, int, str]] = []
+    for y, row in enumerate([*rows, ""]):
+        found: dict[tuple[int, int, str], tuple[int, int]] = {}
+        start = 0
+        for x in range(1, len(row) + 1):
+            if x == len(row) or row[x] != row[start]:
+                if row[start] != " ":
+                    key = (start, x, row[start])
+                    found[key] = (runs[key][0] if key in runs else y, y + 1)
+                start = x
+        boxes += [(*key[:2], *runs[key], key[2]) for key in runs if key not in found]
+        runs = found
+    return union(
+        *(
+            box(right - left, bottom - top, depth)
+            .moved((left + right - width) / 2, (height - top - bottom) / 2)
+            .painted(palette[name])
+            for left, right, top, bottom, name in boxes
+        )
+    )
+
+
+# ---- within ----
+
+
+def _at(outline: Array, z: float) -> Array:
+    return np.column_stack([outline, np.full(len(outline), z)])
+
+
+def _distinct(corners: Array) -> NDArray[np.bool_]:
+    """Which triangles have three different corners."""
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    return np.asarray(sides.min(axis=1) > SAME)
+
+
+def _outward(solid: Solid) -> Solid:
+    if solid.volume() >= 0:
+        return solid
+    return Solid(solid.corners[:, ::-1], solid.colors[:, ::-1])
+
+
+def _cap(ring: Array) -> Array:
+    """The triangles, (m, 3, 3), of a flat ring, running as it does; none for a tip or a line."""
+    points = ring[np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1) > SAME]
+    if len(points) < 3:
+        return np.empty((0, 3, 3))
+    around = points - points.mean(axis=0)
+    normal = np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)
+    # seen along the axis that is nearest to the normal
+    axis = int(np.abs(normal).argmax())
+    return np.asarray(points[triangulate(np.delete(around, axis, axis=1))])
+
+
+def _normals(corners: Array, crease: float) -> Array:
+    """(m, 3, 3) unit normals of the corners: the mean of the faces that meet there and differ by less than `crease`
+    degrees, weighted by their angles.
+    """
+    sides = np.roll(corners, -1, axis=1) - corners
+    faces = np.cross(sides[:, 0], sides[:, 1])
+    faces /= np.linalg.norm(faces, axis=1, keepdims=True)
+    sides /= np.linalg.norm(sides, axis=2, keepdims=True)
+    angles = np.arccos(np.clip(-(sides * np.roll(sides, 1, axis=1)).sum(axis=2), -1, 1))
+    _, places = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    places = places.reshape(-1)
+    weighted = (faces[:, None] * angles[..., None]).reshape(-1, 3)
+    normals = np.empty((3 * len(corners), 3))
+    for place in range(places.max() + 1):
+        here = np.flatnonzero(places == place)
+        near = faces[here // 3] @ faces[here // 3].T > np.cos(np.radians(crease))
+        normals[here] = (near | np.eye(len(here), dtype=bool)) @ weighted[here]
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return normals.reshape(-1, 3, 3)

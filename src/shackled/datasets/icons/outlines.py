@@ -1,0 +1,121 @@
+"""Polygons in the plane: (n, 2) arrays of corners, counter-clockwise, none twice, the last joined to the first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...errors import InputError
+
+Outline = NDArray[np.float64]
+
+
+def regular(sides: int, radius: float = 1.0, start: float = 0.0) -> Outline:
+    """(sides, 2): a regular polygon about the origin; its first corner stands `start` degrees from the x axis."""
+    angles = np.radians(start) + np.arange(sides) * 2 * np.pi / sides
+    return np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)
+
+
+def rectangle(width: float, height: float) -> Outline:
+    """(4, 2): a rectangle about the origin."""
+    x, y = width / 2, height / 2
+    return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
+
+
+def chamfered(width: float, height: float, cut: float) -> Outline:
+    """(8, 2): a rectangle about the origin that lost `cut` of either side at each corner."""
+    x, y = width / 2, height / 2
+    a, b = x - cut, y - cut
+    return np.array([(-a, -y), (a, -y), (x, -b), (x, b), (a, y), (-a, y), (-x, b), (-x, -b)])
+
+
+def star(points: int, outer: float, inner: float, start: float = 90.0) -> Outline:
+    """(2 points, 2): a star about the origin, its first point `start` degrees from the x axis."""
+    corners = regular(2 * points, 1.0, start)
+    corners[::2] *= outer
+    corners[1::2] *= inner
+    return corners
+
+
+def arc(radius: float, start: float, end: float, steps: int, center: tuple[float, float] = (0, 0)) -> Outline:
+    """(steps + 1, 2): points of a circle from `start` to `end` degrees; a path, not a polygon."""
+    angles = np.radians(np.linspace(start, end, steps + 1))
+    return np.stack([center[0] + radius * np.cos(angles), center[1] + radius * np.sin(angles)], axis=1)
+
+
+def stroke(path: ArrayLike, width: float) -> Outline:
+    """(2 n, 2): what a pen of that width draws along an open path (n, 2), with square ends and mitred corners."""
+    points = np.asarray(path, dtype=np.float64)
+    along = np.diff(points, axis=0)
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    left = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    before, after = np.vstack([left[:1], left]), np.vstack([left, left[-1:]])
+    mitre = (before + after) / (1 + (before * after).sum(axis=1, keepdims=True))
+    return counter_clockwise(np.vstack([points - mitre * width / 2, (points + mitre * width / 2)[::-1]]))
+
+
+def inset(outline: ArrayLike, distance: float) -> Outline:
+    """The polygon with each side moved inward, the corners mitred; small distances only, no side may vanish."""
+    points = counter_clockwise(outline)
+    along = np.roll(points, -1, axis=0) - points
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    after = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    before = np.roll(after, 1, axis=0)
+    return np.asarray(points + distance * (before + after) / (1 + (before * after).sum(axis=1, keepdims=True)))
+
+
+def area(outline: ArrayLike) -> float:
+    """The area of a polygon, negative if it runs clockwise."""
+    points = np.asarray(outline, dtype=np.float64)
+    x, y = (points - points[0]).T
+    return float((x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
+
+
+def counter_clockwise(outline: ArrayLike) -> Outline:
+    """The polygon, turned around if it runs clockwise."""
+    points = np.array(outline, dtype=np.float64)
+    return points if area(points) > 0 else points[::-1]
+
+
+def triangulate(outline: ArrayLike) -> list[tuple[int, int, int]]:
+    """The n - 2 triangles, by corner numbers, of a polygon that does not cross itself; they run as the polygon does.
+
+    By cutting ears; of all ears the one whose smallest angle is largest goes first, so that few slivers come about.
+    """
+    points = np.asarray(outline, dtype=np.float64)
+    turn = 1.0 if area(points) > 0 else -1.0
+    left = list(range(len(points)))
+    triangles = []
+    while len(left) > 2:
+        ears = [(_sharpest(points[list(ear)]), ear) for ear in _corners(left) if _is_ear(points, left, ear, turn)]
+        if not ears:
+            raise InputError("the polygon crosses itself, or has corners in one line or twice")
+        _, ear = max(ears)
+        triangles.append(ear)
+        left.remove(ear[1])
+    return triangles
+
+
+def _corners(left: Sequence[int]) -> list[tuple[int, int, int]]:
+    return [(left[i - 1], left[i], left[(i + 1) % len(left)]) for i in range(len(left))]
+
+
+def _is_ear(points: Outline, left: Sequence[int], ear: tuple[int, int, int], turn: float) -> bool:
+    a, b, c = points[list(ear)] * (1, turn)
+    if _cross(b - a, c - a) <= 1e-12:
+        return False
+    others = points[[i for i in left if i not in ear]] * (1, turn)
+    inside = np.all([_cross(q - p, others - p) >= -1e-12 for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    return not inside.any()
+
+
+def _sharpest(corners: Outline) -> float:
+    """The smallest height of a triangle in parts of its longest side."""
+    sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
+    return float(abs(area(corners)) / sides.max() ** 2)
+
+
+def _cross(a: Outline, b: Outline) -> NDArray[np.float64]:
+    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])

@@ -1,0 +1,98 @@
+"""The gas of a picture, exactly, and what a call must be given for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..artifacts import artifact
+from ..chain import Chain, ContractChain
+from ..errors import InputError
+from ..scene.codec import Rectangle, encode
+from ..scene.scene import Scene
+
+#: EIP-150: of the gas left, a call is handed all but one 64th.
+KEPT = 64
+
+
+@dataclass(frozen=True)
+class Exact:
+    """What a render costs.
+
+    gas: of the execution. intrinsic_gas: what a transaction costs before it. engine_gas: the part of `gas` that the
+    Renderer's call of the Engine uses. floor_gas: the least that a transaction with this data costs, by EIP-7623.
+    """
+
+    gas: int
+    intrinsic_gas: int
+    engine_gas: int
+    floor_gas: int
+
+    @property
+    def transaction_gas(self) -> int:
+        """What a transaction is charged."""
+        return max(self.intrinsic_gas + self.gas, self.floor_gas)
+
+    def limit(self, searched: int) -> int:
+        """The gas limit that a request needs, if its execution needs `searched`."""
+        return max(self.intrinsic_gas + searched, self.floor_gas)
+
+
+def counting(chain: Chain) -> ContractChain:
+    """The chain, if it counts gas; otherwise InputError."""
+    if not isinstance(chain, ContractChain):
+        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take --chain pyrevm or pyevm")
+    return chain
+
+
+def render_call(scene: Scene) -> bytes:
+    """The data of the call `Renderer.render`."""
+    return encode(artifact("Renderer").selectors["render"], scene)
+
+
+def engine_call(scene: Scene) -> bytes:
+    """The data of the call that the Renderer makes of the Engine to render the scene."""
+    canvas = Rectangle(0, 0, scene.width, scene.height)
+    words = [6 * 32, canvas.x, canvas.y, canvas.width, canvas.height, 0]
+    head = b"".join(word.to_bytes(32, "big") for word in words)
+    return artifact("Engine").selectors["drawTile"] + head + render_call(scene)[36:]
+
+
+def measure(scene: Scene, chain: ContractChain) -> Exact:
+    """Renders the scene and its part in the Engine."""
+    data = render_call(scene)
+    result = chain.call("Renderer", data)
+    engine = chain.call("Engine", engine_call(scene))
+    return Exact(result.gas, result.intrinsic_gas, engine.gas, floor_gas(data))
+
+
+def floor_gas(data: bytes) -> int:
+    """What a transaction with this data costs at least, since Prague."""
+    return 21000 + 10 * (4 * len(data) - 3 * data.count(0))
+
+
+def needed_for(gas: int) -> int:
+    """The least gas of which all but a 64th is at least `gas`."""
+    return gas + (gas - 1) // (KEPT - 1) if gas else 0
+
+
+@dataclass(frozen=True)
+class Margin:
+    """Why a limit of exactly the gas that is used does not suffice.
+
+    kept: gas that must be left when the Engine is called, because a 64th of what is there is not handed on.
+    after: gas that the Renderer uses behind that call, which comes out of what was kept.
+    """
+
+    kept: int
+    after: int
+
+    @property
+    def gas(self) -> int:
+        """By how much the limit exceeds what is used."""
+        return self.kept - self.after
+
+
+def margin(exact: Exact, searched: int) -> Margin:
+    """The account of the difference between what a call uses and the least limit that it needs."""
+    kept = needed_for(exact.engine_gas) - exact.engine_gas
+    return Margin(kept, kept - (searched - exact.gas))

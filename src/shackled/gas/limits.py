@@ -1,0 +1,27 @@
+"""Where a call fits: the gas limits of transactions, nodes and providers, as documented; see limits.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+
+@dataclass(frozen=True)
+class Limit:
+    """How much gas one request may use. kind: "transaction" or "call". date: of the source."""
+
+    name: str
+    gas: int
+    kind: str
+    source: str
+    date: str
+    remark: str = ""
+
+
+@cache
+def limits() -> tuple[Limit, ...]:
+    """All that are known, the smallest first."""
+    data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
+    return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))

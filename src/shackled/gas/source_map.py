@@ -1,0 +1,140 @@
+"""Where in the sources each instruction of a contract comes from."""
+
+from __future__ import annotations
+
+import json
+import re
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from ..artifacts import artifact
+
+_PUSH1, _PUSH32 = 0x60, 0x7F
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of the sources: its name with that of its contract or file, and its place in bytes."""
+
+    name: str
+    begin: int
+    end: int
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file of the sources."""
+
+    name: str
+    text: bytes
+    functions: tuple[Function, ...]
+    line_begins: tuple[int, ...]
+
+    def line(self, place: int) -> int:
+        """The line of a byte, from 1."""
+        return bisect_right(self.line_begins, place)
+
+    def function(self, begin: int, end: int) -> str | None:
+        """The function that holds these bytes."""
+        return next((f.name for f in self.functions if f.begin <= begin and end <= f.end), None)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where an instruction comes from.
+
+    function: None if it is the compiler's own, such as reading the ABI. line: from 1. jump: "i" where a function is
+    entered, "o" where one is left, "-" otherwise. block: whether the place is a whole block of inline assembly, which
+    the compiler does not divide.
+    """
+
+    file: str
+    function: str | None
+    line: int
+    jump: str
+    block: bool
+
+
+@dataclass(frozen=True)
+class SourceMap:
+    """The places of a contract's instructions, and the functions that begin at them, by position in the code."""
+
+    contract: str
+    places: dict[int, Place]
+    entries: dict[int, str]
+    entry_lines: dict[int, int]
+
+
+@cache
+def source_map(contract: str) -> SourceMap:
+    """The map of a contract, by the name of its artifact."""
+    data = _data()["contracts"][contract]
+    places: dict[int, Place] = {}
+    spans: dict[int, tuple[int, int, int]] = {}
+    fields = ["0", "0", "-1", "-"]
+    entries = data["map"].split(";")
+    for at, entry in zip(_instructions(artifact(contract).runtime), entries, strict=False):
+        # begin:length:source:jump:..., each as in the entry before if it is empty
+        for i, field in enumerate(entry.split(":")[:4]):
+            fields[i] = field or fields[i]
+        begin, length, number = map(int, fields[:3])
+        source = _sources().get(number)
+        if source is None:
+            places[at] = Place("", None, 0, fields[3], False)
+            continue
+        spans[at] = number, begin, begin + length
+        block = source.text.startswith(b"assembly", begin)
+        function = source.function(begin, begin + length)
+        places[at] = Place(source.name, function, source.line(begin), fields[3], block)
+    names, lines = {}, {}
+    for name, at in data["entries"].items():
+        names[at], lines[at] = _entry(name, spans.get(at))
+    return SourceMap(contract, places, names, lines)
+
+
+def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
+    """Name and line of a function of the compiler's intermediate language."""
+    if span is None:
+        return name, 0
+    source, (_, begin, end) = _sources()[span[0]], span
+    exact = next((f.name for f in source.functions if (f.begin, f.end) == (begin, end)), None)
+    if exact is not None:
+        return exact, source.line(begin)
+    if name.startswith("usr$"):
+        # a function within inline assembly, whose copies have numbers
+        own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
+        stem = source.name.rpartition("/")[2].removesuffix(".sol")
+        found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
+        return f"{stem}.{own}", source.line(found.start() if found else begin)
+    return re.sub(r"_\d+$", "", name), source.line(begin)
+
+
+def _instructions(code: bytes) -> list[int]:
+    """The positions of the instructions, without what is pushed."""
+    places, at = [], 0
+    while at < len(code):
+        places.append(at)
+        at += 1 + (code[at] - _PUSH1 + 1 if _PUSH1 <= code[at] <= _PUSH32 else 0)
+    return places
+
+
+@cache
+def _data() -> dict[str, Any]:
+    data: dict[str, Any] = json.loads(files("shackled.artifacts").joinpath("source-maps.json").read_text("utf-8"))
+    return data
+
+
+@cache
+def _sources() -> dict[int, Source]:
+    """The sources that the compiler was given, by its numbers for them."""
+    request = json.loads(files("shackled.artifacts").joinpath("standard-input.json").read_text("utf-8"))
+    sources = {}
+    for number, source in _data()["sources"].items():
+        text = request["sources"][source["name"]]["content"].encode()
+        functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
+        begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
+        sources[int(number)] = Source(source["name"], text, functions, begins)
+    return sources

@@ -1,0 +1,218 @@
+"""A picture of what each stage of the pipeline makes of a scene: the pipeline figure of the paper.
+
+Stages 3 to 6 are drawn by the contracts: the same scene, asked for its edges, for its triangles in plain colours, for
+their light, and for the whole. The contracts return pixels only; so the points of stages 1 and 2 are those of the
+reference renderer, whose numbers are the contracts' own: the mesh as it unpacks it from the data of the call, and the
+records of its vertices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image as PillowImage
+from PIL import ImageDraw, ImageFont
+
+from .chain import Chain, open_chain
+from .image import decode_bmp
+from .reference.call import read_call
+from .reference.pipeline import Geometry, assemble
+from .reference.registers import PIXEL_BIAS
+from .reference.vector import to_matrix
+from .scene.background import Background
+from .scene.codec import encode
+from .scene.material import Material
+from .scene.mesh import MAX_VERTICES, Mesh
+from .scene.object import Object
+from .scene.scene import Scene
+
+Pixels = NDArray[np.uint8]
+
+BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
+#: The two greys of the pattern that stands for nothing, and the length of its squares at 128 pixels.
+CHECKS, CHECK_SIDE = (46, 54), 8
+UNLIT = Material("unlit")
+
+#: The golden ratio, whose multiples spread evenly whatever their number.
+GOLDEN = (5**0.5 - 1) / 2
+DARKEST = 0.45
+
+#: The strip: least side of a picture in it, and space for its caption.
+STRIP_SIDE, MARGIN, CAPTION = 224, 12, 44
+PAPER, PRINT, FINE_PRINT = (22, 25, 31), (236, 239, 243), (150, 158, 168)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What a stage made. pixels: (H, W, 3), rows from the top. detail: a few words with numbers."""
+
+    name: str
+    title: str
+    detail: str
+    pixels: Pixels
+
+
+def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
+    """The six stages of the paper, in their order. InputError and RenderError as `render` raises them."""
+    chain = chain or open_chain()
+    data = encode(b"\0\0\0\0", scene)
+    geometry = assemble(*read_call(data))[2]
+    drawing = chain.draw(scene)
+    triangles, lit_pixels = chain.count(scene)
+    given = sum(len(part.mesh.faces) for part in geometry)
+    seen, on_canvas = projected_points(geometry, scene)
+    points = sum(len(part.vertices) for part in geometry)
+    plain = replace(scene, invert=False)
+    gas = "" if drawing.gas is None else f", {drawing.gas:,} gas"
+    return [
+        Stage(
+            "1-vertices",
+            "Vertex specification",
+            f"{points:,} points, {given:,} faces",
+            specified_points(geometry, scene),
+        ),
+        Stage("2-projected", "Vertex shader", f"{on_canvas:,} points on the canvas", seen),
+        Stage(
+            "3-triangles",
+            "Primitive assembly",
+            f"{triangles:,} triangles left",
+            over_nothing(_each(plain, edges), chain),
+        ),
+        Stage("4-filled", "Rasterization", f"{lit_pixels:,} pixels covered", over_nothing(_each(plain, filled), chain)),
+        Stage("5-lit", "Fragment shader", _lights(scene), over_nothing(plain, chain)),
+        Stage(
+            "6-picture",
+            "Compositing",
+            f"{scene.width} x {scene.height} pixels{gas}",
+            decode_bmp(drawing.bmp, scene.width, scene.height),
+        ),
+    ]
+
+
+# ---- points ----
+
+
+def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
+    """The vertices where they stand in the world, from the front (+z), without a camera, filling the canvas."""
+    places, colors = [], []
+    for part in geometry:
+        # the columns of the rotation are the images of the axes
+        axes = np.array(to_matrix(part.object.rotation), float) / 2**32
+        scale = part.object.scale / 2**32
+        places.append(scale * np.array(part.mesh.positions, float) @ axes + np.array(part.object.position) / 2**32)
+        colors.append(np.array(part.mesh.colors))
+    if not places:
+        return nothing(scene)
+    world = np.concatenate(places)
+    low, high = world.min(axis=0), world.max(axis=0)
+    size = np.array([scene.width, scene.height])
+    unit = float(((high - low)[:2] / (0.75 * size)).max()) or 1.0
+    middle = (low + high)[:2] / 2
+    flat = (world[:, :2] - middle) / unit * (1, -1) + size / 2
+    return with_points(nothing(scene), flat, np.concatenate(colors), world[:, 2])
+
+
+def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels, int]:
+    """The vertices where the vertex shader put them on the canvas, and how many of them are on it."""
+    places, colors, depths = [], [], []
+    for part in geometry:
+        for vertex, color in zip(part.vertices, part.mesh.colors, strict=True):
+            if not vertex.must_clip:
+                # from 1/256 pixels, the centre of pixel 0 at 0
+                places.append((vertex.x / 256 - PIXEL_BIAS + 0.5, vertex.y / 256 - PIXEL_BIAS + 0.5))
+                colors.append(color)
+                depths.append(float(vertex.attributes >> 168))
+    if not places:
+        return nothing(scene), 0
+    flat = np.array(places)
+    inside = int(((flat >= 0) & (flat < (scene.width, scene.height))).all(axis=1).sum())
+    return with_points(nothing(scene), flat, np.array(colors), np.array(depths)), inside
+
+
+def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
+    """Points as dots, those of the highest order last: (n, 2) places from the top left corner, in pixels."""
+    picture = PillowImage.fromarray(pixels)
+    brush = ImageDraw.Draw(picture)
+    few = np.clip(5 - 1.6 * np.log10(len(places)), 1, 4)
+    radius = max(0.5, min(pixels.shape[:2]) / 256 * float(few))
+    table = np.asarray(colors).tolist()
+    for i in np.argsort(order, kind="stable"):
+        x, y = places[i] - 0.5
+        if -radius <= x <= pixels.shape[1] + radius and -radius <= y <= pixels.shape[0] + radius:
+            brush.ellipse((x - radius, y - radius, x + radius, y + radius), fill=tuple(table[i]))
+    return np.array(picture)
+
+
+# ---- what the contracts draw ----
+
+
+def edges(o: Object) -> Object:
+    """An object's triangles as wires."""
+    return replace(o, wireframe=True, material=UNLIT)
+
+
+def filled(o: Object) -> Object:
+    """An object's triangles in the colours of their vertices, each a little brighter or darker than the next."""
+    faces = np.asarray(o.mesh.faces)
+    if o.wireframe or faces.size > MAX_VERTICES:
+        return replace(o, material=UNLIT)
+    shades = DARKEST + (1 - DARKEST) * (np.arange(len(faces)) * GOLDEN % 1)
+    colors = np.asarray(o.mesh.colors)[faces] * shades[:, None, None]
+    split = Mesh(
+        np.asarray(o.mesh.positions)[faces].reshape(-1, 3),
+        np.arange(faces.size).reshape(-1, 3),
+        np.rint(colors).reshape(-1, 3),
+    )
+    return replace(o, mesh=split, material=UNLIT)
+
+
+def over_nothing(scene: Scene, chain: Chain) -> Pixels:
+    """The fragments of a scene without its background. They are what does not depend on the background."""
+    on_black, on_white = (
+        decode_bmp(chain.draw(replace(scene, background=background)).bmp, scene.width, scene.height)
+        for background in (BLACK, WHITE)
+    )
+    is_fragment = (on_black == on_white).all(axis=2, keepdims=True)
+    return np.where(is_fragment, on_black, nothing(scene))
+
+
+def nothing(scene: Scene) -> Pixels:
+    """A pattern of checks that stands for nothing."""
+    side = max(1, CHECK_SIDE * min(scene.width, scene.height) // 128)
+    rows, columns = np.indices((scene.height, scene.width)) // side
+    grey = np.where((rows + columns) % 2, *CHECKS).astype(np.uint8)
+    return np.repeat(grey[:, :, None], 3, axis=2)
+
+
+def _each(scene: Scene, change: Callable[[Object], Object]) -> Scene:
+    return replace(scene, objects=[change(o) for o in scene.objects])
+
+
+def _lights(scene: Scene) -> str:
+    shadings = sorted({o.material.shading for o in scene.objects})
+    lights = f"{len(scene.lights)} light{'' if len(scene.lights) == 1 else 's'}"
+    return f"{' and '.join(shadings)}, {lights}" if shadings else lights
+
+
+# ---- the strip ----
+
+
+def strip(stages: list[Stage]) -> PillowImage.Image:
+    """The stages side by side, each with its name and number below."""
+    height, width = stages[0].pixels.shape[:2]
+    enlarged = max(1, -(-STRIP_SIDE // min(width, height)))
+    width, height = width * enlarged, height * enlarged
+    title, fine = ImageFont.load_default(15), ImageFont.load_default(12)
+    across = (width + MARGIN) * len(stages) + MARGIN
+    picture = PillowImage.new("RGB", (across, height + 2 * MARGIN + CAPTION), PAPER)
+    brush = ImageDraw.Draw(picture)
+    for number, stage in enumerate(stages):
+        left = MARGIN + number * (width + MARGIN)
+        shown = PillowImage.fromarray(stage.pixels).resize((width, height), PillowImage.Resampling.NEAREST)
+        picture.paste(shown, (left, MARGIN))
+        brush.text((left, height + MARGIN + 8), f"{number + 1}  {stage.title}", PRINT, title)
+        brush.text((left, height + MARGIN + 30), stage.detail, FINE_PRINT, fine)
+    return picture

@@ -1,0 +1,274 @@
+"""The experiments, in a hurry: what they write, and what is known about it beforehand."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import InputError, bench, load
+from shackled.artifacts import artifact, contracts
+from shackled.bench import EXPERIMENTS, Lab, fits, scenes
+from shackled.bench.anvil import AnvilChain, find_anvil
+from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
+from shackled.bench.measure import call, cost
+from shackled.bench.original import CODE_SIZES, original, original_gas
+from shackled.bench.report import Report, wrapped
+from shackled.chain import open_chain
+from shackled.cli.app import run
+from shackled.image import decode_bmp
+from shackled.reference import render as reference_render
+
+SHARED = Path(__file__).resolve().parents[3] / "shared" / "scenes"
+SLOW = ("engines",)
+
+Rows = list[dict[str, str]]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of all experiments but the slow ones, each made once."""
+    pytest.importorskip("pyrevm", reason="py-evm would take minutes")
+    folder = tmp_path_factory.mktemp("bench")
+    names = [name for name in EXPERIMENTS if name not in SLOW]
+    assert run(["bench", *names, "--quick", "--processes", "1", "-o", str(folder)]) == 0
+    return folder
+
+
+def rows_of(folder: Path, name: str) -> Rows:
+    with (folder / f"{name}.csv").open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def column(rows: Rows, name: str) -> list[int]:
+    return [int(row[name]) for row in rows]
+
+
+# ---- files ----
+
+
+@pytest.mark.parametrize("name", [name for name in EXPERIMENTS if name not in SLOW])
+def test_each_writes_figures_a_table_and_a_plot(made: Path, name: str) -> None:
+    rows = rows_of(made, name)
+    assert rows
+    assert all(value != "" for row in rows for key, value in row.items() if "original" not in key)
+    text = (made / f"{name}.md").read_text("utf-8")
+    assert text.startswith("# ")
+    assert text.endswith("\n")
+    assert max(len(line) for line in text.splitlines() if not line.startswith("|")) <= 120
+    lines = [line for line in text.splitlines() if line.startswith("|")]
+    assert len(lines) >= 3
+    with PillowImage.open(made / f"{name}.png") as plot:
+        pixels = np.array(plot)
+    # nothing where the page shows through, and lines that both black and white pages show
+    assert pixels.shape[2] == 4
+    transparent = pixels[:, :, 3] == 0
+    assert 0.5 < transparent.mean() < 0.995
+    drawn = pixels[pixels[:, :, 3] == 255][:, :3]
+    brightness = drawn @ (0.2126, 0.7152, 0.0722)
+    assert brightness.min() > 60
+    assert brightness.max() < 200
+
+
+# ---- scenes ----
+
+
+@pytest.mark.skipif(not SHARED.is_dir(), reason="needs the scenes of the original, in `shared` beside the repository")
+@pytest.mark.parametrize(
+    ("name", "scene"),
+    [
+        ("cube_persp_8", scenes.cube(8)),
+        ("cube_persp_128", scenes.cube(128)),
+        ("cube_orth_16", scenes.cube(16, "orthographic")),
+        ("tris_01", scenes.equal_triangles(1)),
+        ("tris_16", scenes.equal_triangles(16)),
+    ],
+)
+def test_scenes_are_those_that_the_original_was_measured_with(name: str, scene: object) -> None:
+    theirs, ours = load(SHARED / f"{name}.json"), scene
+    assert reference_render(ours) == reference_render(theirs)  # type: ignore[arg-type]
+    assert call(ours) == call(theirs)  # type: ignore[arg-type]
+
+
+def test_the_figures_of_the_original() -> None:
+    assert original_gas("cube_persp_128") == 3853325407
+    assert original_gas("no such scene") is None
+    assert original()["tris_16"].triangles == 16
+    assert sum(CODE_SIZES.values()) == 92245
+
+
+# ---- experiments ----
+
+
+def test_canvas(made: Path) -> None:
+    rows = rows_of(made, "canvas")
+    assert [(row["projection"], int(row["side"])) for row in rows] == [
+        (projection, side) for projection in ("perspective", "orthographic") for side in (8, 16, 32)
+    ]
+    assert column(rows, "triangles") == [6] * 6
+    assert column(rows, "gas")[:3] == [cost(scenes.cube(side)).gas for side in (8, 16, 32)]
+    assert column(rows, "gas")[:3] == sorted(column(rows, "gas")[:3])
+    assert column(rows, "original_gas") == [3963557, 11186091, 50843097, 3926385, 11171733, 51321395]
+    with PillowImage.open(made / "canvas-pictures.png") as picture:
+        assert picture.size == (3 * 128, 2 * 128)
+        shown = np.array(picture.convert("RGB"))
+    smallest = decode_bmp(reference_render(scenes.cube(8)), 8, 8)
+    assert (shown[:128:16, :128:16] == smallest).all()
+
+
+def test_triangles(made: Path) -> None:
+    rows = rows_of(made, "triangles")
+    assert column(rows, "triangles") == [1, 2, 3, 4]
+    pixels = column(rows, "lit_pixels")
+    # of the same shape and size, and none over another
+    assert pixels == [pixels[0] * count for count in (1, 2, 3, 4)]
+    assert fits.fit([[1, 2, 3, 4]], column(rows, "gas")).r2 > 0.9999
+    assert "34.07%" not in (made / "triangles.md").read_text("utf-8")  # that is of 16
+
+
+def test_genesis(made: Path) -> None:
+    rows = rows_of(made, "genesis")
+    assert column(rows, "piece") == list(range(0, 1024, 128))
+    for row in rows:
+        # seven triangles a prism
+        assert int(row["triangles"]) % 7 == 0
+        assert 0 < int(row["drawn"]) <= int(row["triangles"])
+        assert 0 < int(row["lit_pixels"]) < 128 * 128
+    first = load("genesis/0")
+    assert column(rows, "gas")[0] == cost(first).gas
+
+
+def test_culling(made: Path) -> None:
+    rows = rows_of(made, "culling")
+    assert rows[0]["name"] == "teapot"
+    for row in rows:
+        assert int(row["drawn"]) < int(row["drawn_without"]) <= int(row["faces"])
+        assert int(row["gas"]) < int(row["gas_without"])
+    assert [row["different"] for row in rows if row["name"] == "cornell-box"] == ["0"]
+
+
+def test_deploy(made: Path) -> None:
+    rows = rows_of(made, "deploy")
+    assert {row["contract"] for row in rows} == set(contracts())
+    for row in rows:
+        built = artifact(row["contract"])
+        assert int(row["code_bytes"]) == len(built.runtime)
+        # 200 gas a byte, and the transaction
+        assert int(row["gas"]) > 200 * len(built.runtime) + 53000
+    engine = PyEvmDeployer().gas_of("Engine")
+    assert {row["contract"]: int(row["gas"]) for row in rows}["Engine"] == engine
+    assert PyrevmDeployer().gas_of("Renderer") == PyEvmDeployer().gas_of("Renderer")
+
+
+def test_linear(made: Path) -> None:
+    rows = rows_of(made, "linear")
+    squares = [row for row in rows if row["series"] == "unlit squares"]
+    assert column(squares, "triangles") == [2, 162, 578]
+    assert fits.fit([column(squares, "triangles")], column(squares, "gas")).r2 > 0.98
+    assert "| original: equal triangles | " in (made / "linear.md").read_text("utf-8")
+    assert "0.988797" in (made / "linear.md").read_text("utf-8")
+
+
+def test_output(made: Path) -> None:
+    rows = rows_of(made, "output")
+    assert [row["format"] for row in rows] == ["BMP", "data URI", "SVG"] * 2
+    for side, bmp, uri, svg in zip((8, 16), rows[::3], rows[1::3], rows[2::3], strict=True):
+        assert int(bmp["bytes"]) == 54 + 3 * side * side
+        assert int(uri["bytes"]) == len("data:image/bmp;base64,") + 4 * (int(bmp["bytes"]) // 3)
+        assert int(svg["bytes"]) > int(uri["bytes"])
+        assert int(bmp["gas_beyond_bmp"]) == 0
+        assert int(svg["gas_beyond_bmp"]) > int(uri["gas_beyond_bmp"]) > 0
+
+
+def test_engines_agree(tmp_path: Path) -> None:
+    assert run(["bench", "engines", "--quick", "-o", str(tmp_path)]) == 0
+    rows = rows_of(tmp_path, "engines")
+    assert "pyevm" in {row["engine"] for row in rows}
+    assert {row["gas"] for row in rows} == {str(cost(scenes.cube(8)).gas)}
+    assert all(float(row["seconds"]) > 0 for row in rows)
+
+
+@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+def test_a_node_draws_the_same_for_the_same_gas() -> None:
+    with AnvilChain(str(find_anvil())) as node:
+        scene = scenes.cube(16)
+        assert node.draw(scene) == open_chain().draw(scene)
+        assert node.count(scene) == open_chain().count(scene)
+
+
+# ---- parts ----
+
+
+def test_fits() -> None:
+    found = fits.fit([[1, 2, 3]], [5, 7, 9])
+    assert found.coefficients == pytest.approx([3, 2])
+    assert found.r2 == pytest.approx(1)
+    assert fits.fit([[1, 2, 3]], [1, 0, 1]).r2 == pytest.approx(0)
+
+
+def double(number: int) -> int:
+    return 2 * number
+
+
+def test_several_processes_keep_the_order() -> None:
+    with Lab(processes=2) as lab:
+        assert lab.map("doubles", double, range(20)) == list(range(0, 40, 2))
+        assert lab.map("doubles", double, [1], alone=True) == [2]
+
+
+def test_tables_are_not_wrapped() -> None:
+    row = "| " + "x" * 200 + " |"
+    text = wrapped("word " * 40 + "\n\n" + row)
+    assert row in text.splitlines()
+    assert len(text.splitlines()) == 4
+
+
+# ---- mistakes ----
+
+
+def test_without_names_they_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench"]) == 0
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()[: len(EXPERIMENTS)]] == list(EXPERIMENTS)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["canvass", "-o", "x"], "there is no experiment 'canvass'; the experiments are canvas, triangles,"),
+        (["canvas"], "the experiments need a folder to write to: -o DIR"),
+        (["canvas", "-o", "file"], "file is a file, not a folder to write to"),
+    ],
+)
+def test_mistakes_are_told(
+    arguments: list[str],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("file").touch()
+    assert run(["bench", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+
+
+def test_without_matplotlib(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(bench, "find_spec", lambda name: None)
+    assert run(["bench", "deploy", "--quick", "-o", str(tmp_path)]) == 2
+    assert "pip install 'shackled[bench]'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    report = Report("Title", ["a"], [[1], [None]], "text", lambda figure: None)
+    assert report.csv() == 'a\n1\n""\n'
+    with pytest.raises(InputError, match="nothing can be written to the folder"):
+        report.save("name", tmp_path / "file" / "folder")

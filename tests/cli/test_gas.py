@@ -1,0 +1,143 @@
+"""The command `shackled gas`."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("eth", reason="stages need py-evm")
+pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
+
+from shackled import load, render
+from shackled.cli.app import run
+from shackled.gas import trace
+from shackled.gas.stages import STAGES
+
+OBJ = """\
+v -1 -1 0.5
+v 1 -1 0.25
+v 0 1 0
+v 0 0 -1
+f 1 2 3
+f 2 1 4
+f 3 2 4
+f 1 3 4
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("shape.obj").write_text(OBJ, "utf-8")
+    return tmp_path
+
+
+def report(capsys: pytest.CaptureFixture[str], *options: str) -> dict[str, Any]:
+    assert run(["gas", "shape.obj", "--json", "--size", "20x12", *options]) == 0
+    output, messages = capsys.readouterr()
+    assert messages == ""
+    found: dict[str, Any] = json.loads(output)
+    return found
+
+
+def error(capsys: pytest.CaptureFixture[str], code: int, *options: str) -> str:
+    assert run(["gas", "shape.obj", "--size", "8", *options]) == code
+    output, messages = capsys.readouterr()
+    assert output == ""
+    last = messages.splitlines()[-1]
+    assert last.startswith("shackled: ")
+    assert "Traceback" not in messages
+    return last
+
+
+def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None:
+    found = report(capsys, "--gas-price", "2", "--eth-price", "3000")
+    assert run(["render", "shape.obj", "--json", "--size", "20x12"]) == 0
+    image = json.loads(capsys.readouterr().out)
+    for key in ("input", "gas", "intrinsic_gas", "triangles", "lit_pixels", "width", "height", "chain"):
+        assert found[key] == image[key]
+    assert list(found["stages"]) == list(STAGES)
+    assert sum(found["stages"].values()) == found["gas"]
+    steps = found["search_steps"]
+    assert found["search_calls"] == len(steps)
+    assert steps[-1]["upper"] == found["searched_gas"] == steps[-1]["lower"] + 1
+    margin = found["margin"]
+    assert found["searched_gas"] - found["gas"] == margin["gas"] == margin["kept"] - margin["after"] > 0
+    assert found["gas_per_triangle"] == pytest.approx(image["gas"] / image["triangles"])
+    assert found["gas_per_lit_pixel"] == pytest.approx(image["gas"] / image["lit_pixels"])
+    transaction = found["transaction"]
+    assert transaction["gas"] == found["gas"] + found["intrinsic_gas"]
+    assert transaction["gas_limit"] == found["searched_gas"] + found["intrinsic_gas"]
+    assert transaction["ether"] == pytest.approx(transaction["gas"] * 2e-9)
+    assert transaction["usd"] == pytest.approx(transaction["gas"] * 6e-6)
+    assert all(entry["fits"] == (transaction["gas_limit"] <= entry["limit"]) for entry in found["fits"])
+    assert {entry["limit"] for entry in found["fits"]} >= {1 << 24, 50_000_000, 100_000_000}
+
+
+def test_limits_of_the_search_and_no_stages(capsys: pytest.CaptureFixture[str]) -> None:
+    whole = report(capsys, "--no-stages")
+    assert whole["stages"] is None
+    least = whole["searched_gas"]
+    near = report(capsys, "--no-stages", "--lower", str(least - 8), "--upper", str(least + 8))
+    assert near["searched_gas"] == least
+    assert near["search_calls"] == 5 < whole["search_calls"]
+
+
+def test_the_look_changes_the_gas(capsys: pytest.CaptureFixture[str]) -> None:
+    plain = report(capsys, "--no-stages")["gas"]
+    for options in (["--smooth"], ["--unlit"], ["--wireframe"], ["--no-cull"], ["--rotate", "40,0,0"]):
+        assert report(capsys, "--no-stages", *options)["gas"] != plain
+
+
+def test_tables_for_people(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["gas", "shape.obj", "--size", "16", "--eth-price", "2500"]) == 0
+    output, messages = capsys.readouterr()
+    image = render(load("shape.obj"), size=16)
+    assert f"{image.gas:,} of the execution, exact" in output
+    for text in (*STAGES, "16,777,216", "https://eips.ethereum.org/EIPS/eip-7825", "US dollars", "not measured", "yes"):
+        assert text in output
+    # the bracket as it narrows
+    lines = messages.splitlines()
+    assert len(lines) > 15
+    assert all(" < gas" in line for line in lines)
+
+
+def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("flame.svg", "flame.json"):
+        assert run(["gas", "shape.obj", "--size", "16", "--profile", name]) == 0
+        output, _ = capsys.readouterr()
+        assert f"flame graph: {name}" in output
+        assert "PrimitiveAssembly.assemble" in output
+        assert "pipeline/PrimitiveAssembly.sol:" in output
+    assert ElementTree.parse("flame.svg").getroot().tag.endswith("svg")
+    gas = render(load("shape.obj"), size=16).gas
+    assert json.loads(Path("flame.json").read_text("utf-8"))["profiles"][0]["endValue"] == gas
+    assert report(capsys, "--profile", "other.svg")["profile"] == "other.svg"
+
+
+def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("folder.svg").mkdir()
+    assert "take --chain pyrevm or pyevm" in error(capsys, 2, "--chain", "reference")
+    assert ".json or .svg" in error(capsys, 2, "--profile", "flame.png")
+    assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
+    assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")
+    assert "--no-stages" in error(capsys, 2, "--profile", "flame.svg", "--no-stages")
+    assert "--gas-price" in error(capsys, 2, "--gas-price", "-1")
+    assert "--eth-price" in error(capsys, 2, "--eth-price", "nan")
+    assert "0 <= lower < upper" in error(capsys, 2, "--no-stages", "--lower", "9", "--upper", "9")
+    assert "1,000, the upper limit of the search" in error(capsys, 1, "--no-stages", "--upper", "1000")
+    assert run(["gas", "missing.obj"]) == 2
+
+
+def test_without_a_tracer_it_says_what_to_install(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(trace, "find_spec", lambda name: None)
+    message = error(capsys, 2)
+    assert "pip install py-evm" in message
+    assert "--no-stages" in message
+    assert report(capsys, "--no-stages")["gas"] > 0

@@ -1,0 +1,182 @@
+"""Gas by stage, by function and by line: from the artifacts alone, and adding up."""
+
+from __future__ import annotations
+
+import json
+import xml.etree.ElementTree as ElementTree
+from importlib.resources import files
+
+import pytest
+
+pytest.importorskip("eth", reason="a trace needs py-evm")
+
+from shackled import Scene
+from shackled.artifacts import artifact, contracts
+from shackled.chain import ContractChain, open_chain
+from shackled.gas.exact import measure, render_call
+from shackled.gas.flame_graph import MARGIN, WIDTH, flame_graph
+from shackled.gas.profile import Profile, profile
+from shackled.gas.source_map import source_map
+from shackled.gas.speedscope import speedscope
+from shackled.gas.stages import STAGES
+from shackled.gas.trace import Frame, trace
+
+NAMES = ("smooth", "clipped, wires, inverted", "empty")
+
+JUMPDEST = 0x5B
+
+
+@pytest.fixture(scope="module")
+def profiles(scenes: dict[str, Scene]) -> dict[str, Profile]:
+    return {name: profile(scene) for name, scene in scenes.items()}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_add_up_to_the_gas(name: str, profiles: dict[str, Profile], scenes: dict[str, Scene]) -> None:
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    exact = measure(scenes[name], chain)
+    found = profiles[name]
+    assert found.gas == exact.gas
+    assert list(found.stages()) == list(STAGES)
+    assert sum(found.stages().values()) == exact.gas
+    assert sum(each.own for each in found.functions()) == exact.gas
+    assert sum(gas for _, _, gas in found.lines()) == exact.gas
+    totals = {each.name: each.total for each in found.functions()}
+    assert totals["Renderer"] == exact.gas
+    # measured by a call of its own
+    assert totals["Engine"] == exact.engine_gas
+    assert all(cost.gas > 0 for cost in found.costs)
+
+
+def test_stages_are_where_their_work_is(profiles: dict[str, Profile]) -> None:
+    smooth, mixed, empty = (profiles[name].stages() for name in NAMES)
+    assert all(smooth[stage] > 0 for stage in STAGES if stage != "rows of plain triangles")
+    assert empty["compositor"] > 0
+    for stage in ("primitive assembly", "shading set-up", "triangle set-up", "rows of plain triangles"):
+        assert empty[stage] == 0
+    # wires are drawn row by row
+    assert mixed["rows of plain triangles"] > 0
+    clipper = {each.name: each.own for each in profiles["clipped, wires, inverted"].functions()}
+    assert any(name.startswith("Clipper.") for name in clipper)
+    assert clipper["Compositor.invert"] > 0
+
+
+def test_the_stack_of_calls_is_that_of_the_sources(profiles: dict[str, Profile]) -> None:
+    found = profiles["smooth"]
+    for cost in found.costs:
+        assert cost.calls[0] == "Renderer"
+        if cost.function.startswith("FragmentShader."):
+            before = [call for call in cost.calls if not call.startswith("FragmentShader.")]
+            assert "Renderer.callEngine" in before
+            assert "Rasterizer.run" in before
+            assert before.index("Engine") == before.index("Renderer.callEngine") + 1
+        if cost.function == "VertexShader.project":
+            assert "VertexShader.run" in cost.calls
+            assert not any(call.startswith("Rasterizer") for call in cost.calls)
+    # nothing is left open: what ends the call is as deep as what began it
+    deepest = max(len(cost.calls) for cost in found.costs)
+    assert 8 <= deepest <= 24
+
+
+def test_calls_are_left_where_they_were_entered(scenes: dict[str, Scene]) -> None:
+    root, _ = trace("Renderer", render_call(scenes["smooth"]))
+
+    def depth(frame: Frame) -> int:
+        return 1 + max(map(depth, frame.calls.values()), default=0)
+
+    # a missed way out of a function would nest without end
+    assert depth(root) <= 24
+    engines = [frame for frame in root.frames() if frame.contract == "Engine" and frame.entry == 0]
+    assert len(engines) == 1
+
+
+def test_lines_are_in_their_files(profiles: dict[str, Profile]) -> None:
+    request = json.loads(files("shackled.artifacts").joinpath("standard-input.json").read_text("utf-8"))
+    for found in profiles.values():
+        for cost in found.costs:
+            if cost.file:
+                lines = request["sources"][cost.file]["content"].splitlines()
+                assert 1 <= cost.line <= len(lines)
+                assert lines[cost.line - 1].strip()
+    # functions of Yul are found within their block of assembly
+    found_in_assembly = 0
+    for place, function, _ in profiles["smooth"].lines():
+        for name in ("light", "shade", "exact", "gloss"):
+            if function == f"FragmentShader.{name}" and place != "(compiler)":
+                file, _, line = place.rpartition(":")
+                assert f"function {name}(" in request["sources"][file]["content"].splitlines()[int(line) - 1]
+                found_in_assembly += 1
+    assert found_in_assembly == 4
+
+
+@pytest.mark.parametrize("name", contracts())
+def test_maps_cover_the_code(name: str) -> None:
+    code = artifact(name).runtime
+    found = source_map(name)
+    at = 0
+    while at < len(code):
+        assert at in found.places
+        at += 1 + (code[at] - 0x5F if 0x60 <= code[at] <= 0x7F else 0)
+    assert len(found.entries) > 20
+    assert all(code[entry] == JUMPDEST for entry in found.entries)
+    kinds = {place.jump for place in found.places.values()}
+    assert kinds == {"i", "o", "-"}
+    assert all(code[at] in (0x56, 0x57) for at, place in found.places.items() if place.jump != "-")
+
+
+def test_progress_is_told(scenes: dict[str, Scene]) -> None:
+    told: list[int] = []
+    gas = profile(scenes["smooth"], told.append).gas
+    assert told == sorted(told)
+    assert 0 < told[-1] <= gas
+
+
+def test_speedscope(profiles: dict[str, Profile]) -> None:
+    found = profiles["smooth"]
+    content = json.loads(json.dumps(speedscope(found, "pot")))
+    assert content["$schema"] == "https://www.speedscope.app/file-format-schema.json"
+    (sampled,) = content["profiles"]
+    frames = content["shared"]["frames"]
+    assert sampled["type"] == "sampled"
+    assert len(sampled["samples"]) == len(sampled["weights"])
+    assert sum(sampled["weights"]) == sampled["endValue"] == found.gas
+    assert {index for sample in sampled["samples"] for index in sample} == set(range(len(frames)))
+    stages = dict.fromkeys(STAGES, 0)
+    for sample, weight in zip(sampled["samples"], sampled["weights"], strict=True):
+        stages[frames[sample[0]]["name"]] += weight
+        assert frames[sample[1]]["name"] == "Renderer"
+    assert stages == found.stages()
+    assert all(frame["line"] > 0 for frame in frames if "file" in frame)
+
+
+def test_the_flame_graph(profiles: dict[str, Profile]) -> None:
+    found = profiles["smooth"]
+    text = flame_graph(found, "<pot>")
+    root = ElementTree.fromstring(text)
+    space = {"s": "http://www.w3.org/2000/svg"}
+    boxes: list[tuple[str, float, float, float]] = []
+    for group in root.findall("s:g", space):
+        title, rect = group.find("s:title", space), group.find("s:rect", space)
+        assert title is not None
+        assert title.text is not None
+        assert rect is not None
+        x, y, width = (float(rect.attrib[key]) for key in ("x", "y", "width"))
+        boxes.append((title.text, x, y, width))
+    top = min(y for _, _, y, _ in boxes)
+    first = [(text, x, width) for text, x, y, width in boxes if y == top]
+    assert sum(width for *_, width in first) == pytest.approx(WIDTH - 2 * MARGIN, rel=0.01)
+    for text_of, _, width in first:
+        stage, _, rest = text_of.rpartition(": ")
+        gas = int(rest.split(" ")[0].replace(",", ""))
+        assert gas == found.stages()[stage]
+        assert width == pytest.approx((WIDTH - 2 * MARGIN) * gas / found.gas, abs=0.01)
+    # boxes lie within those above them
+    for _, x, y, width in boxes:
+        if y > top:
+            assert any(
+                abs(above - (y - 18)) < 0.1 and left <= x + 0.02 and x + width <= left + wide + 0.02
+                for _, left, above, wide in boxes
+            )
+    assert "prefers-color-scheme:dark" in text
+    assert "&lt;pot&gt;" in text

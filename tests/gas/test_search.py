@@ -1,0 +1,123 @@
+"""The search for the least gas limit, and by what it differs from the gas that is used."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+
+from shackled import InputError, RenderError, Scene
+from shackled.artifacts import artifact
+from shackled.chain import ContractChain, open_chain
+from shackled.errors import OutOfGasError
+from shackled.gas.exact import KEPT, engine_call, floor_gas, margin, measure, needed_for, render_call
+from shackled.gas.search import FIRST_LIMIT, Step, search, suffices
+
+NAMES = ("smooth", "clipped, wires, inverted", "empty")
+
+
+@pytest.mark.parametrize("least", [1, 2, 3, 1000, FIRST_LIMIT - 1, FIRST_LIMIT, FIRST_LIMIT + 1, 77_777_777])
+@pytest.mark.parametrize("upper", [None, 1 << 27])
+def test_it_finds_the_least_that_is_enough(least: int, upper: int | None) -> None:
+    steps: list[Step] = []
+    found = search(lambda limit: limit >= least, upper=upper, report=steps.append)
+    assert found.gas == least
+    assert found.steps == tuple(steps)
+    assert found.calls == len(steps) <= 2 + 2 * 27
+    # no call is wasted, and the bracket only narrows
+    assert len({step.limit for step in steps}) == len(steps)
+    for step in steps:
+        assert step.enough == (step.limit >= least)
+        assert step.lower < least
+        assert step.upper is None or step.upper >= least
+    for before, after in pairwise(steps):
+        assert after.lower >= before.lower
+        assert before.upper is None or (after.upper is not None and after.upper <= before.upper)
+    assert steps[-1].lower == least - 1
+    assert steps[-1].upper == least
+
+
+def test_it_halves() -> None:
+    assert search(lambda limit: limit >= 700, 0, 1024).calls <= 11
+    assert search(lambda limit: limit >= 700, 699, 701).steps == (Step(701, True, 699, 701), Step(700, True, 699, 700))
+
+
+def test_limits_that_cannot_be() -> None:
+    for lower, upper in [(5, 5), (6, 5), (-1, 5)]:
+        with pytest.raises(InputError, match="0 <= lower < upper"):
+            search(lambda _: True, lower, upper)
+    with pytest.raises(OutOfGasError, match="1,000, the upper limit of the search, did not suffice"):
+        search(lambda _: False, 0, 1000)
+    with pytest.raises(OutOfGasError):
+        search(lambda _: False)
+
+
+def test_all_but_a_64th() -> None:
+    for gas in [*range(1, 500), 3_845_517, 10**9 + 7]:
+        least = needed_for(gas)
+        assert least - least // KEPT >= gas
+        assert (least - 1) - (least - 1) // KEPT < gas
+    assert needed_for(0) == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scene]) -> None:
+    pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
+    chain = open_chain("pyrevm")
+    assert isinstance(chain, ContractChain)
+    scene = scenes[name]
+    data = render_call(scene)
+    exact = measure(scene, chain)
+    found = search(suffices(chain, "Renderer", data))
+    assert chain.call("Renderer", data, found.gas).gas == exact.gas
+    with pytest.raises(OutOfGasError):
+        chain.call("Renderer", data, found.gas - 1)
+    account = margin(exact, found.gas)
+    assert found.gas == exact.gas + account.gas
+    assert account.kept == needed_for(exact.engine_gas) - exact.engine_gas
+    # what the Renderer itself uses after its call is some of what it uses at all
+    assert 0 < account.after < exact.gas - exact.engine_gas
+    assert 0 <= account.gas <= exact.gas / (KEPT - 1) + 1
+
+
+def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
+    pytest.importorskip("pyrevm")
+    pytest.importorskip("eth")
+    fast, slow = open_chain("pyrevm"), open_chain("pyevm")
+    assert isinstance(fast, ContractChain)
+    assert isinstance(slow, ContractChain)
+    data = render_call(scenes["empty"])
+    least = search(suffices(fast, "Renderer", data)).gas
+    enough = suffices(slow, "Renderer", data)
+    assert enough(least)
+    assert not enough(least - 1)
+
+
+def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:
+    pytest.importorskip("pyrevm")
+    chain = open_chain("pyrevm")
+    assert isinstance(chain, ContractChain)
+    data = render_call(replace(scenes["empty"], width=5))
+    zero_width = bytearray(data)
+    zero_width[zero_width.index((5).to_bytes(32, "big")) + 31] = 0
+    with pytest.raises(RenderError, match="refused") as caught:
+        search(suffices(chain, "Renderer", bytes(zero_width)))
+    assert not isinstance(caught.value, OutOfGasError)
+
+
+def test_the_call_of_the_engine_is_the_one_that_the_renderer_makes(scenes: dict[str, Scene]) -> None:
+    pytest.importorskip("pyrevm")
+    chain = open_chain("pyrevm")
+    assert isinstance(chain, ContractChain)
+    scene = scenes["smooth"]
+    whole = chain.call("Renderer", render_call(scene)).output
+    pixels = chain.call("Engine", engine_call(scene)).output[64:]
+    # 24 pixels a row need no padding
+    assert pixels == whole[64 + 54 : 64 + 54 + 3 * 24 * 16]
+    assert engine_call(scene)[:4] == artifact("Engine").selectors["drawTile"]
+
+
+def test_the_least_that_a_transaction_costs() -> None:
+    assert floor_gas(b"") == 21000
+    assert floor_gas(b"\0\0\1") == 21000 + 10 * (1 + 1 + 4)

@@ -1,0 +1,44 @@
+"""Measures every piece that comes with the package: src/shackled/datasets/gas.json.
+
+python tools/dataset_costs.py            write the file
+python tools/dataset_costs.py --check    say where it is wrong
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+from shackled.datasets import pieces
+from shackled.datasets.common.models import models
+from shackled.datasets.drawing import draw_all
+
+FILE = Path(__file__).resolve().parent.parent / "src" / "shackled" / "datasets" / "gas.json"
+
+
+def main() -> int:
+    """The command."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="change nothing; exit code 1 if the file is wrong")
+    check = parser.parse_args().check
+    builtin = [piece for piece in pieces() if piece.name not in models()]
+    shown = track(draw_all(builtin), "drawing", len(builtin), console=Console(stderr=True))
+    costs = {drawing.name: (drawing.triangles, drawing.gas) for drawing in shown}
+    rows = [f"{json.dumps(piece.name)}: {json.dumps(costs[piece.name])}" for piece in builtin]
+    text = "{\n" + ",\n".join(rows) + "\n}\n"
+    if not check:
+        FILE.write_text(text, "utf-8")
+        return 0
+    if FILE.is_file() and FILE.read_text("utf-8") == text:
+        return 0
+    print(f"{FILE.name} is not what was measured; run: python tools/dataset_costs.py", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
