@@ -63,17 +63,23 @@ class ContractChain(ABC):
         """The picture of a scene, or of a part of its canvas."""
         selector = artifact("Renderer").selectors["render" if tile is None else "renderTile"]
         result = self.call("Renderer", encode(selector, scene, tile))
-        return Drawing(_bytes(result.output, 0), result.gas, result.intrinsic_gas)
+        return Drawing(returned_bytes(result.output, 0), result.gas, result.intrinsic_gas)
 
     def count(self, scene: Scene) -> tuple[int, int]:
         """The triangles that survive culling and clipping, and the pixels that any of them covers."""
-        output = self.call("Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)).output
-        if len(output) < 96:
-            raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
-        return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
+        return returned_counts(
+            self.call("Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)).output
+        )
 
 
-def _bytes(output: bytes, field: int) -> bytes:
+def returned_counts(output: bytes) -> tuple[int, int]:
+    """Triangles and pixels from what `renderCounted` returned."""
+    if len(output) < 96:
+        raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
+    return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
+
+
+def returned_bytes(output: bytes, field: int) -> bytes:
     """The ABI field `field`, of type bytes, of what a function returned."""
     start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)

@@ -54,6 +54,10 @@ class EmbeddedChain(ContractChain):
             self._codes[self._addresses[contract]] = code
         return self._addresses[contract]
 
+    def codes(self) -> dict[bytes, bytes]:
+        """The code of every contract that was set up, by its address."""
+        return dict(self._codes)
+
     @abstractmethod
     def _create(self, contract: str, creation: bytes) -> bytes:
         """The runtime code that creation code leaves."""

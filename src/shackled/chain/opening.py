@@ -7,12 +7,29 @@ from importlib.util import find_spec
 
 from ..errors import InputError, RenderError
 from .chain import Chain
-from .embedded import PyEvmChain, PyrevmChain
+from .embedded import EmbeddedChain, PyEvmChain, PyrevmChain
+from .node import NodeChain
 from .reference import ReferenceChain
 
 #: The names of chains, and the module that each needs.
 CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
 _KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
+
+
+def open_place(chain: str | None, rpc: str | None) -> Chain:
+    """The node at the address `rpc`, or the chain of that name."""
+    if rpc is None:
+        return open_chain(chain)
+    if chain is not None:
+        raise InputError("--rpc is a place of its own: leave out --chain")
+    return open_node(rpc)
+
+
+def open_node(url: str) -> NodeChain:
+    """The node at an address; an EVM here makes the code that it is sent."""
+    local = open_chain(None)
+    assert isinstance(local, EmbeddedChain)
+    return NodeChain(url, local)
 
 
 @cache

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..chain import CHAINS, open_chain
+from ..chain import CHAINS, open_chain, open_node
 from ..datasets import Piece
 from ..errors import InputError
 from ..gas.exact import counting
@@ -42,6 +42,9 @@ def gas(
     size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
     chain: Annotated[
         str | None, _option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+    ] = None,
+    rpc: Annotated[
+        str | None, _option("--rpc", "A node on which the search is made; the rest is measured here.", "URL")
     ] = None,
     as_json: Annotated[bool, _option("--json", "Print one JSON object instead of tables.")] = False,
     profile: Annotated[
@@ -87,6 +90,7 @@ def gas(
     if stages:
         _require_tracer()
     place = counting(open_chain(chain))
+    searched = place if rpc is None else open_node(rpc)
     source = locate(input)
     changes = Changes(
         size=None if size is None else parse_size(size),
@@ -100,7 +104,7 @@ def gas(
     if max_triangles is not None:
         scene = simplify_scene(scene, max_triangles)
     with Progress(quiet=as_json) as progress:
-        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced)
+        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced, searched)
     if path is not None and report.profile is not None:
         _write_profile(path, report.profile, input)
     if isinstance(source, Piece) and source.notice:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from ..chain import CHAINS, open_chain
+from ..chain import CHAINS, open_place
 from ..datasets import Piece
 from ..image import Image, check_output
 from ..load import locate
@@ -35,6 +35,16 @@ def render(
     size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
     chain: Annotated[
         str | None, _option("--chain", f"Where it is computed: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+    ] = None,
+    rpc: Annotated[
+        str | None,
+        typer.Option(
+            "--rpc",
+            help="A node that computes it, with nothing deployed.",
+            metavar="URL",
+            envvar="SHACKLED_RPC",
+            show_default=False,
+        ),
     ] = None,
     as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
     max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N")] = None,
@@ -110,7 +120,7 @@ def render(
         wireframe=wireframe,
         invert=invert,
     )
-    place = open_chain(chain)
+    place = open_place(chain, rpc)
     scene = load_changed(source, changes)
     image = render_scene(scene, chain=place, max_triangles=max_triangles)
     image.save(path)

@@ -11,7 +11,7 @@ from ..scene.scene import Scene
 from .exact import Exact, Margin, margin, measure, render_call
 from .limits import limits
 from .profile import Profile, profile
-from .search import Search, Step, search, suffices
+from .search import Caller, Search, Step, search, suffices
 
 GWEI_PER_ETHER = 10**9
 
@@ -100,15 +100,17 @@ def make_report(
     stages: bool = True,
     on_step: Callable[[Step], None] | None = None,
     on_trace: Callable[[int, int], None] | None = None,
+    searched: Caller | None = None,
 ) -> Report:
     """Measures a render, searches for its gas between two limits, and traces it.
 
     on_step: is told every step of the search. on_trace: is told now and then how much gas the trace has used, of how
-    much. InputError if stages are wanted and py-evm is not installed.
+    much. searched: where the search is made, if not where the rest is measured. InputError if stages are wanted and
+    py-evm is not installed.
     """
     exact = measure(scene, chain)
     data = render_call(scene)
-    found = search(suffices(chain, "Renderer", data), lower, upper, on_step)
+    found = search(suffices(searched or chain, "Renderer", data), lower, upper, on_step)
     triangles, lit_pixels = chain.count(scene)
     tell = None if on_trace is None else lambda used: on_trace(used, exact.gas)
     costs = profile(scene, tell) if stages else None

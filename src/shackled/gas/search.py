@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
-from ..chain import ContractChain
 from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..errors import InputError, OutOfGasError
 
 #: The first limit that is tried where no upper one is given; it is doubled until it suffices.
 FIRST_LIMIT = 1 << 20
+
+
+class Caller(Protocol):
+    """Whatever makes calls of contracts and raises OutOfGasError where the limit does not suffice."""
+
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> object:
+        """Calls a contract, by the name of its artifact."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +90,7 @@ def search(
     return Search(least, tuple(steps))
 
 
-def suffices(chain: ContractChain, contract: str, data: bytes) -> Callable[[int], bool]:
+def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
     """Whether a call of a contract succeeds with a gas limit; what it refuses for another reason is a RenderError."""
 
     def call(limit: int) -> bool:
