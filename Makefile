@@ -76,8 +76,9 @@ pictures: $(DEV) ## draw the pictures of the documentation
 
 # ---- long runs ----
 
-fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes
+fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
 	$(BIN)/python tests/differential.py --count 2000
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py
 
 clean: ## remove what was made here, but for the repository
 	rm -rf $(VENV) contracts/node_modules build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

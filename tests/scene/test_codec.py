@@ -10,7 +10,7 @@ from typing import Any
 import eth_abi
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene
@@ -158,6 +158,8 @@ magnitude = st.floats(-12, 12).map(lambda e: 10.0**e)
     st.tuples(coordinate, coordinate, coordinate),
     st.tuples(coordinate, coordinate, coordinate, coordinate).filter(lambda q: max(map(abs, q)) > 1e-3),
 )
+# a mesh without any extent, and a light that is farther than it
+@example([(0.0, 0.0, 1.0)] * 3, 1.0, 10000.0, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 1.0))
 def test_fitting_keeps_what_the_camera_sees(
     points: list[tuple[float, float, float]],
     size: float,

@@ -125,6 +125,11 @@ def _factor(scene: Scene) -> float:
     size, reach = _extent(scene)
     if scene.camera.projection == "orthographic":
         reach = max(reach, scene.camera.half_height)
+    for light in scene.lights:
+        if light.kind == "point":
+            # what is a thousand times as far as all that is seen may come nearer: its direction hardly changes
+            distance = float(np.abs(_floats(light.vector) - _floats(scene.camera.eye)).max())
+            reach = max(reach, min(distance, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
     if size:
         exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
