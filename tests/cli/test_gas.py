@@ -17,24 +17,6 @@ from shackled.cli.app import run
 from shackled.gas import trace
 from shackled.gas.stages import STAGES
 
-OBJ = """\
-v -1 -1 0.5
-v 1 -1 0.25
-v 0 1 0
-v 0 0 -1
-f 1 2 3
-f 2 1 4
-f 3 2 4
-f 1 3 4
-"""
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    Path("shape.obj").write_text(OBJ, "utf-8")
-    return tmp_path
-
 
 def report(capsys: pytest.CaptureFixture[str], *options: str) -> dict[str, Any]:
     assert run(["gas", "shape.obj", "--json", "--size", "20x12", *options]) == 0

@@ -160,10 +160,11 @@ def spread(a: int, b: int, c: int) -> Varying:
 
 
 def block_size(square: int, mode: int, nearest: int, farthest: int, registers: Registers) -> int:
-    """Pixels over which interpolation between exact colours is off by about three levels at most.
+    """Pixels over which interpolation between exact colours does little harm.
 
-    Over n pixels of a triangle of height h perspective makes that dc * dz / 4z * (n / h)^2, times the factor by which
-    colours change faster where it is far, and `reach` is the square of the n for one and a half levels of light.
+    Over n pixels of a triangle of height h perspective bends them by dc * dz / 4z * (n / h)^2, times the factor by
+    which colours change faster where it is far: by 6 levels of 255 where black and white, the least height and the
+    farthest end come together. `reach` is the square of the n for one and a half levels of light.
     """
     reach = square * farthest // (10 * (nearest - farthest) + 1) * farthest // (nearest + 1)
     if mode & IS_LIT:
@@ -185,10 +186,10 @@ def lit(word: int, factor: int) -> int:
 
 
 def is_affine(a: int, b: int, c: int) -> bool:
-    """Whether colours interpolated linearly on the screen are within three levels of the perspective-correct ones.
+    """Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones.
 
     With weights w, depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three
-    pairs of vertices, where w_i w_j is 1/4 at most.
+    pairs of vertices, where w_i w_j is 1/4 at most, and their sum 1/3: three levels are allowed to each pair alone.
     """
     least, most = min(a, b, c) >> 168, max(a, b, c) >> 168
     # colours of up to 255 may differ as they like where depths do not by more than 12 / 255
