@@ -50,7 +50,8 @@ def pot(divisions: int, look: Look) -> Scene:
 
 def smooth() -> Image:
     """What `make demo` draws."""
-    return render(pot(8, Look(256, 256, color=CLAY, material=GLAZED, lights=[KEY], background=CREAM)))
+    lights = [Light("directional", (-0.2, 0.8, 0.9))]
+    return render(pot(8, Look(256, 256, color=CLAY, material=GLAZED, lights=lights, background=CREAM, cull=True)))
 
 
 def wireframe() -> Image:

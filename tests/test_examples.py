@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
+import json
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -34,6 +37,19 @@ def test_first_picture(tmp_path: Path) -> None:
     with PillowImage.open(tmp_path / "first_picture.png") as picture:
         assert picture.size == (192, 144)
         assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 500
+
+
+def test_the_demo_costs_what_the_readme_says(tmp_path: Path) -> None:
+    """The command as it stands in the Makefile, and the picture of the documentation that is said to be the same."""
+    demo = (ROOT / "Makefile").read_text("utf-8").split("\ndemo:")[1].split("\n\n")[0].replace("\\\n", " ")
+    (drawing,) = (line for line in demo.splitlines() if "shackled render" in line)
+    options = shlex.split(drawing)[1:]
+    run(EXAMPLES / "meshes.py", "--into", "build", "teapot", cwd=tmp_path)
+    report = json.loads(run("-m", "shackled", *options, "--json", cwd=tmp_path))
+    said = json.loads((ROOT / "docs" / "images" / "pictures.json").read_text("utf-8"))["teapot"]
+    assert {key: report[key] for key in said} == said
+    shown = PillowImage.open(ROOT / "docs" / "images" / "teapot.png").convert("RGB")
+    assert hashlib.sha256(shown.tobytes()).hexdigest() == report["sha256"]
 
 
 def test_scene_file(tmp_path: Path) -> None:

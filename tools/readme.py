@@ -48,8 +48,8 @@ def pictures() -> str:
         f"Every pixel above was computed by contracts. The still life: {scene['width']} x {scene['height']} pixels,"
         f" {scene['triangles']:,} triangles, {millions(scene['gas'])} gas.\n"
         f"The strip: 128 x 128 pixels each, {millions(min(strip['gas']))} to {millions(max(strip['gas']))} gas."
-        f" The teapot of `make demo`, {teapot['triangles']:,} triangles at {teapot['width']} x {teapot['height']}:"
-        f" {millions(teapot['gas'])}."
+        f" The teapot of `make demo`, {teapot['triangles']:,} triangles drawn at"
+        f" {teapot['width']} x {teapot['height']}: {millions(teapot['gas'])}."
     )
 
 
