@@ -100,7 +100,8 @@ def compile_example(name: str) -> tuple[bytes, dict[str, bytes]]:
     assert spec.loader is not None
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
-    paths = [ROOT / name, *(ROOT / "contracts" / "src").rglob("*.sol")]
+    sources = ROOT / "contracts" / "src"
+    paths = [ROOT / name, *(p for p in sources.rglob("*.sol") if p.relative_to(sources).parts[0] not in tool.GROUPS)]
     request = {
         "language": "Solidity",
         "sources": {path.relative_to(ROOT).as_posix(): {"content": path.read_text("utf-8")} for path in paths},

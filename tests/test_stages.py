@@ -121,7 +121,7 @@ def test_the_command_writes_pictures(tmp_path: Path, capsys: pytest.CaptureFixtu
     [
         (["no-such-thing", "-o", "x"], "no-such-thing"),
         (["teapot", "-o", "file"], "file is a file, not a folder to write to"),
-        (["teapot", "-o", "x", "--size", "0"], "from 1 to 1024"),
+        (["teapot", "-o", "x", "--size", "0"], "from 1 to 2048"),
     ],
 )
 def test_mistakes_are_told(

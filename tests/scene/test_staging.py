@@ -136,7 +136,7 @@ def test_what_cannot_be() -> None:
         stage(BOX, Look(margin=1))
     with pytest.raises(InputError, match="zero quaternion"):
         stage(BOX, Look(rotation=(0, 0, 0, 0)))
-    with pytest.raises(InputError, match=r"^the height of a picture must be from 1 to 1024 pixels, not 0$"):
+    with pytest.raises(InputError, match=r"^the height of a picture must be from 1 to 2048 pixels, not 0$"):
         stage(BOX, Look(height=0))
     with pytest.raises(InputError, match=r"^the colour of a mesh must be red, green and blue from 0 to 255"):
         stage(BOX, Look(color="red"))

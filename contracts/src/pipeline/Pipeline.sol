@@ -4,7 +4,6 @@ pragma solidity 0.8.37;
 import {Matrix} from "../math/Quaternion.sol";
 import {Rectangle, Scene, Object, SMOOTH, FLAT, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
-import {MAX_CANVAS} from "../scene/Checks.sol";
 import {View, lookAt} from "./View.sol";
 import {VertexShader} from "./VertexShader.sol";
 import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
@@ -19,8 +18,8 @@ import "./Registers.sol";
 
 /// @dev Pixels of a band, so that the depth buffer stays small however large the picture is.
 uint256 constant BAND_PIXELS = 16384;
-/// @dev The background writes up to two rows, or 96 bytes, too much.
-uint256 constant MAX_ROW = 3 * MAX_CANVAS + 96;
+/// @dev The background writes too much: less than one more row, or 96 bytes.
+uint256 constant OVERHANG = 96;
 
 /// @param pixels Address of the pixels: rows from the bottom without gaps, blue, green, red; before them are two free words.
 /// @param size Their length in bytes.
@@ -55,7 +54,7 @@ function draw(Scene calldata scene, Rectangle memory tile, bool count) pure retu
         if (bandRows > tile.height) bandRows = tile.height;
         // depths are read as whole words, of which 8 bytes count
         uint256 image = depth + 8 * bandRows * tile.width + 32 + 64;
-        setFreeMemory(image + 3 * tile.width * tile.height + MAX_ROW);
+        setFreeMemory(image + 3 * tile.width * (tile.height + 1) + OVERHANG);
         Compositor.background(image, scene.background.top, scene.background.bottom, scene.canvas.height, tile);
 
         for (uint256 bottom = tile.height; bottom != 0;) {

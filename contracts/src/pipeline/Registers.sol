@@ -58,7 +58,7 @@ uint256 constant ONES = 0x10000000000000100000000000001;
 // What holds for the whole picture. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the guard band is
 // positive; sub-pixel coordinates are pixels with 8 more bits, and whole pixels are the centres of pixels.
 
-/// @dev The guard band reaches from pixel -PIXEL_BIAS to GUARD_BAND - PIXEL_BIAS; the canvas lies at 0..1024 in it. Sub-pixel coordinates
+/// @dev The guard band reaches from pixel -PIXEL_BIAS to GUARD_BAND - PIXEL_BIAS; the canvas lies at 0..2048 in it. Sub-pixel coordinates
 /// inside it have GUARD_BITS bits.
 uint256 constant PIXEL_BIAS = 1536;
 uint256 constant GUARD_BAND = 4096;

@@ -20,7 +20,7 @@ import {NORMALS, WIDE} from "./Mesh.sol";
 
 // Every bound that the pipeline relies on. Within them no sum and no product in it overflows, and no packed number leaves its lane.
 
-uint256 constant MAX_CANVAS = 1024;
+uint256 constant MAX_CANVAS = 2048;
 uint256 constant MAX_LIGHTS = 4;
 uint256 constant MAX_SHININESS = 128;
 /// @dev 2^26 world units.

@@ -9,7 +9,7 @@ import {Quaternion} from "../math/Quaternion.sol";
 // down -z. All lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every field takes a whole ABI word, so
 // that there is one way only to encode a scene. The bounds of each field stand with its check in `Checks.sol`.
 
-/// @notice The whole picture. Each side 1..1024 pixels.
+/// @notice The whole picture. Each side 1..2048 pixels.
 struct Canvas {
     uint256 width;
     uint256 height;

@@ -50,6 +50,7 @@ def artifact(name: str) -> Artifact:
             for entry in data["abi"]
             if entry["type"] == "constructor"
             for parameter in entry["inputs"]
+            if parameter["internalType"].startswith("contract ")
         ],
         selectors={
             signature.split("(")[0]: bytes.fromhex(value) for signature, value in data["methodIdentifiers"].items()
@@ -61,7 +62,7 @@ def artifact(name: str) -> Artifact:
 def contracts() -> list[str]:
     """The names of all compiled contracts."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
-    return sorted(name for name in names if name not in ("standard-input", "source-maps"))
+    return sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
 
 
 def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:

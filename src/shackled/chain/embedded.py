@@ -14,7 +14,7 @@ from ..errors import RenderError
 from .chain import CallResult, ContractChain
 from .refusal import out_of_gas, refusal
 
-#: Enough for any picture of 1024 x 1024 pixels; little enough that a call ends and that its memory stays below 130 MB.
+#: Enough for pictures of 2048 x 2048 pixels; little enough that a call ends and that its memory stays below 130 MB.
 DEFAULT_GAS_LIMIT = 30_000_000_000
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")

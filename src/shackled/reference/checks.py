@@ -7,7 +7,7 @@ from .mesh import NORMALS, WIDE
 from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
 from .vector import Vector
 
-MAX_CANVAS = 1024
+MAX_CANVAS = 2048
 MAX_LIGHTS = 4
 MAX_SHININESS = 128
 MAX_COORDINATE = 1 << 58

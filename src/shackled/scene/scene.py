@@ -14,7 +14,7 @@ from .camera import Camera
 from .light import Light
 from .object import Object
 
-MAX_SIDE = 1024
+MAX_SIDE = 2048
 MAX_LIGHTS = 4
 
 
@@ -22,7 +22,7 @@ MAX_LIGHTS = 4
 class Scene:
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
-    width, height: of the picture in pixels, 1..1024.
+    width, height: of the picture in pixels, 1..2048.
     invert: every byte v of the picture becomes 255 - v.
     ambient_light: the colour of the light that comes from everywhere.
     """

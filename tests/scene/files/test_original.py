@@ -151,8 +151,8 @@ def test_no_faces_are_a_picture_of_the_background() -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"canvasDim": 0}, "canvasDim must be a whole number from 1 to 1024, not 0"),
-        ({"canvasDim": "64"}, "canvasDim must be a whole number from 1 to 1024, not '64'"),
+        ({"canvasDim": 0}, "canvasDim must be a whole number from 1 to 2048, not 0"),
+        ({"canvasDim": "64"}, "canvasDim must be a whole number from 1 to 2048, not '64'"),
         ({"verts": 7}, "verts must be a list, not 7"),
         ({"verts": [[0, 0]]}, "verts[0] must be three numbers, not [0, 0]"),
         ({"verts": [[0, 0, 0], [1, 0, float("nan")], [0, 1, 0]]}, "verts[1] must be three numbers, not [1, 0, nan]"),
