@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -70,6 +72,26 @@ def test_the_results_of_each_experiment_are_there(name: str) -> None:
     assert {path.suffix for path in files} == {".csv", ".md", ".png"}
     assert max(path.stat().st_size for path in files) < 200_000
     assert f"](results/{name}.png)" in (ROOT / "benchmarks" / "README.md").read_text("utf-8")
+
+
+def test_the_results_are_of_these_contracts() -> None:
+    """The snapshot is measured again in each run of the tests; what is written from longer runs must agree with it."""
+    snapshot = json.loads((ROOT / "benchmarks" / "gas.json").read_text("utf-8"))
+    canvas, triangles, deploy = (rows(name) for name in ("canvas", "triangles", "deploy"))
+    written = {f"experiment canvas, {row['side']}": row for row in canvas if row["projection"] == "perspective"}
+    written |= {f"experiment triangles, {row['triangles']}": row for row in triangles}
+    found = {name: int(row["gas"]) for name, row in written.items() if name in snapshot["scenes"]}
+    assert found == {name: snapshot["scenes"][name] for name in found}
+    assert len(found) == 5
+    deployed = {f"{row['contract']} deployment": int(row["gas"]) for row in deploy}
+    assert deployed.items() >= {k: v for k, v in snapshot["contracts"].items() if k.endswith("deployment")}.items()
+    table = json.loads((ROOT / "benchmarks" / "results.json").read_text("utf-8"))["Cost against the original"]
+    assert table["cube_persp_128"]["gas"] == snapshot["scenes of the cost table"]["cube_persp_128"]
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    with (ROOT / "benchmarks" / "results" / f"{name}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
 
 
 @pytest.mark.skipif(stages.missing() is not None, reason=f"needs {stages.missing()}")
