@@ -19,7 +19,7 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from shackled import Background, Image, Light, Material, Scene, load, render
+from shackled import Animation, Background, Image, Light, Material, Scene, load, render, turntable
 from shackled.datasets import Piece
 from shackled.datasets.common import builtin
 from shackled.datasets.genesis import generate, seed_of
@@ -91,6 +91,12 @@ def strip() -> list[Image]:
     return [render(pot(4, look)) for look in looks]
 
 
+def spin() -> Animation:
+    """A turntable, small enough for a page."""
+    look = Look(160, 160, color=CLAY, material=GLAZED, lights=[KEY], background=CREAM, cull=True)
+    return turntable(pot(6, look), 24, duration=80)
+
+
 def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Image, list[int]]:
     """Pieces, 128 x 128 pixels each, with their names beneath; and what each costs in gas."""
     side, label = 128, 22
@@ -122,6 +128,9 @@ def main() -> None:
         image.save(IMAGES / f"{name}.png")
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
     stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
+    turning = spin()
+    turning.save(IMAGES / "turntable.gif")
+    figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}
     images = strip()
     PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
     figures["strip"] = {"gas": [image.gas for image in images]}

@@ -3,10 +3,20 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 
+import pytest
 from hypothesis import settings
 
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 settings.register_profile("same", derandomize=True)
 settings.register_profile("new", derandomize=False)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """No test reads or writes the address book of whoever runs it."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SHACKLED_ADDRESS_BOOK", str(tmp_path_factory.mktemp("book") / "addresses.json"))
+        yield

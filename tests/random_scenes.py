@@ -56,7 +56,7 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
 
 
 #: Words on both sides of the bounds of the contract.
-BOUNDS = (0, 1, 2, 3, 4, 31, 32, 128, 129, 1024, 2048, 2049, 0xFFFFFF, 0x1000000, 1 << 20, 1 << 22, 1 << 42, 4 << 32, 1 << 58)
+BOUNDS = (0, 1, 2, 3, 4, 31, 32, 128, 129, 2048, 2049, 0xFFFFFF, 0x1000000, 1 << 20, 1 << 22, 1 << 42, 4 << 32, 1 << 58)
 SHIFTS = (64, 128, 255)
 
 

@@ -6,43 +6,29 @@ Needs anvil, which `npm ci` in contracts/ installs on Linux (x86-64); elsewhere 
 from __future__ import annotations
 
 import base64
-import http.server
-import os
-import re
-import shutil
-import socket
-import subprocess
-import threading
-import time
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from web3 import HTTPProvider, Web3
 from web3.contract import Contract
 from web3.types import Wei
 
+from nodes import anvil, needs_anvil
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain, open_node, open_place
+from shackled.chain import ContractChain, open_chain
+from shackled.chain.connection import Connection
 from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
-from shackled.errors import InputError, OutOfGasError, RenderError
-from shackled.gas.search import search, suffices
 from shackled.scene.codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
 
-BINARIES = Path(__file__).resolve().parent.parent / "contracts" / "node_modules" / ".bin"
-ANVIL = shutil.which("anvil", path=f"{BINARIES}{os.pathsep}{os.environ.get('PATH', '')}")
 PATIENCE = 30
 GAS_LIMIT = 1_000_000_000
 
-pytestmark = pytest.mark.skipif(ANVIL is None, reason="anvil is not installed: npm ci in contracts/")
+pytestmark = needs_anvil
 
 POT = teapot(2)
 SQUARE = Mesh(
@@ -82,9 +68,9 @@ SCENES = {
 class Node:
     """The contracts on a node."""
 
-    def __init__(self, w3: Web3) -> None:
-        self.w3 = w3
-        self.sender = w3.eth.accounts[0]
+    def __init__(self, connection: Connection) -> None:
+        self.w3 = connection.web3
+        self.sender = self.w3.eth.accounts[0]
         self.contracts: dict[str, Contract] = {}
         for name in ("Engine", "Renderer", "Original"):
             self.contracts[name] = self.deploy(name)
@@ -115,42 +101,11 @@ class Node:
 
 
 @pytest.fixture(scope="module")
-def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Node]:
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        port = found.getsockname()[1]
-    log = tmp_path_factory.mktemp("anvil") / "log"
+def node() -> Iterator[Node]:
     # the rules of the embedded EVM; the gas of a transaction has no floor there
     rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
-    with log.open("wb") as output:
-        process = subprocess.Popen(
-            [str(ANVIL), "--host", "127.0.0.1", "--port", str(port), *rules], stdout=output, stderr=subprocess.STDOUT
-        )
-        try:
-            url = f"http://127.0.0.1:{port}"
-            wait_for(url, process, log)
-            yield Node(Web3(HTTPProvider(url, {"timeout": PATIENCE}, exception_retry_configuration=None)))
-        finally:
-            process.terminate()
-            try:
-                process.wait(PATIENCE)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-
-
-def wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
-    """Returns when something answers at the address."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end and process.poll() is None:
-        try:
-            with urllib.request.urlopen(url, timeout=1):
-                return
-        except urllib.error.HTTPError:
-            return
-        except OSError:
-            time.sleep(0.05)
-    pytest.fail(f"anvil does not answer: {log.read_text(errors='replace')[-1000:]}")
+    with anvil(*rules) as running:
+        yield Node(running.connection)
 
 
 @pytest.fixture(scope="module")
@@ -267,87 +222,3 @@ def test_the_interface_of_the_original(node: Node, embedded: ContractChain, lit:
     assert here.output == node.call("Original", data)
     receipt = node.send(data, original.address)
     assert receipt["gasUsed"] - intrinsic_gas(data) == here.gas
-
-
-@pytest.fixture
-def url(node: Node) -> str:
-    assert isinstance(node.w3.provider, HTTPProvider)
-    return str(node.w3.provider.endpoint_uri)
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_pictures_with_nothing_deployed(url: str, embedded: ContractChain, name: str) -> None:
-    """No code stands at the addresses that are called: each call brings it along."""
-    place = open_place(None, url)
-    scene = SCENES[name]
-    assert place.draw(scene).bmp == embedded.draw(scene).bmp
-    assert place.draw(scene).gas is None
-    assert place.count(scene) == embedded.count(scene)
-
-
-def test_the_search_for_gas_agrees_with_the_embedded_one(url: str, embedded: ContractChain) -> None:
-    data = encode(artifact("Renderer").selectors["render"], SCENES["orthographic"])
-    place = open_node(url)
-    found = [search(suffices(each, "Renderer", data), upper=5_000_000).gas for each in (place, embedded)]
-    assert found[0] == found[1]
-
-
-def test_what_a_contract_refuses_on_a_node(url: str) -> None:
-    data = bytearray(encode(artifact("Renderer").selectors["render"], SCENES["empty"]))
-    data[4 + 32 : 4 + 64] = bytes(32)
-    place = open_node(url)
-    with pytest.raises(RenderError, match=r"^the contract refused: CanvasSize\(width=0, height=3\)$"):
-        place.call("Renderer", bytes(data))
-    with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
-        place.call("Renderer", bytes(encode(artifact("Renderer").selectors["render"], SCENES["smooth"])), 50_000)
-
-
-class Answers(http.server.BaseHTTPRequestHandler):
-    """A server that is no node: it says what its class is told to."""
-
-    status, body = 200, b""
-
-    def do_POST(self) -> None:
-        self.rfile.read(int(self.headers["Content-Length"]))
-        self.send_response(self.status)
-        self.send_header("Content-Length", str(len(self.body)))
-        self.end_headers()
-        self.wfile.write(self.body)
-
-    def log_message(self, *_: Any) -> None:
-        pass
-
-
-@pytest.mark.parametrize(
-    ("status", "body", "message"),
-    [
-        (200, b"<html>hello</html>", "what is not JSON-RPC"),
-        (200, b'{"jsonrpc": "2.0", "id": 1, "result": "0x123"}', "what is no result of a call"),
-        (200, b'{"jsonrpc": "2.0", "id": 1, "error": {"code": -1, "message": "no overrides"}}', "says: no overrides"),
-        (429, b"", "HTTP status 429; it asks to be called less often"),
-        (500, b"", "HTTP status 500"),
-    ],
-)
-def test_answers_that_are_none(status: int, body: bytes, message: str) -> None:
-    handler = type("Handler", (Answers,), {"status": status, "body": body})
-    with http.server.HTTPServer(("127.0.0.1", 0), handler) as server:
-        threading.Thread(target=server.serve_forever, daemon=True).start()
-        try:
-            with pytest.raises(RenderError, match=re.escape(message)) as error:
-                open_place(None, f"http://127.0.0.1:{server.server_port}/key").draw(SCENES["empty"])
-            assert "\n" not in str(error.value)
-            assert "key" not in str(error.value)
-        finally:
-            server.shutdown()
-
-
-def test_a_node_that_is_not_there() -> None:
-    with socket.socket() as found:
-        found.bind(("127.0.0.1", 0))
-        port = found.getsockname()[1]
-    with pytest.raises(RenderError, match="cannot be reached"):
-        open_place(None, f"http://127.0.0.1:{port}").draw(SCENES["empty"])
-    with pytest.raises(InputError, match="must be the address of a node"):
-        open_place(None, "localhost:8545")
-    with pytest.raises(InputError, match="leave out --chain"):
-        open_place("pyrevm", "http://127.0.0.1:8545")

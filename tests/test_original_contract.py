@@ -205,7 +205,7 @@ def test_svg(name: str) -> None:
         ({"lightingParams": {"lightPos": [0, 0, 0]}}, r"NoLightDirection\(\)"),
         ({"lightingParams": {"lightColDiff": [0, -5, 0]}}, r"ColorOutOfRange\(red=0, green=-5, blue=0\)"),
         ({"canvasDim": 0}, r"CanvasSize\(width=0, height=0\)"),
-        ({"canvasDim": 1025}, r"CanvasSize\(width=1025, height=1025\)"),
+        ({"canvasDim": 2049}, r"CanvasSize\(width=2049, height=2049\)"),
         ({"canvasDim": -1}, r"CanvasSize"),
     ],
 )

@@ -2,10 +2,11 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
+from .animation import Animation
 from .errors import InputError, RenderError
 from .image import Image
 from .load import load
-from .render import render
+from .render import render, turntable
 from .scene.background import Background
 from .scene.camera import Camera
 from .scene.light import Light
@@ -20,6 +21,7 @@ except PackageNotFoundError:  # from a source tree that was not installed
     __version__ = "0+unknown"
 
 __all__ = [
+    "Animation",
     "Background",
     "Camera",
     "Image",
@@ -33,4 +35,5 @@ __all__ = [
     "__version__",
     "load",
     "render",
+    "turntable",
 ]

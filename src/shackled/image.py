@@ -24,7 +24,8 @@ class Image:
 
     pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned.
     gas, intrinsic_gas: of the execution, and what a transaction costs before it; None where none is counted.
-    triangles, lit_pixels: triangles that survived culling and clipping, pixels that any of them covers.
+    triangles, lit_pixels: triangles that survived culling and clipping, pixels that any of them covers; None if they
+        were not counted.
     chain: where it was made. seconds: how long the call took.
     """
 
@@ -32,8 +33,8 @@ class Image:
     bmp: bytes
     gas: int | None
     intrinsic_gas: int | None
-    triangles: int
-    lit_pixels: int
+    triangles: int | None
+    lit_pixels: int | None
     chain: str
     seconds: float
 

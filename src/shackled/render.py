@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from .animation import DURATION, Animation
 from .chain import Chain, open_chain
 from .errors import InputError
 from .image import Image, decode_bmp
 from .scene.scene import Scene
+from .scene.turning import full_turn
+
+if TYPE_CHECKING:
+    from .parallel import Where
 
 
 def render(
@@ -17,6 +24,13 @@ def render(
     size: int | tuple[int, int] | None = None,
     chain: Chain | str | None = None,
     max_triangles: int | None = None,
+    *,
+    jobs: int | None = None,
+    rpc: str | Sequence[str] = (),
+    address: str | None = None,
+    cluster: str | None = None,
+    gas_limit: int | None = None,
+    tile: int | tuple[int, int] | None = None,
 ) -> Image:
     """Makes the picture of a scene.
 
@@ -24,18 +38,52 @@ def render(
     size: side of a square picture, or (width, height), in pixels; None takes the scene's.
     chain: where, by name or itself; None takes the fastest EVM that is installed.
     max_triangles: meshes of more are simplified.
+    jobs: worker processes here, or calls at a time to each node, or workers of a cluster of our own.
+    rpc: the addresses of nodes that compute it. address: of a renderer that is deployed there; None takes the one that
+    is known, or brings it along. cluster: the address of a dask scheduler, "" for a cluster of our own.
+    gas_limit: what a call may use. tile: side, or (width, height), of the parts in which the picture is made; None
+    takes what fits. The pixels are the same, however they are spread.
     InputError for what is wrong with the scene, RenderError for what fails in the call.
     """
-    if not isinstance(scene, Scene):
-        from .load import load
+    scene = _prepared(scene, size, max_triangles)
+    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile)
+    if not where.alone:
+        from .parallel import render_frames
 
-        scene = load(scene)
-    if size is not None:
-        scene = resize(scene, size)
-    if max_triangles is not None:
-        scene = simplify_scene(scene, max_triangles)
-    if chain is None or isinstance(chain, str):
-        chain = open_chain(chain)
+        return render_frames([scene], where).images[0]
+    place = open_chain(chain) if chain is None or isinstance(chain, str) else chain
+    return render_whole(scene, place)
+
+
+def turntable(
+    scene: Scene | str | Path,
+    frames: int = 36,
+    size: int | tuple[int, int] | None = None,
+    chain: Chain | str | None = None,
+    max_triangles: int | None = None,
+    *,
+    duration: int = DURATION,
+    jobs: int | None = None,
+    rpc: str | Sequence[str] = (),
+    address: str | None = None,
+    cluster: str | None = None,
+    gas_limit: int | None = None,
+    tile: int | tuple[int, int] | None = None,
+) -> Animation:
+    """Makes the pictures of a full turn of a scene about the vertical axis through its middle.
+
+    The contract turns it: each frame is a call, with the rotation in it. Background, lights and camera stand still.
+    frames: how many, from 2. duration: milliseconds that each is shown, from 20. The rest as in `render`.
+    """
+    from .parallel import render_frames
+
+    turned = full_turn(_prepared(scene, size, max_triangles), frames)
+    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile)
+    return Animation(render_frames(turned, where, count=False).images, duration)
+
+
+def render_whole(scene: Scene, chain: Chain) -> Image:
+    """The picture of a scene by one call, and its counts by another."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
     seconds = time.perf_counter() - started
@@ -54,10 +102,7 @@ def render(
 
 def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
     """The scene on a canvas of another size; the camera keeps its vertical field of view."""
-    try:
-        width, height = (size, size) if isinstance(size, int) else size
-    except (TypeError, ValueError):
-        raise InputError(f"the size of a picture must be one number or (width, height), not {size!r}") from None
+    width, height = _pair(size, "the size of a picture")
     return replace(scene, width=width, height=height)
 
 
@@ -66,3 +111,37 @@ def simplify_scene(scene: Scene, max_triangles: int) -> Scene:
     from .scene.simplify import simplify
 
     return replace(scene, objects=[replace(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
+
+
+def _prepared(scene: Scene | str | Path, size: int | tuple[int, int] | None, max_triangles: int | None) -> Scene:
+    if not isinstance(scene, Scene):
+        from .load import load
+
+        scene = load(scene)
+    if size is not None:
+        scene = resize(scene, size)
+    return scene if max_triangles is None else simplify_scene(scene, max_triangles)
+
+
+def _where(
+    chain: Chain | str | None,
+    jobs: int | None,
+    rpc: str | Sequence[str],
+    address: str | None,
+    cluster: str | None,
+    gas_limit: int | None,
+    tile: int | tuple[int, int] | None,
+) -> Where:
+    from .parallel import Where
+
+    nodes = (rpc,) if isinstance(rpc, str) else tuple(rpc)
+    sides = None if tile is None else _pair(tile, "the size of a tile")
+    return Where(chain, jobs, nodes, address, cluster=cluster, gas_limit=gas_limit, tile=sides)
+
+
+def _pair(value: int | tuple[int, int], name: str) -> tuple[int, int]:
+    try:
+        first, second = (value, value) if isinstance(value, int) else value
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be one number or (width, height), not {value!r}") from None
+    return first, second

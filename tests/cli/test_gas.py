@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from nodes import anvil, needs_anvil
+
 pytest.importorskip("eth", reason="stages need py-evm")
 pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
 
@@ -123,3 +125,23 @@ def test_without_a_tracer_it_says_what_to_install(
     assert "pip install py-evm" in message
     assert "--no-stages" in message
     assert report(capsys, "--no-stages")["gas"] > 0
+
+
+@needs_anvil
+def test_a_node_counts_too(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    here = report(capsys, "--no-stages")
+    with anvil() as node:
+        found = report(capsys, "--no-stages", "--rpc", node.url, "--rpc-timeout", "60")
+        name = f"{node.connection.name} (state override)"
+        assert found["node"] == {"name": name, "gas": here["gas"]}
+        assert found["searched_gas"] == here["searched_gas"]
+        monkeypatch.setenv("SHACKLED_RPC", f"{node.url} http://127.0.0.1:1")
+        assert run(["gas", "shape.obj", "--size", "8", "--no-stages"]) == 0
+        assert f"the {name}, on which the search was made, counts " in capsys.readouterr().out
+        address = "0x" + 40 * "5"
+        assert "there is no contract at" in error(capsys, 1, "--no-stages", "--address", address)
+
+
+def test_options_of_a_node_without_one(capsys: pytest.CaptureFixture[str]) -> None:
+    for option, value in (("--address", "0x" + 40 * "5"), ("--rpc-timeout", "5")):
+        assert f"{option} is about a node: give --rpc too" in error(capsys, 2, "--no-stages", option, value)

@@ -235,7 +235,7 @@ def test_refusals_and_interrupts_exit_with_1(
 ) -> None:
     from shackled.chain.embedded import EmbeddedChain, PyrevmChain
 
-    monkeypatch.setattr("shackled.cli.render.open_place", lambda *_: PyrevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled.cli.render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
 

@@ -15,6 +15,7 @@ from Crypto.Hash import keccak
 class Artifact:
     """A compiled contract.
 
+    group: of contracts that are compiled together, such as "core".
     creation: what deploys it, to be followed by the arguments of the constructor.
     runtime: what stands on the chain then, but for immutable values.
     parts: the contracts whose addresses the constructor asks for.
@@ -23,6 +24,7 @@ class Artifact:
     """
 
     name: str
+    group: str
     abi: list[dict[str, Any]]
     creation: bytes
     runtime: bytes
@@ -42,6 +44,7 @@ def artifact(name: str) -> Artifact:
     data = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
     return Artifact(
         name=name,
+        group=data["group"],
         abi=data["abi"],
         creation=bytes.fromhex(data["bytecode"]),
         runtime=bytes.fromhex(data["deployedBytecode"]),
@@ -59,10 +62,11 @@ def artifact(name: str) -> Artifact:
     )
 
 
-def contracts() -> list[str]:
-    """The names of all compiled contracts."""
+def contracts(group: str | None = None) -> list[str]:
+    """The names of all compiled contracts, or of those of a group."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
-    return sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
+    found = sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
+    return [name for name in found if group is None or artifact(name).group == group]
 
 
 def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:

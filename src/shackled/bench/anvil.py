@@ -9,14 +9,13 @@ import subprocess
 import time
 from pathlib import Path
 from types import TracebackType
-from typing import Any
-
-import requests
+from typing import Any, Self
 
 from ..artifacts import artifact
 from ..chain import CallResult, ContractChain
+from ..chain.connection import Connection
 from ..chain.embedded import intrinsic_gas
-from ..errors import RenderError
+from ..errors import NodeUnreachableError, RenderError
 
 #: Where `npm ci` puts it in a clone of the repository.
 BINARIES = Path(__file__).resolve().parents[3] / "contracts" / "node_modules" / ".bin"
@@ -29,6 +28,60 @@ def find_anvil() -> str | None:
     return shutil.which("anvil", path=f"{os.environ.get('PATH', '')}{os.pathsep}{BINARIES}")
 
 
+class Anvil:
+    """A node that runs while the context is open, on a port that is free."""
+
+    def __init__(self, binary: str, *options: str) -> None:
+        """`binary`: its path. `options`: of its command line."""
+        self.binary, self.options = binary, options
+
+    def __enter__(self) -> Self:
+        with socket.socket() as found:
+            found.bind(("127.0.0.1", 0))
+            port = found.getsockname()[1]
+        self.url = f"http://127.0.0.1:{port}"
+        self.connection = Connection(self.url, PATIENCE)
+        self.process = subprocess.Popen(
+            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *self.options],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            self._wait()
+        except BaseException:
+            self.stop()
+            raise
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.stop()
+
+    def rpc(self, method: str, *parameters: Any) -> Any:
+        """What the node answers."""
+        return self.connection.request(method, *parameters)
+
+    def stop(self) -> None:
+        """Ends the process; nothing happens if it has ended."""
+        self.process.terminate()
+        try:
+            self.process.wait(10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+    def _wait(self) -> None:
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end and self.process.poll() is None:
+            try:
+                self.rpc("eth_chainId")
+                return
+            except NodeUnreachableError:
+                time.sleep(0.05)
+        raise RenderError(f"{self.binary} does not answer")
+
+
 class AnvilChain(ContractChain):
     """A node with the contracts, which runs while the context is open. Rules and gas are those of the embedded EVMs."""
 
@@ -36,32 +89,20 @@ class AnvilChain(ContractChain):
 
     def __init__(self, binary: str) -> None:
         """`binary`: its path."""
-        self.binary = binary
+        rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
+        self.node = Anvil(binary, *rules)
         self._addresses: dict[str, str] = {}
 
     def __enter__(self) -> AnvilChain:
-        with socket.socket() as found:
-            found.bind(("127.0.0.1", 0))
-            port = found.getsockname()[1]
-        self.url = f"http://127.0.0.1:{port}"
-        rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
-        self.process = subprocess.Popen(
-            [self.binary, "--host", "127.0.0.1", "--port", str(port), "--silent", *rules],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        try:
-            self._wait()
-            self.sender = self.rpc("eth_accounts")[0]
-        except BaseException:
-            self._stop()
-            raise
+        self.node.__enter__()
+        self.rpc = self.node.rpc
+        self.sender = self.rpc("eth_accounts")[0]
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._stop()
+        self.node.stop()
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """A read call, which says no gas, and the same as a transaction for that."""
@@ -81,19 +122,11 @@ class AnvilChain(ContractChain):
             self._addresses[contract] = receipt["contractAddress"]
         return self._addresses[contract]
 
-    def rpc(self, method: str, *parameters: Any) -> Any:
-        """What the node answers."""
-        request: Any = {"jsonrpc": "2.0", "id": 1, "method": method, "params": parameters}
-        answer = requests.post(self.url, json=request, timeout=PATIENCE).json()
-        if "error" in answer:
-            raise RenderError(f"anvil refused {method}: {answer['error'].get('message', '')}")
-        return answer["result"]
-
     def read(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:
         """What a read call returns."""
         gas = hex((gas_limit or GAS_LIMIT // 2) + intrinsic_gas(data))
         call = {"from": self.sender, "to": self.address(contract), "data": "0x" + data.hex(), "gas": gas}
-        return bytes.fromhex(self.rpc("eth_call", call, "latest")[2:])
+        return self.node.connection.data("eth_call", call, "latest")
 
     def _send(self, transaction: dict[str, str]) -> Any:
         sender = {"from": self.sender, "gas": hex(GAS_LIMIT), "gasPrice": "0x0"}
@@ -107,21 +140,3 @@ class AnvilChain(ContractChain):
                 return receipt
             time.sleep(0.02)
         raise RenderError(f"anvil: no receipt after {PATIENCE} s")
-
-    def _wait(self) -> None:
-        end = time.monotonic() + PATIENCE
-        while time.monotonic() < end and self.process.poll() is None:
-            try:
-                self.rpc("eth_chainId")
-                return
-            except requests.RequestException:
-                time.sleep(0.05)
-        raise RenderError(f"{self.binary} does not answer")
-
-    def _stop(self) -> None:
-        self.process.terminate()
-        try:
-            self.process.wait(10)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()

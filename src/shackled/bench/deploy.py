@@ -5,8 +5,9 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from ..artifacts import artifact, contracts
-from ..chain.embedded import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, PyEvmChain, PyrevmChain, intrinsic_gas
+from ..artifacts import artifact
+from ..chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain, intrinsic_gas
+from ..deploy.contract import STANDARD
 from .lab import Lab
 from .original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from .plots import ORIGINAL, OURS
@@ -24,8 +25,8 @@ CREATION = 32000
 
 
 def run(lab: Lab) -> Report:
-    """Every compiled contract of the package."""
-    names = sorted(contracts(), key=lambda name: (name not in RENDERER, name))
+    """Every contract that `shackled deploy` puts on a chain."""
+    names = sorted(STANDARD, key=lambda name: (name not in RENDERER, name))
     gas = dict(zip(names, lab.map("deploy", deployment_gas, names), strict=True))
     sizes = {name: (len(artifact(name).runtime), len(artifact(name).creation)) for name in names}
     rows: list[list[Cell]] = [[name, *sizes[name], gas[name]] for name in names]
@@ -70,18 +71,12 @@ def deployment_gas(contract: str) -> int:
     return (PyrevmDeployer() if find_spec("pyrevm") else PyEvmDeployer()).gas_of(contract)
 
 
-def creation_code(chain: EmbeddedChain, contract: str) -> bytes:
-    """With the arguments of the constructor."""
-    built = artifact(contract)
-    return built.creation + b"".join(chain.address(part).rjust(32, b"\0") for part in built.parts)
-
-
 class PyrevmDeployer(PyrevmChain):
     """Asks pyrevm."""
 
     def gas_of(self, contract: str) -> int:
         """Gas of the transaction."""
-        code = creation_code(self, contract)
+        code = self.creation(contract)
         evm = self._evm()
         evm.deploy("0x" + SENDER.hex(), code, None, DEFAULT_GAS_LIMIT)
         used: int = evm.result.gas_used
@@ -95,7 +90,7 @@ class PyEvmDeployer(PyEvmChain):
         """Gas of the transaction."""
         from eth.constants import CREATE_CONTRACT_ADDRESS
 
-        code = creation_code(self, contract)
+        code = self.creation(contract)
         state = self._state()
         place = bytes.fromhex("c0de") + bytes(18)
         message = self._message(code, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=place)

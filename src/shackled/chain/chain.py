@@ -43,8 +43,10 @@ class Chain(Protocol):
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
         """The picture of a scene, or of a part of its canvas."""
 
-    def count(self, scene: Scene) -> tuple[int, int]:
-        """The triangles that survive culling and clipping, and the pixels that any of them covers."""
+    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
+        any of them covers.
+        """
 
 
 class ContractChain(ABC):
@@ -65,18 +67,27 @@ class ContractChain(ABC):
         result = self.call("Renderer", encode(selector, scene, tile))
         return Drawing(returned_bytes(result.output, 0), result.gas, result.intrinsic_gas)
 
-    def count(self, scene: Scene) -> tuple[int, int]:
-        """The triangles that survive culling and clipping, and the pixels that any of them covers."""
-        return returned_counts(
-            self.call("Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)).output
-        )
+    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
+        any of them covers.
+        """
+        contract, data = count_call(scene, tile)
+        return returned_counts(self.call(contract, data).output, tile)
 
 
-def returned_counts(output: bytes) -> tuple[int, int]:
-    """Triangles and pixels from what `renderCounted` returned."""
-    if len(output) < 96:
+def count_call(scene: Scene, tile: Rectangle | None = None) -> tuple[str, bytes]:
+    """The contract, and the data of the call, that count: the renderer a whole picture, its engine a tile."""
+    if tile is None:
+        return "Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)
+    return "Engine", encode(artifact("Engine").selectors["drawTile"], scene, tile, 1)
+
+
+def returned_counts(output: bytes, tile: Rectangle | None = None) -> tuple[int, int]:
+    """Triangles and pixels from what the call of `count_call` returned."""
+    start = 32 if tile is None else 0
+    if len(output) < start + 64:
         raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
-    return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
+    return int.from_bytes(output[start : start + 32], "big"), int.from_bytes(output[start + 32 : start + 64], "big")
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:

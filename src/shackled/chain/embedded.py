@@ -11,6 +11,7 @@ from typing import Any
 
 from ..artifacts import artifact
 from ..errors import RenderError
+from .addresses import create2_address
 from .chain import CallResult, ContractChain
 from .refusal import out_of_gas, refusal
 
@@ -18,6 +19,10 @@ from .refusal import out_of_gas, refusal
 DEFAULT_GAS_LIMIT = 30_000_000_000
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
+
+
+#: Zeros that pyrevm appends to the code of a contract when it is created, for itself.
+PADDING = 33
 
 
 def intrinsic_gas(data: bytes) -> int:
@@ -43,16 +48,35 @@ class EmbeddedChain(ContractChain):
         return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
 
     def address(self, contract: str) -> bytes:
-        """Where a contract stands."""
+        """Where a contract stands: here as on every chain on which `shackled deploy` has put it."""
         if contract not in self._addresses:
-            built = artifact(contract)
-            code = built.runtime
-            if built.parts:
-                arguments = b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
-                code = self._create(contract, built.creation + arguments)
-            self._addresses[contract] = bytes.fromhex("c0de") + bytes(17) + bytes([len(self._addresses) + 1])
-            self._codes[self._addresses[contract]] = code
+            creation = self.creation(contract)
+            code = self._create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
+            address = create2_address(creation)
+            self._codes[address] = code
+            self._addresses[contract] = address
         return self._addresses[contract]
+
+    def creation(self, contract: str) -> bytes:
+        """What deploys a contract, with the arguments of its constructor."""
+        built = artifact(contract)
+        return built.creation + b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
+
+    def code(self, contract: str) -> bytes:
+        """What stands at the address of a contract."""
+        return self._codes[self.address(contract)]
+
+    def put(self, address: bytes, code: bytes) -> None:
+        """Places code that is none of the package's contracts."""
+        self._codes[address] = code
+
+    def create(self, name: str, creation: bytes) -> bytes:
+        """The code that creation code, arguments included, leaves. `name` is for people. RenderError if it refuses."""
+        return self._create(name, creation)
+
+    def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """Calls whatever stands at an address."""
+        return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
 
     def codes(self) -> dict[bytes, bytes]:
         """The code of every contract that was set up, by its address."""
@@ -87,7 +111,7 @@ class PyrevmChain(EmbeddedChain):
             address = evm.deploy(_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
         except RuntimeError as error:
             raise RenderError(f"the contract {contract} could not be deployed: {error}") from None
-        return bytes(evm.get_code(address))
+        return bytes(evm.get_code(address))[:-PADDING]
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
         evm, intrinsic = self._evm(), intrinsic_gas(data)

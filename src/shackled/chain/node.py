@@ -1,100 +1,347 @@
-"""A node that is asked over JSON-RPC, with nothing deployed: each call brings the code of the contracts along."""
+"""A node that is asked over JSON-RPC. Contracts need not be deployed there: a call can bring them along."""
 
 from __future__ import annotations
 
-from typing import Any
-from urllib.parse import urlsplit
+import threading
+import zlib
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
 
 from ..artifacts import artifact
-from ..errors import InputError, OutOfGasError, RenderError
+from ..errors import (
+    NodeBusyError,
+    NodeError,
+    NodeTimeoutError,
+    NodeUnreachableError,
+    OutOfGasError,
+    RenderError,
+    RevertError,
+    WrongChainError,
+)
 from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
-from .chain import Drawing, returned_bytes, returned_counts
-from .embedded import EmbeddedChain, intrinsic_gas
+from .address_book import AddressBook
+from .addresses import show_address
+from .chain import Drawing, count_call, returned_bytes, returned_counts
+from .connection import Connection
+from .embedded import DEFAULT_GAS_LIMIT, EmbeddedChain, intrinsic_gas
 from .refusal import out_of_gas, refusal
 
-#: Seconds that a node may take for a picture.
-PATIENCE = 120
+#: EIP-3860: the longest data of a call that creates a contract.
+MAX_INIT_CODE = 49152
 
-#: What nodes say, in small letters and without spaces, where a call has used up its gas.
-OUT_OF_GAS = ("outofgas", "gastoolow", "intrinsicgas", "callgascost")
+#: Where a call places the contract that counts gas.
+METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
+
+#: Says how much gas is left, in the words of the EVM: GAS PUSH0 MSTORE, an MCOPY of nothing, PUSH1 32 PUSH0 RETURN.
+#: Like the contracts it needs the rules of Cancun.
+GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
+
+
+class Way(Enum):
+    """How a node gets the contracts that it is to run."""
+
+    DEPLOYED = "deployed"
+    OVERRIDE = "state override"
+    CREATION = "creation call"
+
+
+@dataclass(frozen=True)
+class NodeLimits:
+    """What one request to a node may be.
+
+    gas: for the execution of a render and what is paid before it, `Drawing.gas` and `Drawing.intrinsic_gas`.
+    request_bytes, answer_bytes: None if unknown.
+    """
+
+    gas: int
+    request_bytes: int | None = None
+    answer_bytes: int | None = None
+
+
+@dataclass(frozen=True)
+class NodeResult:
+    """What a contract returned. gas: of its execution alone, as embedded EVMs count it; None where nothing tells."""
+
+    output: bytes
+    gas: int | None
 
 
 class NodeChain:
-    """Makes calls by `eth_call` with state overrides, which put the contracts where nothing is.
+    """Makes calls by `eth_call`: of contracts that are deployed, or else with their code in a state override, or else,
+    where a node refuses those, by a call that creates them first. Which it is, is found out once and kept.
 
-    A node does not say what such a call has cost, so that pictures have no gas here.
+    Several threads may use it at once.
     """
 
-    def __init__(self, url: str, local: EmbeddedChain) -> None:
-        """`local` sets up the contracts whose code is sent. InputError if the address is none."""
-        from web3 import HTTPProvider
+    def __init__(
+        self,
+        connection: Connection,
+        local: EmbeddedChain,
+        address: bytes | None = None,
+        book: AddressBook | None = None,
+    ) -> None:
+        """Nothing is asked yet.
 
-        parts = urlsplit(url)
-        if parts.scheme not in ("http", "https") or not parts.hostname:
-            raise InputError(f"--rpc must be the address of a node, as http://127.0.0.1:8545, not {url!r}")
-        # an address may hold a key in its path or before its host
-        self.name = f"node {parts.hostname}" + (f":{parts.port}" if parts.port else "")
-        self._local = local
-        # a call that took too long would take so again
-        self._provider = HTTPProvider(url, {"timeout": PATIENCE}, exception_retry_configuration=None)
-
-    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:
-        """Calls a contract, by the name of its artifact; None leaves the limit to the node.
-
-        RenderError if the contract refuses, the gas does not suffice, or the node does not do it.
+        local: sets up the contracts whose code is sent or compared. address: of a deployed renderer that is to be
+        called. book: where addresses are looked up; None takes the user's.
         """
-        address = self._local.address(contract)
-        request = {"to": "0x" + address.hex(), "data": "0x" + data.hex()}
-        if gas_limit is not None:
-            request["gas"] = hex(gas_limit + intrinsic_gas(data))
-        codes = {"0x" + place.hex(): {"code": "0x" + code.hex()} for place, code in self._local.codes().items()}
-        answer = self._request("eth_call", [request, "latest", codes])
-        if "error" in answer:
-            raise self._failure(answer["error"], gas_limit)
-        result = answer.get("result")
-        if not isinstance(result, str) or not result.startswith("0x") or len(result) % 2:
-            raise RenderError(f"the {self.name} answered with what is no result of a call: {result!r:.60}")
-        return bytes.fromhex(result[2:])
+        self.connection = connection
+        self._local = local
+        self._address = address
+        self._book = AddressBook() if book is None else book
+        self._places: dict[str, bytes | None] = {}
+        self._ways: set[Way] = set()
+        self._lock = threading.RLock()
+        self._answers_creations = True
+        local.address("Renderer")  # set up here, before several threads ask for it
+
+    @property
+    def name(self) -> str:
+        """What it is, for people, and how it got the contracts, as soon as it was called."""
+        ways = ", ".join(way.value for way in Way if way in self._ways)
+        return self.connection.name + (f" ({ways})" if ways else "")
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
         """The picture of a scene, or of a part of its canvas."""
         data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
-        return Drawing(returned_bytes(self.call("Renderer", data), 0), None, intrinsic_gas(data))
+        result = self.call("Renderer", data)
+        return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
 
-    def count(self, scene: Scene) -> tuple[int, int]:
-        """The triangles that survive culling and clipping, and the pixels that any of them covers."""
-        return returned_counts(self.call("Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)))
+    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
+        any of them covers.
+        """
+        contract, data = count_call(scene, tile)
+        return returned_counts(self.call(contract, data).output, tile)
 
-    def _request(self, method: str, parameters: list[Any]) -> dict[str, Any]:
-        import requests
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
+        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
+        None leaves the limit to the node.
+        RenderError if the contract refuses, the gas does not suffice, or the node fails.
+        """
         try:
-            answer: Any = self._provider.make_request(method, parameters)
-        except requests.Timeout:
-            raise RenderError(f"the {self.name} did not answer within {PATIENCE} seconds") from None
-        except requests.ConnectionError:
-            raise RenderError(f"the {self.name} cannot be reached; is it running, and is its address right?") from None
-        except requests.HTTPError as error:
-            status = "unknown" if error.response is None else str(error.response.status_code)
-            hint = "; it asks to be called less often" if status == "429" else ""
-            raise RenderError(f"the {self.name} answered with HTTP status {status}{hint}") from None
-        except (ValueError, requests.RequestException) as error:
-            raise RenderError(f"the {self.name} answered with what is not JSON-RPC: {str(error)[:80]}") from None
-        if not isinstance(answer, dict):
-            raise RenderError(f"the {self.name} answered with what is not JSON-RPC: {answer!r:.60}")
-        return answer
+            place = self.place(contract)
+            if self._probed.overrides:
+                result = self._metered(contract, place, data, gas_limit)
+            elif place is not None:
+                result = self._plain(place, data, gas_limit)
+            else:
+                result = self._created(contract, data, gas_limit)
+        except RevertError as error:
+            raise self._refused(error.data, gas_limit) from None
+        except OutOfGasError:
+            raise self._refused(None, gas_limit) from None
+        self._ways.add(Way.DEPLOYED if place is not None else Way.OVERRIDE if self._probed.overrides else Way.CREATION)
+        return result
 
-    def _failure(self, error: Any, gas_limit: int | None) -> RenderError:
-        message = str(error.get("message", error) if isinstance(error, dict) else error)
-        data = error.get("data") if isinstance(error, dict) else None
-        if isinstance(data, str) and data.startswith("0x") and len(data) >= 10:
-            failure = refusal(bytes.fromhex(data[2:]), gas_limit or 0)
-        elif any(words in message.lower().replace(" ", "") for words in OUT_OF_GAS):
-            failure = out_of_gas(gas_limit or 0)
-        else:
-            failure = RenderError(f"the {self.name} says: {' '.join(message.split())[:200]}")
+    def limits(self) -> NodeLimits:
+        """What one request may be, asked once."""
+        probed = self._probed
+        # a call hands on all but a 64th
+        gas = probed.gas * 63 // 64 - 30_000
+        if not probed.overrides and self.place("Renderer") is None:
+            gas -= self._creation_gas
+        return NodeLimits(max(0, gas))
+
+    def place(self, contract: str) -> bytes | None:
+        """Where a contract is deployed on the node's chain, as it is here; None if it is not.
+
+        RenderError if a renderer was named and what is there is none.
+        """
+        with self._lock:
+            if contract not in self._places:
+                self._places[contract] = self._named(contract) if self._address else self._find(contract)
+            return self._places[contract]
+
+    def _named(self, contract: str) -> bytes | None:
+        """The renderer that was named, or its engine."""
+        assert self._address is not None
+        if contract not in ("Renderer", "Engine"):
+            return None
+        where = f"{show_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
+        code = self._code(self._address)
+        if not code:
+            raise RenderError(
+                f"there is no contract at {where}: put one there with shackled deploy, or leave out --address"
+            )
+        parts = self._parts("Renderer", code)
+        if parts is None or self._code(parts["Engine"]) != self._local.code("Engine"):
+            raise RenderError(
+                f"the contract at {where} is not the renderer of this version of shackled: "
+                "name another one, or leave out --address"
+            )
+        return self._address if contract == "Renderer" else parts["Engine"]
+
+    def _find(self, contract: str) -> bytes | None:
+        known = self._book.find(self.connection.chain_id, contract)
+        for address in {self._local.address(contract): None, known: None}:
+            if address is not None and self._stands(contract, address):
+                return address
+        return None
+
+    def _stands(self, contract: str, address: bytes) -> bool:
+        """Whether the contract, and those that it calls, are there."""
+        parts = self._parts(contract, self._code(address))
+        return parts is not None and all(self._stands(part, place) for part, place in parts.items())
+
+    def _parts(self, contract: str, code: bytes) -> dict[str, bytes] | None:
+        """The addresses of those that it calls, from the code of a contract; None if the code is not its own."""
+        expected, parts = self._local.code(contract), {}
+        for part in artifact(contract).parts:
+            here = self._local.address(part).rjust(32, b"\0")
+            at = expected.find(here)
+            there = code[at : at + 32]
+            if at >= 0 and len(there) == 32:
+                expected = expected.replace(here, there)
+                parts[part] = there[12:]
+        return parts if code == expected else None
+
+    def _code(self, address: bytes) -> bytes:
+        return self.connection.data("eth_getCode", _hex(address), "latest")
+
+    def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
+        """A call through the meter, which a state override places; so are the contracts that are not deployed."""
+        codes = {METER: artifact("Meter").runtime}
+        if place is None:
+            place = self._local.address(contract)
+            for name in [contract, *self._below(contract)]:
+                codes[self._local.address(name)] = self._local.code(name)
+        head = place.rjust(32, b"\0") + _limit(gas_limit)
+        overrides = {_hex(address): {"code": _hex(code)} for address, code in codes.items()}
+        request = {"to": _hex(METER), "data": _hex(head + data)} | self._probed.field
+        output = self.connection.data("eth_call", request, "latest", overrides)
+        return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
+
+    def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
+        """A call of what is deployed, by a creation that counts its gas if that is possible."""
+        init = artifact("DeployedCall").creation + place.rjust(32, b"\0") + _limit(gas_limit) + _bytes(data, 96)
+        if len(init) <= MAX_INIT_CODE and self._answers_creations:
+            try:
+                return self._answer_of(init)
+            except (RevertError, OutOfGasError, NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+                raise
+            except NodeError:
+                self._answers_creations = False
+        field = self._probed.field if gas_limit is None else {"gas": hex(gas_limit + intrinsic_gas(data))}
+        request = {"to": _hex(place), "data": _hex(data)} | field
+        return NodeResult(self.connection.data("eth_call", request, "latest"), None)
+
+    def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
+        """A creation that makes the contracts, and calls the last of them."""
+        names = [*reversed(self._below(contract)), contract]
+        codes = [artifact(name).creation for name in names]
+        packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
+        head = artifact("CreationCall").creation + _limit(gas_limit) + _word(len(codes))
+        # as it is if there is room, since what is packed has to be unpacked, for gas
+        for level in (0, 9):
+            deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
+            init = head + _bytes(deflate.compress(packed) + deflate.flush(), 96)
+            if len(init) <= MAX_INIT_CODE:
+                return self._answer_of(init)
+        raise NodeError(
+            f"the {self.connection.name} knows no state overrides, and the scene of {len(data):,} bytes is too large "
+            f"for a creation call with the contracts: {len(init):,} bytes packed, of {MAX_INIT_CODE:,} allowed; "
+            "run shackled deploy, take a smaller --max-triangles, or another node"
+        )
+
+    def _answer_of(self, init: bytes) -> NodeResult:
+        """What a creation that ends by a revert says of the call that it made."""
+        try:
+            self.connection.request("eth_call", {"data": _hex(init)} | self._probed.field, "latest")
+        except RevertError as error:
+            flag, gas, output = error.data[:32], int.from_bytes(error.data[32:64], "big"), error.data[64:]
+            if flag == _word(1):
+                return NodeResult(output, gas)
+            if flag == _word(0):
+                raise RevertError(str(error), output) from None
+        raise NodeError(
+            f"the {self.connection.name} knows no state overrides, and keeps back what a creation call says: "
+            "take another node, or one where the contracts are deployed"
+        )
+
+    def _below(self, contract: str) -> list[str]:
+        """The contracts that a contract needs, the nearest first."""
+        parts = artifact(contract).parts
+        return parts + [each for part in parts for each in self._below(part)]
+
+    def _refused(self, data: bytes | None, gas_limit: int | None) -> RenderError:
+        """The error of a call whose contract said this, or, with None, that had too little gas."""
+        failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
             hint = "take a smaller --size, or raise its limit"
-            return OutOfGasError(f"the {self.name} allows a call too little gas for this: {hint}")
+            return OutOfGasError(f"the {self.connection.name} allows a call too little gas for this: {hint}")
         return failure
+
+    @cached_property
+    def _probed(self) -> _Probed:
+        with self._lock:
+            return _probe(self.connection)
+
+    @cached_property
+    def _creation_gas(self) -> int:
+        """Above what a creation call costs beside the render: unpacking, and what is paid for each byte of code."""
+        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in ("Engine", "Renderer")]
+        return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
+
+
+@dataclass(frozen=True)
+class _Probed:
+    """What a node allows. gas: of a call, and whether a call has to name it to get as much."""
+
+    overrides: bool
+    gas: int
+    named: bool
+
+    @property
+    def field(self) -> dict[str, str]:
+        return {"gas": hex(self.gas)} if self.named else {}
+
+
+def _probe(connection: Connection) -> _Probed:
+    """Whether a node knows state overrides, and how much gas a call gets if it asks for very much, or for none."""
+    override = {_hex(METER): {"code": _hex(GAS_LEFT)}}
+    for overrides in (True, False):
+        found = []
+        for named in (True, False):
+            request = {"to": _hex(METER)} if overrides else {"data": _hex(GAS_LEFT)}
+            if named:
+                request["gas"] = hex(DEFAULT_GAS_LIMIT)
+            try:
+                output = connection.data("eth_call", request, "latest", *([override] if overrides else []))
+            except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+                raise
+            except RenderError:
+                continue
+            if len(output) == 32:
+                left = int.from_bytes(output, "big")
+                found.append(_Probed(overrides, left + intrinsic_gas(b"" if overrides else GAS_LEFT), named))
+        if found:
+            # what need not be named is better not named
+            return max(found, key=lambda each: (each.gas, not each.named))
+    # it makes no creation calls, and what is deployed has to do
+    block = connection.request("eth_getBlockByNumber", "latest", False)
+    try:
+        return _Probed(False, int(block["gasLimit"], 16), False)
+    except (TypeError, LookupError, ValueError):
+        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
+
+
+def _hex(data: bytes) -> str:
+    return "0x" + data.hex()
+
+
+def _word(value: int) -> bytes:
+    return value.to_bytes(32, "big")
+
+
+def _limit(gas: int | None) -> bytes:
+    """As the contracts take it: 0 is none."""
+    return _word(0 if gas is None else max(1, gas))
+
+
+def _bytes(data: bytes, offset: int) -> bytes:
+    """The last argument, of type bytes, which begins so many bytes behind the first."""
+    return _word(offset) + _word(len(data)) + data + bytes(-len(data) % 32)

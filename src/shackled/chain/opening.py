@@ -6,7 +6,9 @@ from functools import cache
 from importlib.util import find_spec
 
 from ..errors import InputError, RenderError
+from .addresses import parse_address
 from .chain import Chain
+from .connection import PATIENCE, Connection
 from .embedded import EmbeddedChain, PyEvmChain, PyrevmChain
 from .node import NodeChain
 from .reference import ReferenceChain
@@ -16,20 +18,27 @@ CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
 _KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
 
 
-def open_place(chain: str | None, rpc: str | None) -> Chain:
-    """The node at the address `rpc`, or the chain of that name."""
-    if rpc is None:
-        return open_chain(chain)
-    if chain is not None:
-        raise InputError("--rpc is a place of its own: leave out --chain")
-    return open_node(rpc)
+def open_place(chain: str | None, rpc: str | None, address: str | None = None, timeout: float | None = None) -> Chain:
+    """The node at the address `rpc`, as `open_node` has it, or the chain of that name."""
+    if rpc is not None:
+        if chain is not None:
+            raise InputError("--rpc is a place of its own: leave out --chain")
+        return open_node(rpc, address, timeout)
+    if address is not None:
+        raise InputError("--address is a contract on a node: give --rpc too, or leave it out")
+    return open_chain(chain)
 
 
-def open_node(url: str) -> NodeChain:
-    """The node at an address; an EVM here makes the code that it is sent."""
+def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
+    """The node at an address.
+
+    address: of a renderer that is deployed there; None takes the one that is known, or brings it along. timeout:
+    seconds for an answer. InputError for what is none.
+    """
     local = open_chain(None)
     assert isinstance(local, EmbeddedChain)
-    return NodeChain(url, local)
+    renderer = None if address is None else parse_address(address, "--address")
+    return NodeChain(Connection(url, PATIENCE if timeout is None else timeout), local, renderer)
 
 
 @cache

@@ -18,8 +18,10 @@ class ReferenceChain:
 
         return Drawing(reference.render(scene, tile), None, None)
 
-    def count(self, scene: Scene) -> tuple[int, int]:
-        """The triangles that survive culling and clipping, and the pixels that any of them covers."""
+    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
+        any of them covers.
+        """
         from .. import reference
 
-        return reference.count(scene)
+        return reference.count(scene, tile)

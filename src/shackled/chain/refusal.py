@@ -30,11 +30,14 @@ def _describe(output: bytes) -> str:
     if selector not in known:
         return f"error 0x{output[:68].hex()}"
     name, parameters = known[selector]
-    values = [
-        f"{label or kind}={int.from_bytes(word, 'big', signed=kind.startswith('int'))}"
-        for (label, kind), word in zip(parameters, words, strict=False)
-    ]
+    values = [f"{label or kind}={_value(kind, word)}" for (label, kind), word in zip(parameters, words, strict=False)]
     return f"{name}({', '.join(values)})"
+
+
+def _value(kind: str, word: bytes) -> str:
+    if kind == "address":
+        return f"0x{word[-20:].hex()}"
+    return str(int.from_bytes(word, "big", signed=kind.startswith("int")))
 
 
 def out_of_gas(limit: int) -> OutOfGasError:

@@ -11,9 +11,10 @@ from typing import Annotated, Any
 import typer
 
 from ..chain import CHAINS, open_chain, open_node
+from ..chain.node import NodeChain
 from ..datasets import Piece
 from ..errors import InputError
-from ..gas.exact import counting
+from ..gas.exact import counting, render_call
 from ..gas.flame_graph import flame_graph
 from ..gas.profile import Profile
 from ..gas.report import make_report
@@ -44,7 +45,20 @@ def gas(
         str | None, _option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
     ] = None,
     rpc: Annotated[
-        str | None, _option("--rpc", "A node on which the search is made; the rest is measured here.", "URL")
+        str | None,
+        typer.Option(
+            "--rpc",
+            help="A node that counts the gas too, and on which the search is made.",
+            metavar="URL",
+            envvar="SHACKLED_RPC",
+            show_default=False,
+        ),
+    ] = None,
+    address: Annotated[
+        str | None, _option("--address", "Of a renderer on the node's chain, to be called.", "ADDRESS")
+    ] = None,
+    rpc_timeout: Annotated[
+        float | None, _option("--rpc-timeout", "How long the node may take for a call; else 120.", "SECONDS")
     ] = None,
     as_json: Annotated[bool, _option("--json", "Print one JSON object instead of tables.")] = False,
     profile: Annotated[
@@ -90,7 +104,7 @@ def gas(
     if stages:
         _require_tracer()
     place = counting(open_chain(chain))
-    searched = place if rpc is None else open_node(rpc)
+    node = _open_node(rpc, address, rpc_timeout)
     source = locate(input)
     changes = Changes(
         size=None if size is None else parse_size(size),
@@ -104,19 +118,35 @@ def gas(
     if max_triangles is not None:
         scene = simplify_scene(scene, max_triangles)
     with Progress(quiet=as_json) as progress:
-        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced, searched)
+        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced, node)
+        counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         _write_profile(path, report.profile, input)
     if isinstance(source, Piece) and source.notice:
         print(source.notice, file=sys.stderr)
     if as_json:
-        written = {} if path is None else {"profile": str(path)}
-        print(json.dumps({"input": input} | report.to_json(gas_price, eth_price) | written))
+        more: dict[str, Any] = {} if path is None else {"profile": str(path)}
+        if node is not None and counted is not None:
+            more["node"] = {"name": node.name, "gas": counted.gas}
+        print(json.dumps({"input": input} | report.to_json(gas_price, eth_price) | more))
         return
     print_report(report, gas_price, eth_price)
+    if node is not None and counted is not None:
+        words = "does not tell the gas" if counted.gas is None else f"counts {counted.gas:,} gas"
+        print(f"the {node.name}, on which the search was made, {words}")
     if path is not None and report.profile is not None:
         print_profile(report.profile)
         print(f"flame graph: {path}")
+
+
+def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> NodeChain | None:
+    if rpc is not None and rpc.strip():
+        # the variable may name several
+        return open_node(rpc.split()[0], address, timeout)
+    for name, value in (("--address", address), ("--rpc-timeout", timeout)):
+        if value is not None:
+            raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+    return None
 
 
 def _require_tracer() -> None:

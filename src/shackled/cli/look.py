@@ -19,9 +19,10 @@ from ..scene.files.mesh_file import READERS
 from ..scene.light import Light
 from ..scene.material import Shading
 from ..scene.object import Object
-from ..scene.rotation import from_euler, multiply, rotate
+from ..scene.rotation import from_euler
 from ..scene.scene import Scene
 from ..scene.staging import Look
+from ..scene.turning import middle, turn
 
 Vector = tuple[float, float, float]
 
@@ -80,22 +81,6 @@ def load_changed(source: Path | Piece, changes: Changes) -> Scene:
     )
 
 
-def turn(scene: Scene, degrees: Vector) -> Scene:
-    """The scene with all objects turned together about their middle; camera and lights stay."""
-    rotation, middle = from_euler(degrees), _middle(scene)
-    return replace(
-        scene,
-        objects=[
-            replace(
-                o,
-                position=middle + rotate(rotation, np.asarray(o.position) - middle),
-                rotation=multiply(rotation, o.rotation),
-            )
-            for o in scene.objects
-        ],
-    )
-
-
 def _look(changes: Changes) -> Look:
     chosen: dict[str, Any] = {}
     if changes.size is not None:
@@ -108,15 +93,6 @@ def _look(changes: Changes) -> Look:
     if half_height is not None and changes.projection != "orthographic":
         chosen["half_height"] = half_height
     return Look(**chosen)
-
-
-def _middle(scene: Scene) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """The middle of the box around all objects."""
-    corners = []
-    for o in scene.objects:
-        points = np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions))
-        corners += [points.min(axis=0), points.max(axis=0)]
-    return (np.min(corners, axis=0) + np.max(corners, axis=0)) / 2 if corners else np.zeros(3)
 
 
 def _change_object(o: Object, changes: Changes) -> Object:
@@ -136,7 +112,7 @@ def _change_camera(scene: Scene, changes: Changes) -> Camera:
         near = None
         forward = np.asarray(camera.target) - np.asarray(camera.eye)
         length = np.linalg.norm(forward)
-        distance = (_middle(scene) - np.asarray(camera.eye)) @ forward / length if length else 0.0
+        distance = (middle(scene) - np.asarray(camera.eye)) @ forward / length if length else 0.0
         if distance > 0:
             half_height *= distance if projection == "orthographic" else 1 / distance
     chosen = _half_height(changes, projection)

@@ -25,6 +25,14 @@ def parse_size(text: str) -> tuple[int, int]:
     return width, height
 
 
+def parse_tile(text: str) -> tuple[int, int]:
+    """Width and height, of "64" or "1024x64"."""
+    match = re.fullmatch(r"([1-9]\d{0,8})(?:[xX]([1-9]\d{0,8}))?", text)
+    if not match:
+        raise InputError(f"--tile must be a side such as 128 or WIDTHxHEIGHT such as 1024x64, not {text!r}")
+    return int(match[1]), int(match[2] or match[1])
+
+
 def parse_vector(text: str, name: str) -> tuple[float, float, float]:
     """Three numbers, of "x,y,z"."""
     try:

@@ -25,9 +25,11 @@ def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
     return encode_bmp(draw_call(data).pixels)
 
 
-def count(scene: Scene) -> tuple[int, int]:
-    """The triangles that survive culling and clipping, and the pixels that any of them covers."""
-    picture = draw_call(encode(selector("renderCounted"), scene))
+def count(scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+    """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that any
+    of them covers.
+    """
+    picture = draw_call(encode(selector("renderCounted" if tile is None else "renderTile"), scene, tile))
     return picture.triangles, picture.lit_pixels
 
 

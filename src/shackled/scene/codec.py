@@ -37,15 +37,16 @@ class Rectangle:
     height: int
 
 
-def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """The calldata of a function f(Scene), or f(Scene, Rectangle) where a tile is given."""
+def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words: int) -> bytes:
+    """The calldata of a function f(Scene), or f(Scene, Rectangle) where a tile is given, with the words after it."""
     rectangle: list[int] = []
     if tile is not None:
         rectangle = [tile.x, tile.y, tile.width, tile.height]
         across = 0 <= tile.x < tile.x + tile.width <= scene.width
         if not (across and 0 <= tile.y < tile.y + tile.height <= scene.height):
             raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
-    return selector + _words([32 * (1 + len(rectangle)), *rectangle]) + encode_scene(fit(scene))
+    head = [*rectangle, *words]
+    return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
 
 
 def encode_scene(scene: Scene) -> bytes:

@@ -32,7 +32,7 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
         )
     if not is_integral(positions):
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
-    coordinates = positions.astype(">i4")
+    coordinates = np.ascontiguousarray(positions, dtype=">i4")
     wide = not fits(positions, MAX_SHORT)
     octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 1 if wide else 2 :]
     columns = [octets.reshape(len(positions), -1), np.asarray(mesh.colors, dtype=np.uint8)]

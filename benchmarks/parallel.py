@@ -1,0 +1,144 @@
+"""`python -m benchmarks.parallel`: what tiles cost, and how many frames a second several places make.
+
+Written to parallel.md and parallel.json beside this file. Gas is exact; times are of one run on one machine, and say
+little but for their ratios.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+from shackled import Scene, load
+from shackled.bench.anvil import Anvil, AnvilChain, find_anvil
+from shackled.chain import open_chain
+from shackled.parallel import Listener, Where
+from shackled.parallel.part import Part
+from shackled.parallel.place import Place
+from shackled.parallel.processes import ProcessPlace
+from shackled.parallel.scheduler import Scheduler
+from shackled.parallel.tiles import grid
+from shackled.scene.codec import Rectangle
+from shackled.scene.turning import full_turn
+
+from .measure import gas
+from .table import Section, millions, table
+
+FOLDER = Path(__file__).parent
+SIDES = (128, 256, 512, 1024)
+#: Tiles of a picture: how many across, how many down.
+GRIDS = ((1, 4), (1, 16), (1, 64), (2, 2), (4, 4), (8, 8))
+#: The turntable: frames, and their side.
+FRAMES, SIDE = 16, 512
+RUNS = 4
+
+
+def tiles() -> Section:
+    """Gas of a picture in tiles against that of the whole."""
+    rows, data = [], {}
+    for side in SIDES:
+        scene = replace(load("teapot"), width=side, height=side)
+        whole = gas(scene)
+        sums = {}
+        for across, down in GRIDS:
+            parts = grid(side, side, side // across, side // down)
+            sums[f"{across} x {down}"] = sum(gas(scene, "renderTile", part) for part in parts)
+        data[str(side)] = {"whole": whole} | sums
+        rows.append([f"{side} x {side}", millions(whole), *(f"{each / whole:.2f}" for each in sums.values())])
+    heads = ["picture", "whole, gas", *(f"{across} x {down} tiles" for across, down in GRIDS)]
+    text = (
+        "The teapot, 992 triangles, smooth. Gas of all tiles together, divided by that of the whole picture.\n\n"
+        + table(heads, rows)
+        + "\n\nEach tile costs the vertices and faces of the whole scene once more, so that tiles are dear for small "
+        "pictures. Strips (1 x n) are cheaper than squares: a face that a strip does not reach is left out at once. "
+        "Of a large picture tiles may cost less than the whole: memory becomes dearer the more of it a call uses."
+    )
+    return Section("Tiles", text, data)
+
+
+def throughput() -> Section:
+    """Frames a second of a turntable, in several places."""
+    frames = full_turn(replace(load("teapot"), width=SIDE, height=SIDE), FRAMES)
+    with ExitStack() as stack:
+        places = opened(stack)
+        best = dict.fromkeys(places, float("inf"))
+        # in turns, so that what else the machine does falls on all of them
+        for turn in range(RUNS + 1):
+            for name, each in places.items():
+                seconds = timed(frames, each)
+                if turn:
+                    best[name] = min(best[name], seconds)
+    used = sum(gas(frame) for frame in frames)
+    base = best["this process"]
+    rows, data = [], {}
+    for name, seconds in best.items():
+        speed = len(frames) / seconds
+        rows.append([name, f"{speed:.1f}", f"{used / seconds / 1e6:.0f}", f"{base / seconds:.2f}"])
+        data[name] = {"seconds": round(seconds, 3), "frames a second": round(speed, 2)}
+    text = (
+        f"{FRAMES} frames of the teapot at {SIDE} x {SIDE} pixels, {millions(used)} gas in all, on a machine of "
+        f"{os.cpu_count()} processors, which the nodes share with the client. Places were warm: processes started, "
+        f"nodes probed. No answer was checked. Of {RUNS} runs in turns, the best.\n\n"
+        + table(["place", "frames a second", "million gas a second", "times this process"], rows)
+    )
+    return Section("Frames", text, data)
+
+
+def opened(stack: ExitStack) -> dict[str, list[Place]]:
+    """The places, which close with the stack."""
+    wanted: dict[str, Where] = {
+        "this process": Where(),
+        "2 worker processes": Where(jobs=2),
+        "dask, 1 worker": Where(cluster="", jobs=1),
+        "dask, 2 workers": Where(cluster="", jobs=2),
+    }
+    binary = find_anvil()
+    if binary is None:
+        print("there is no anvil: npm ci in contracts/", file=sys.stderr)
+    else:
+        one, two = (stack.enter_context(Anvil(binary)) for _ in range(2))
+        deployed = stack.enter_context(AnvilChain(binary))
+        wanted["anvil, state override"] = Where(rpc=(one.url,))
+        wanted["anvil, deployed"] = Where(rpc=(deployed.node.url,), address=deployed.address("Renderer"))
+        wanted["anvil, 2 calls at a time"] = Where(rpc=(one.url,), jobs=2)
+        wanted["2 anvils"] = Where(rpc=(one.url, two.url))
+    # a single job of a command is done in its own process
+    found: dict[str, list[Place]] = {"1 worker process": [ProcessPlace(None, 1)]}
+    found |= {name: where.open(Listener()) for name, where in wanted.items()}
+    for places in found.values():
+        for place in places:
+            stack.callback(place.close)
+    return found
+
+
+def timed(frames: list[Scene], places: list[Place]) -> float:
+    """Seconds that places take for frames."""
+    parts = [Part(number, Rectangle(0, 0, SIDE, SIDE)) for number in range(len(frames))]
+    started = time.perf_counter()
+    pieces = Scheduler(frames, places, False).run(parts)
+    seconds = time.perf_counter() - started
+    assert pieces[parts[1]].bmp == open_chain().draw(frames[1]).bmp
+    return seconds
+
+
+def main() -> int:
+    """The command."""
+    written = ["# Tiles and places\n\nMade by `python -m benchmarks.parallel`.\n"]
+    data = {}
+    for part in (tiles, throughput):
+        section = part()
+        written.append(f"## {section.title}\n\n{section.text}\n")
+        print(written[-1], flush=True)
+        data[section.title] = section.data
+    (FOLDER / "parallel.md").write_text("\n".join(written), "utf-8")
+    (FOLDER / "parallel.json").write_text(json.dumps(data, indent=1) + "\n", "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {answer} from "./Answer.sol";
+import {inflate} from "./Inflate.sol";
+
+/// @title CreationCall: a read call that brings contracts along, creates them and calls the last of them.
+/// @notice Never deployed: the creation always ends by a revert, whose data are the answer. For nodes without state overrides, where
+/// nothing is deployed.
+contract CreationCall {
+    /// @dev What the first access to an account costs in a transaction, less what a later one does: accounts that were just created count
+    /// as accessed, others do not.
+    uint256 private constant FIRST_ACCESS = 2500;
+
+    error NotCreated(uint256 index);
+
+    /// @param limit The gas that the call gets; 0 for all there is.
+    /// @param count How many contracts are to be created. The constructor of each is handed the address of the one before.
+    /// @param packed Deflated: for each contract four bytes, the size of its creation code, and this code; then the data of the call.
+    constructor(uint256 limit, uint256 count, bytes memory packed) {
+        bytes memory data = inflate(packed);
+        address target;
+        uint256 next;
+        uint256 end;
+        assembly ("memory-safe") {
+            next := add(data, 0x20)
+            end := add(next, mload(data))
+        }
+        for (uint256 i; i != count; ++i) {
+            assembly ("memory-safe") {
+                let size := shr(224, mload(next))
+                next := add(next, 4)
+                // the address takes the place of what comes next for a moment
+                let behind := mload(add(next, size))
+                mstore(add(next, size), target)
+                target := create(0, next, add(size, 0x20))
+                next := add(next, size)
+                mstore(next, behind)
+            }
+            if (target == address(0)) revert NotCreated(i);
+        }
+        // each but the first to be called is accessed by the one after it
+        answer(target, limit, next, end - next, (count - 1) * FIRST_ACCESS);
+    }
+}

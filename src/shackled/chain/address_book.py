@@ -1,0 +1,85 @@
+"""The address book: which contract stands where on which chain, a JSON file that `shackled deploy` keeps."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..errors import InputError
+from ..whole_file import write_whole
+from .addresses import parse_address, show_address
+
+#: Names the file, where it is set.
+VARIABLE = "SHACKLED_ADDRESS_BOOK"
+
+
+def book_path() -> Path:
+    """That of the variable SHACKLED_ADDRESS_BOOK, or else in the system's folder for such files; it may not exist."""
+    chosen = os.environ.get(VARIABLE)
+    if chosen:
+        return Path(chosen)
+    from platformdirs import user_data_path
+
+    return user_data_path("shackled") / "addresses.json"
+
+
+class AddressBook:
+    """Addresses by chain and name of the contract. The file is read each time, so that it is never out of date."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        """`path`: of the file; None takes `book_path`."""
+        self.path = book_path() if path is None else path
+
+    def find(self, chain_id: int, contract: str) -> bytes | None:
+        """The address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
+        return self.entries(chain_id).get(contract)
+
+    def entries(self, chain_id: int) -> dict[str, bytes]:
+        """All that is known of a chain. InputError if the file cannot be read."""
+        chain = self._read().get(str(chain_id), {})
+        return {name: parse_address(text, f"{name} on chain {chain_id} in {self.path}") for name, text in chain.items()}
+
+    def places(self, contract: str) -> dict[int, bytes]:
+        """The addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
+        found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
+        return {chain: address for chain, address in found.items() if address is not None}
+
+    def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
+        """Adds addresses of a chain to the file, or puts them in place of those that are there.
+
+        InputError if the file cannot be read or written; then nothing has changed.
+        """
+        chains = self._read()
+        known = chains.setdefault(str(chain_id), {})
+        new = known | {name: show_address(address) for name, address in addresses.items()}
+        if new == known:
+            return
+        chains[str(chain_id)] = new
+        text = json.dumps({"chains": dict(sorted(chains.items(), key=lambda item: int(item[0])))}, indent=2) + "\n"
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(self.path, text.encode())
+        except OSError as error:
+            raise InputError(f"the address book {self.path} cannot be written: {error.strerror}") from None
+
+    def _read(self) -> dict[str, dict[str, str]]:
+        hint = f"repair or remove it, or name another file in {VARIABLE}"
+        try:
+            chains = json.loads(self.path.read_text("utf-8"))["chains"]
+        except FileNotFoundError:
+            return {}
+        except OSError as error:
+            raise InputError(f"the address book {self.path} cannot be read: {error.strerror}") from None
+        except (ValueError, LookupError, TypeError):
+            raise InputError(
+                f"the address book {self.path} is broken, it is not the JSON that it was: {hint}"
+            ) from None
+        valid = isinstance(chains, dict) and all(
+            key.isdecimal() and isinstance(chain, dict) and all(isinstance(text, str) for text in chain.values())
+            for key, chain in chains.items()
+        )
+        if not valid:
+            raise InputError(f"the address book {self.path} is broken, its chains are not numbers with names: {hint}")
+        return dict(chains)

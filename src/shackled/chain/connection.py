@@ -1,0 +1,130 @@
+"""A connection to a node: every question that is asked of one goes through here."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote, urlsplit
+
+from ..errors import InputError, NodeBusyError, NodeError, RenderError, WrongChainError
+from .failures import rpc_failure
+
+if TYPE_CHECKING:
+    from web3 import Web3
+
+#: Seconds that a node may take for an answer.
+PATIENCE = 120.0
+#: The longest pause before a busy node is asked again, in seconds.
+LONGEST_PAUSE = 20.0
+
+
+class Connection:
+    """Asks a node by JSON-RPC; several threads may at once. No message shows a key that the address holds."""
+
+    def __init__(self, url: str, timeout: float = PATIENCE, attempts: int = 1) -> None:
+        """Nothing is sent yet.
+
+        timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
+        InputError if the address is none.
+        """
+        from .transport import Transport
+
+        self.url, self.timeout, self.attempts = url.strip(), timeout, attempts
+        try:
+            parts = urlsplit(self.url)
+            host, port = parts.hostname, parts.port
+        except ValueError:
+            parts, host, port = urlsplit(""), None, None
+        if parts.scheme not in ("http", "https") or not host:
+            shown = _without_key(url)
+            raise InputError(f"--rpc must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
+        if not timeout > 0:
+            raise InputError(f"--rpc-timeout must be more than 0 seconds, not {timeout:g}")
+        self.name = f"node {f'[{host}]' if ':' in host else host}" + (f":{port}" if port else "")
+        local = host in ("localhost", "::1") or host.startswith("127.")
+        pieces = [parts.username, parts.password, *parts.path.split("/"), *parts.query.replace("=", "&").split("&")]
+        long = [piece for piece in pieces if piece and len(piece) >= 8]
+        self._secrets = {*long, *map(unquote, long)}
+        #: What carries the requests, a provider of web3.
+        self.transport = Transport(self.url, self.name, timeout, local)
+        self._chain_id: int | None = None
+
+    def request(self, method: str, *parameters: Any) -> Any:
+        """The result of a method.
+
+        NodeError or its kinds if the node fails, RevertError or OutOfGasError if the call does that was asked for.
+        """
+        pause = 0.5
+        for attempt in range(self.attempts):
+            try:
+                return self._request(method, parameters)
+            except NodeBusyError as error:
+                pause = 2 * pause if error.retry_after is None else error.retry_after
+                if attempt + 1 == self.attempts or pause > LONGEST_PAUSE:
+                    raise
+                time.sleep(pause)
+        raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
+
+    def number(self, method: str, *parameters: Any) -> int:
+        """The result of a method that answers with a number."""
+        result = self.request(method, *parameters)
+        try:
+            return int(result, 16)
+        except (TypeError, ValueError):
+            raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
+
+    def data(self, method: str, *parameters: Any) -> bytes:
+        """The result of a method that answers with bytes."""
+        result = self.request(method, *parameters)
+        try:
+            if isinstance(result, str) and result.startswith("0x"):
+                return bytes.fromhex(result[2:])
+        except ValueError:
+            pass
+        raise NodeError(f"the {self.name} answered {method} with what is no string of bytes: {result!r:.60}")
+
+    @property
+    def chain_id(self) -> int:
+        """The number of the chain, asked once."""
+        if self._chain_id is None:
+            self._chain_id = self.number("eth_chainId")
+        return self._chain_id
+
+    def expect_chain(self, chain_id: int | None) -> None:
+        """WrongChainError if the node belongs to another chain; None expects none."""
+        if chain_id is not None and self.chain_id != chain_id:
+            raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
+
+    @property
+    def web3(self) -> Web3:
+        """web3 over this connection."""
+        from web3 import Web3
+
+        return Web3(self.transport)
+
+    def _request(self, method: str, parameters: tuple[Any, ...]) -> Any:
+        from web3.types import RPCEndpoint
+
+        try:
+            answer = self.transport.make_request(RPCEndpoint(method), list(parameters))
+            if answer.get("error"):
+                raise rpc_failure(self.name, answer["error"])
+            return answer["result"]
+        except RenderError as error:
+            # some nodes repeat the address of a request in what they say of it
+            error.args = tuple(self._clean(str(each)) for each in error.args)
+            raise
+
+    def _clean(self, text: str) -> str:
+        for secret in self._secrets:
+            text = text.replace(secret, "***")
+        return text
+
+
+def _without_key(url: str) -> str:
+    """The address up to where a key may stand."""
+    scheme, mark, rest = url.partition("://")
+    if not mark:
+        scheme, rest = "", url
+    host = rest.split("/")[0].split("?")[0].rpartition("@")[2]
+    return f"{scheme}{mark}{host}" + ("/..." if len(host) < len(rest) else "")

@@ -1,0 +1,129 @@
+"""Bytes to a node and back over HTTP, through web3's provider: one attempt, a bounded time, a whole answer or an error.
+
+web3's own way would give up after 30 seconds, then try calls that took too long four times more.
+"""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from typing import Any, cast
+
+import requests
+import urllib3
+from web3 import HTTPProvider
+from web3.types import RPCEndpoint, RPCResponse
+
+from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
+from .failures import http_failure, too_large
+
+#: Seconds within which a node must take a connection.
+CONNECT_PATIENCE = 10
+#: A connection that was kept open may be closed meanwhile: if one breaks within these seconds, a new one is tried.
+STALE = 1.0
+#: Bytes of an answer that are taken; the largest picture has 13 MB, two characters each.
+MAX_ANSWER = 64 << 20
+
+BROKEN = "broke off its answer; is it running, or was the picture too much for it?"
+
+
+class Transport(HTTPProvider):
+    """web3's provider, with its own way to make a request. It may be used by several threads at once."""
+
+    def __init__(self, url: str, name: str, timeout: float, local: bool) -> None:
+        """timeout: seconds for a whole answer. local: the node is on this machine, behind no proxy."""
+        super().__init__(url, exception_retry_configuration=None)
+        self.name, self.timeout, self.local = name, timeout, local
+        self._sessions = threading.local()
+
+    def make_request(self, method: RPCEndpoint, params: Any) -> RPCResponse:
+        """The answer to a request. NodeError and its kinds if there is none."""
+        request = self.encode_rpc_request(method, params)
+        body = self._post(request)
+        try:
+            answer = json.loads(body)
+        except ValueError:
+            raise self._no_node("what is not JSON" if body else "nothing") from None
+        number = json.loads(request)["id"]
+        if not isinstance(answer, dict) or not ("result" in answer or answer.get("error")):
+            raise self._no_node("JSON that is not JSON-RPC")
+        # an error may come before the number of the request was read
+        if answer.get("id") != number and not (answer.get("id") is None and answer.get("error")):
+            raise NodeUnreachableError(f"the {self.name} answered another request than the one made; try again")
+        return cast(RPCResponse, answer)
+
+    def _post(self, request: bytes) -> bytes:
+        """The body of the answer."""
+        started = time.monotonic()
+        while True:
+            kept = hasattr(self._sessions, "session")
+            try:
+                return self._attempt(request, started + self.timeout)
+            except (requests.RequestException, urllib3.exceptions.HTTPError, OSError) as error:
+                kind, words = _failure(error)
+                if words == BROKEN and kept and time.monotonic() - started < STALE:
+                    del self._sessions.session
+                    continue
+                raise kind(f"the {self.name} {words.format(f'{self.timeout:g}')}") from None
+
+    def _attempt(self, request: bytes, end: float) -> bytes:
+        left = max(0.001, end - time.monotonic())
+        with self._session().post(
+            str(self.endpoint_uri),
+            data=request,
+            headers={**self.get_request_headers(), "Accept": "application/json"},
+            timeout=(min(CONNECT_PATIENCE, left), left),
+            stream=True,
+            allow_redirects=False,
+        ) as response:
+            parts, size = [], 0
+            # what is there, as it comes: a drop now and then would else go on for ever
+            while part := response.raw.read1(1 << 16, decode_content=True):
+                parts.append(part)
+                size += len(part)
+                if size > MAX_ANSWER:
+                    raise too_large(self.name, f"more than {MAX_ANSWER >> 20} MB")
+                if time.monotonic() > end:
+                    raise TimeoutError
+            body = b"".join(parts)
+        # hosted nodes say with a status of their own what JSON-RPC says in the body
+        if response.status_code != 200 and not _is_rpc_error(response.status_code, body):
+            raise http_failure(self.name, response.status_code, response.headers, body)
+        return body
+
+    def _session(self) -> requests.Session:
+        """That of the thread."""
+        if not hasattr(self._sessions, "session"):
+            self._sessions.session = requests.Session()
+            self._sessions.session.trust_env = not self.local
+        return cast(requests.Session, self._sessions.session)
+
+    def _no_node(self, what: str) -> NodeError:
+        return NodeUnreachableError(f"the {self.name} answered with {what}: is this the address of a node?")
+
+
+def _failure(error: Exception) -> tuple[type[NodeError], str]:
+    """The kind of what came in place of an answer, and what to say of the node."""
+    reason = getattr(error.args[0], "reason", None) if error.args else None
+    if isinstance(error, requests.exceptions.ConnectTimeout):
+        return NodeUnreachableError, "takes no connection; is it running, and is its address right?"
+    if isinstance(error, requests.Timeout | urllib3.exceptions.TimeoutError | TimeoutError):
+        return NodeTimeoutError, "did not answer within {} seconds: take a smaller --size, or a larger --rpc-timeout"
+    if isinstance(error, requests.exceptions.SSLError):
+        return NodeUnreachableError, "cannot be reached by a safe connection; is its address right, http or https?"
+    if isinstance(error, requests.exceptions.ProxyError):
+        return NodeUnreachableError, "cannot be reached through the proxy that is set for this machine"
+    if isinstance(reason, urllib3.exceptions.NewConnectionError):
+        return NodeUnreachableError, "cannot be reached; is it running, and is its address right?"
+    return NodeUnreachableError, BROKEN
+
+
+def _is_rpc_error(status: int, body: bytes) -> bool:
+    if status in (413, 429):
+        return False
+    try:
+        answer = json.loads(body)
+    except ValueError:
+        return False
+    return isinstance(answer, dict) and isinstance(answer.get("error"), dict) and "message" in answer["error"]

@@ -1,0 +1,135 @@
+"""shackled deploy"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..chain.addresses import show_address
+from ..chain.connection import PATIENCE, Connection
+from ..errors import InputError
+from .payer import PASSWORD, ask, open_signer
+
+if TYPE_CHECKING:
+    from ..deploy import Plan, Receipt, Step
+
+
+def _option(name: str, text: str, kind: str | None = None) -> Any:
+    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False)
+
+
+def deploy(
+    rpc: Annotated[
+        str | None,
+        typer.Option("--rpc", help="A node of the chain.", metavar="URL", envvar="SHACKLED_RPC", show_default=False),
+    ] = None,
+    account: Annotated[
+        Path | None,
+        _option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
+    ] = None,
+    private_key_env: Annotated[
+        str | None, _option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
+    ] = None,
+    contracts: Annotated[
+        str | None, _option("--contracts", "Which, with commas; else all. Those that they call are added.", "NAMES")
+    ] = None,
+    chain_id: Annotated[int | None, _option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
+    yes: Annotated[bool, _option("--yes -y", "Do not ask.")] = False,
+    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
+    standard_json: Annotated[
+        Path | None,
+        _option(
+            "--standard-json", "The folder for what verifies the sources; else deployed-CHAIN, in this one.", "DIR"
+        ),
+    ] = None,
+    rpc_timeout: Annotated[
+        float, _option("--rpc-timeout", f"Seconds that the node may take for an answer; else {PATIENCE:g}.", "SECONDS")
+    ] = PATIENCE,
+) -> None:
+    """Put the contracts on a chain, at the same addresses as on every chain. What is there already is left alone."""
+    from ..deploy import Deployer, Transactor, deployments
+    from ..deploy.contract import STANDARD
+    from ..deploy.verification import write_verification
+
+    if rpc is None or not rpc.strip():
+        raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
+    if account is not None and private_key_env is not None:
+        raise InputError("--account and --private-key-env both say who pays: give one of them")
+    names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
+    if not names:
+        raise InputError(f"--contracts names none; the contracts are {', '.join(STANDARD)}")
+    wanted = deployments(names)
+    connection = Connection(rpc.split()[0], rpc_timeout, attempts=4)
+    connection.expect_chain(chain_id)
+    deployer = Deployer(connection)
+    deployer.book.entries(connection.chain_id)  # a broken book is told before anything is paid
+    plan = deployer.plan(wanted)
+    folder = standard_json or Path(f"deployed-{connection.chain_id}")
+    receipts: list[Receipt] = []
+    if plan.missing:
+        _show(plan, connection, as_json)
+        transactor = Transactor(connection, open_signer(account, private_key_env))
+        transactor.settle()
+        plan = deployer.plan(wanted)
+        if plan.missing and not yes:
+            ask(transactor.name)
+        # while nothing is paid yet
+        write_verification(folder, connection.chain_id, wanted)
+        receipts = deployer.carry_out(plan, transactor, None if as_json else _tell)
+    else:
+        deployer.note(wanted)
+        write_verification(folder, connection.chain_id, wanted)
+    if as_json:
+        print(json.dumps(_object(plan, receipts, connection, str(deployer.book.path), str(folder))))
+        return
+    if not receipts:
+        print("everything is there already: nothing was sent")
+        for step in plan.steps:
+            print(f"{step.name:10} {show_address(step.address)}")
+    print(f"addresses: {deployer.book.path}")
+    print(f"for the verification of the sources: {folder}")
+
+
+def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..deploy.transactor import GWEI, ether
+
+    console = Console(file=sys.stderr if quiet else sys.stdout, width=None if sys.stdout.isatty() else 120)
+    table = Table("contract", "address", "gas", "ether", box=None, header_style="bold")
+    for column in (2, 3):
+        table.columns[column].justify = "right"
+    for step in plan.steps:
+        gas, cost = ("is there", "") if step.there else (f"{step.gas:,}", ether(step.cost))
+        table.add_row(step.name, show_address(step.address), gas, cost)
+    table.add_row("together", "", f"{plan.gas:,}", ether(plan.cost))
+    price = f"{plan.fees.likely / GWEI:.6g} gwei a gas"
+    console.print(f"on chain {connection.chain_id}, by the {connection.name}, at {price}:", highlight=False)
+    console.print(table)
+
+
+def _tell(step: Step, receipts: Sequence[Receipt]) -> None:
+    gas = sum(receipt.gas for receipt in receipts)
+    print(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}", flush=True)
+
+
+def _object(plan: Plan, receipts: Sequence[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:
+    return {
+        "chain_id": connection.chain_id,
+        "node": connection.name,
+        "contracts": [
+            {"name": step.name, "address": show_address(step.address), "deployed_now": not step.there}
+            for step in plan.steps
+        ],
+        "transactions": [receipt.hash for receipt in receipts],
+        "gas": sum(receipt.gas for receipt in receipts),
+        "wei": sum(receipt.fee for receipt in receipts),
+        "address_book": book,
+        "standard_json": folder,
+    }

@@ -1,0 +1,64 @@
+"""Accounts that sign transactions. What is said of a key or a password never shows it."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from eth_account.signers.local import LocalAccount
+
+
+def environment_account(name: str) -> LocalAccount:
+    """The account whose private key, 64 hexadecimal digits, is in an environment variable. InputError if none is."""
+    from eth_account import Account
+
+    value = os.environ.get(name, "").strip()
+    if not value:
+        hint = "; it takes the name of a variable, not the key" if re.fullmatch("(0x)?[0-9a-fA-F]{64}", name) else ""
+        shown = "of that name" if hint else name
+        raise InputError(f"there is no private key in the environment variable {shown}: set it to one{hint}")
+    if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
+        try:
+            account: LocalAccount = Account.from_key(value)
+            return account
+        except Exception:  # whatever it says could show the key
+            pass
+    raise InputError(f"the environment variable {name} must hold a private key, 64 hexadecimal digits; it holds none")
+
+
+def read_keystore(path: Path) -> str:
+    """The text of a keystore file. InputError if it is none."""
+    try:
+        text = path.read_text("utf-8")
+    except FileNotFoundError:
+        raise InputError(f"there is no keystore file {path}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"the keystore file {path} cannot be read: {getattr(error, 'strerror', 'no text')}") from None
+    try:
+        keystore = json.loads(text)
+        found = isinstance(keystore, dict) and bool({"crypto", "Crypto"} & keystore.keys())
+    except ValueError:
+        found = False
+    if not found:
+        raise InputError(f"{path} is no keystore file, as geth, foundry or a wallet writes it (JSON, version 3)")
+    return text
+
+
+def keystore_account(path: Path, password: str) -> LocalAccount:
+    """The account of a keystore file. InputError if it is none, or the password is wrong."""
+    from eth_account import Account
+
+    text = read_keystore(path)
+    try:
+        key = Account.decrypt(text, password)
+    except Exception as error:  # whatever it says could show a part of the file
+        what = "the password is wrong" if "MAC" in str(error) else "it is damaged, or of an unknown kind"
+        raise InputError(f"the keystore file {path} cannot be opened: {what}") from None
+    account: LocalAccount = Account.from_key(key)
+    return account

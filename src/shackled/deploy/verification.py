@@ -1,0 +1,48 @@
+"""What a block explorer needs to compare a contract with its sources."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from ..chain.addresses import show_address
+from ..errors import InputError
+from ..whole_file import write_whole
+from .contract import Deployment
+
+SUMMARY = "contracts.json"
+
+
+def write_verification(folder: Path, chain_id: int, standing: Sequence[Deployment]) -> list[Path]:
+    """Writes the compiler's input in standard JSON, and a list of the contracts with all that is asked about them.
+
+    InputError if the folder cannot be written to.
+    """
+    contracts, inputs = [], {}
+    artifacts = files("shackled.artifacts")
+    for each in standing:
+        built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
+        group = built.get("group", "core")
+        name = "standard-input.json" if group == "core" else f"standard-input-{group}.json"
+        inputs[name] = artifacts.joinpath(name).read_bytes()
+        contracts.append(
+            {
+                "name": f"{built['source']}:{each.name}",
+                "address": show_address(each.address),
+                "compiler": built["compiler"],
+                "standardInput": name,
+                "constructorArguments": each.creation[len(built["bytecode"]) // 2 :].hex(),
+            }
+        )
+    summary = json.dumps({"chainId": chain_id, "contracts": contracts}, indent=2) + "\n"
+    written = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, data in {**inputs, SUMMARY: summary.encode()}.items():
+            write_whole(folder / name, data)
+            written.append(folder / name)
+    except OSError as error:
+        raise InputError(f"the folder {folder} cannot be written to: {error.strerror}") from None
+    return written

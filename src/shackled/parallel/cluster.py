@@ -1,0 +1,159 @@
+"""Machines: the workers of a dask.distributed cluster, each with an embedded EVM."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from ..chain import open_chain
+from ..errors import InputError, RenderError
+from ..scene.codec import Rectangle
+from ..scene.scene import Scene
+from .evm import limited
+from .part import Piece, draw_part
+from .store import contracts_digest
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+#: Seconds within which a scheduler must answer.
+PATIENCE = 15
+#: The parts that are on their way to each worker, so that none has to wait for the next.
+AHEAD = 2
+#: Seconds that a cluster of our own has to stop by itself.
+STOPPING = 10
+
+
+class ClusterPlace:
+    """A cluster: one that runs at an address, or one of this machine, which ends with the job."""
+
+    # its workers were found to have the same contracts as we do
+    distant = False
+    answer_bytes: int | None = None
+
+    def __init__(self, address: str | None, jobs: int, chain: str | None = None, gas: int | None = None) -> None:
+        """address: of a scheduler, as tcp://host:8786; None starts `jobs` workers here. chain, gas: as `ProcessPlace`.
+
+        InputError if dask.distributed is not installed, or a worker does not fit; RenderError if no cluster is there.
+        """
+        try:
+            from distributed import Client
+        except ImportError:
+            raise InputError(
+                "--cluster needs a package that is not installed: pip install 'shackled[cluster]'"
+            ) from None
+        self.gas, self._chain = gas, chain
+        limited(chain, gas)
+        self._local: subprocess.Popen[str] | None = None
+        try:
+            found = address or self._start(jobs)
+            self._client: Client = Client(  # type: ignore[no-untyped-call]
+                found, timeout=PATIENCE, set_as_default=False
+            )
+            workers = self._check()
+        except BaseException as error:
+            self.close()
+            if isinstance(error, InputError) or not isinstance(error, OSError | ValueError | TypeError):
+                raise
+            raise RenderError(
+                f"no dask scheduler answers at {address or 'a port of this machine'}: {_line(error)}"
+            ) from None
+        self.seats = AHEAD * workers
+        self._name = f"dask cluster, {open_chain(chain).name}, {workers} worker" + ("s" if workers != 1 else "")
+
+    @property
+    def name(self) -> str:
+        """What it is, for people."""
+        return self._name
+
+    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        """Renders a part on whichever worker is free."""
+        from distributed import KilledWorker
+
+        try:
+            future = self._client.submit(render_there, self._chain, self.gas, scene, tile, count, pure=False)
+            answer = future.result()
+        except KilledWorker:
+            raise RenderError(
+                "the workers of the cluster died over the same part of the picture, one after the other"
+            ) from None
+        except (InputError, RenderError):
+            raise
+        except Exception as error:
+            raise RenderError(f"the cluster failed: {_line(error)}") from None
+        assert isinstance(answer, Piece)
+        return answer
+
+    def close(self) -> None:
+        """Leaves the cluster, which drops what it still has to do for us; one of our own is stopped."""
+        if hasattr(self, "_client"):
+            with suppress(Exception):
+                self._client.close(timeout=5)  # type: ignore[no-untyped-call]
+        local, self._local = self._local, None
+        if local is not None:
+            # the end of its input ends it
+            local.stdin.close()  # type: ignore[union-attr]
+            try:
+                local.wait(STOPPING)
+            except subprocess.TimeoutExpired:
+                local.kill()
+                local.wait()
+            local.stdout.close()  # type: ignore[union-attr]
+
+    def _start(self, jobs: int) -> str:
+        """The address of a cluster of our own, in a process that ends with this one."""
+        self._local = subprocess.Popen(
+            [sys.executable, "-m", f"{__package__}.local_cluster", str(jobs)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            start_new_session=True,
+        )
+        address = self._local.stdout.readline().strip()  # type: ignore[union-attr]
+        if not address:
+            raise OSError("the cluster did not start")
+        return address
+
+    def _check(self) -> int:
+        """How many workers there are; InputError if one cannot render what we do."""
+        try:
+            self._client.wait_for_workers(1, timeout=PATIENCE)
+            facts = self._client.run(_facts_function())
+        except (OSError, TimeoutError) as error:
+            raise RenderError(f"the dask cluster has no workers: {_line(error)}") from None
+        except Exception as error:
+            raise InputError(
+                f"a worker of the cluster cannot run our code; has it the same Python? {_line(error)}"
+            ) from None
+        for worker, found in facts.items():
+            if found is None:
+                raise InputError(f"the worker {worker} lacks shackled: pip install shackled there")
+            if found != contracts_digest().hex():
+                raise InputError(f"the worker {worker} has other contracts: install the same version of shackled there")
+        return len(facts)
+
+
+def render_there(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    """Runs on a worker."""
+    return draw_part(limited(chain, gas), scene, tile, count)
+
+
+def _facts_function() -> Any:
+    """A function that is sent whole, as it must run where shackled may be missing."""
+
+    def facts() -> str | None:
+        try:
+            from shackled.parallel.store import contracts_digest
+
+            return contracts_digest().hex()
+        except ImportError:
+            return None
+
+    return facts
+
+
+def _line(error: BaseException) -> str:
+    return " ".join((str(error) or type(error).__name__).split())[:200]

@@ -1,0 +1,20 @@
+"""The EVM in which a process renders its parts."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from ..chain import Chain, open_chain
+from ..chain.embedded import EmbeddedChain
+from ..errors import InputError
+
+
+@cache
+def limited(chain: str | None, gas: int | None) -> Chain:
+    """The chain of that name, of which each call gets that much gas; None leaves it as it is."""
+    place = open_chain(chain)
+    if gas is None:
+        return place
+    if not isinstance(place, EmbeddedChain):
+        raise InputError(f"the chain {chain!r} counts no gas: leave out --gas-limit")
+    return type(place)(gas)

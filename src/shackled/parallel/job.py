@@ -1,0 +1,167 @@
+"""From frames to pictures: cut into parts, rendered wherever they may be, put together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..chain import open_chain
+from ..chain.embedded import PyrevmChain
+from ..image import Image, decode_bmp
+from ..scene.codec import Rectangle
+from ..scene.scene import Scene
+from .estimate import Estimate, estimate
+from .listener import Listener, Outline
+from .part import Part, Piece
+from .place import Place
+from .referee import Referee
+from .scheduler import Scheduler
+from .store import Store
+from .tiles import cut, grid
+from .where import Where
+
+#: Parts for each seat, so that all have something to do until the end, as long as they cost at most so much more gas.
+PARTS_PER_SEAT = 4
+MOST_EXTRA = 0.3
+#: Pixels of a part at most: about 50 MB for its pixels and what is worked out about them.
+MOST_PIXELS = 1 << 22
+
+
+@dataclass(frozen=True)
+class Finished:
+    """images: the frames. calls: how many made them. shares: how many of them each place made, by its name."""
+
+    images: list[Image]
+    calls: int
+    estimated_gas: int | None
+    shares: dict[str, int]
+
+
+def render_frames(
+    frames: Sequence[Scene],
+    where: Where,
+    count: bool = True,
+    listener: Listener | None = None,
+    keep: Path | None = None,
+) -> Finished:
+    """Renders frames, all of one size.
+
+    count: whether triangles and pixels are counted, which costs as much time again.
+    keep: a folder in which finished parts are kept until the job is done; whoever uses the pictures removes it.
+    """
+    listener = listener or Listener()
+    started = time.perf_counter()
+    with ExitStack() as stack:
+        places = where.open(listener)
+        for place in places:
+            stack.callback(place.close)
+        stack.callback(listener.ended)
+        expected = _estimate(frames[0], places, where)
+        tiles = plan(frames[0], len(frames), places, expected, where.tile)
+        parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
+        store = Store(keep, frames, count) if keep is not None and len(parts) > 1 else None
+        if store is not None:
+            parts = _planned(store, parts, where)
+        pixels = frames[0].width * frames[0].height
+        gas = None if expected is None else len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
+        listener.planned(Outline(len(parts), len(frames), pixels * len(frames), gas))
+        referee = Referee() if any(place.distant for place in places) else None
+        scheduler = Scheduler(frames, places, count, store, listener, referee)
+        try:
+            pieces = scheduler.run(parts)
+        except BaseException:
+            if store is not None and store.leave():
+                listener.warned(f"finished parts are kept in {store.folder}: the same command goes on from there")
+            raise
+        name = _name(places)
+        seconds = time.perf_counter() - started
+        images = [_assemble(n, scene, pieces, name, seconds / len(frames)) for n, scene in enumerate(frames)]
+        return Finished(images, len(pieces), gas, scheduler.shares)
+
+
+def plan(
+    scene: Scene, frames: int, places: Sequence[Place], expected: Estimate | None, tile: tuple[int, int] | None
+) -> list[Rectangle]:
+    """The tiles of each frame."""
+    width, height = scene.width, scene.height
+    if tile is not None:
+        return list(grid(width, height, *tile))
+    pixels = MOST_PIXELS
+    for place in places:
+        if place.answer_bytes is not None:
+            # two characters a byte, and what is around them
+            pixels = min(pixels, (place.answer_bytes // 2 - 512) // 3)
+        if place.gas is not None and expected is not None:
+            pixels = min(pixels, expected.pixels_within(place.gas))
+    # what does not fit by this reckoning is tried in the smallest tiles that make sense
+    pixels = max(pixels, width, 4096)
+    seats = sum(place.seats for place in places)
+    wanted = 1 if frames >= seats else -(-PARTS_PER_SEAT * seats // frames)
+    if expected is not None and wanted > 1:
+        spare = MOST_EXTRA * expected.gas(width * height) / max(1.0, expected.call)
+        wanted = max(min(wanted, 1 + int(spare)), -(-seats // frames))
+    return cut(width, height, pixels, wanted)
+
+
+def _estimate(scene: Scene, places: Sequence[Place], where: Where) -> Estimate | None:
+    """What a frame will cost; None where that would take as long as the frame itself."""
+    chain = open_chain(None)
+    if not isinstance(chain, PyrevmChain) or any(place.name.startswith("NumPy") for place in places):
+        return None
+    return estimate(scene, chain)
+
+
+def _planned(store: Store, parts: list[Part], where: Where) -> list[Part]:
+    """The parts of an earlier run of the same job, or else those."""
+    earlier = store.read_plan()
+    if earlier is not None and where.tile is None:
+        return earlier
+    store.write_plan(parts)
+    return parts
+
+
+def _assemble(number: int, scene: Scene, pieces: dict[Part, Piece], chain: str, seconds: float) -> Image:
+    """The picture of a frame from its parts."""
+    own = {part.tile: piece for part, piece in pieces.items() if part.frame == number}
+    pixels = np.zeros((scene.height, scene.width, 3), np.uint8)
+    for tile, piece in own.items():
+        drawn = decode_bmp(piece.bmp, tile.width, tile.height)
+        pixels[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = drawn
+    if sum(tile.width * tile.height for tile in own) != scene.width * scene.height:
+        raise AssertionError("the parts of a picture are not the whole")
+    triangles = {piece.triangles for piece in own.values()}
+    return Image(
+        pixels=pixels,
+        bmp=_bmp(pixels, list(own.values())),
+        gas=_sum([piece.gas for piece in own.values()]),
+        intrinsic_gas=_sum([piece.intrinsic_gas for piece in own.values()]),
+        triangles=triangles.pop() if len(triangles) == 1 else None,
+        lit_pixels=_sum([piece.lit_pixels for piece in own.values()]),
+        chain=chain,
+        seconds=seconds,
+    )
+
+
+def _bmp(pixels: np.ndarray, pieces: list[Piece]) -> bytes:
+    """The file: the one that the contract made, or, of tiles, the same as it would have made."""
+    if len(pieces) == 1:
+        return pieces[0].bmp
+    from ..reference.bmp import encode_bmp
+
+    return encode_bmp(pixels)
+
+
+def _sum(numbers: Sequence[int | None]) -> int | None:
+    known = [number for number in numbers if number is not None]
+    return sum(known) if len(known) == len(numbers) else None
+
+
+def _name(places: Sequence[Place]) -> str:
+    if len(places) == 1:
+        return places[0].name
+    return f"{len(places)} nodes: {', '.join(place.name.removeprefix('node ') for place in places)}"

@@ -1,0 +1,65 @@
+"""A place where parts are rendered, several at a time if it has several seats."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from ..chain.chain import Chain
+from ..chain.refusal import out_of_gas
+from ..scene.codec import Rectangle
+from ..scene.scene import Scene
+from .part import Piece, draw_part
+
+
+class Place(Protocol):
+    """Where parts are rendered.
+
+    seats: how many parts at a time. distant: whether its answers come from somewhere that could be wrong.
+    gas: what a call may use, and answer_bytes: how long its answer may be; None where there is no such limit.
+    """
+
+    seats: int
+    distant: bool
+    gas: int | None
+    answer_bytes: int | None
+
+    @property
+    def name(self) -> str:
+        """What it is, for people."""
+
+    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        """Renders a part; seats are numbered from 0, and each does one part at a time."""
+
+    def close(self) -> None:
+        """Stops what still runs. It may be called while seats work, and more than once."""
+
+
+class ChainPlace:
+    """A chain: in this process, or a node, with so many calls at a time."""
+
+    def __init__(
+        self,
+        chain: Chain,
+        seats: int = 1,
+        distant: bool = False,
+        gas: int | None = None,
+        answer_bytes: int | None = None,
+    ) -> None:
+        """See `Place`."""
+        self.chain, self.seats, self.distant = chain, seats, distant
+        self.gas, self.answer_bytes = gas, answer_bytes
+
+    @property
+    def name(self) -> str:
+        """That of the chain."""
+        return self.chain.name
+
+    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        """Renders a part."""
+        piece = draw_part(self.chain, scene, tile, count)
+        if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
+            raise out_of_gas(self.gas)
+        return piece
+
+    def close(self) -> None:
+        """Nothing runs on."""

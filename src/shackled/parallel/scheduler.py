@@ -1,0 +1,289 @@
+"""Spreads parts over places.
+
+Each seat of a place takes the next part when it is free, so that slow places get fewer. What a place cannot do goes
+back to the others; a place that fails again and again, or answers wrongly, is left out.
+"""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from ..errors import (
+    NodeBusyError,
+    NodeError,
+    NodeTimeoutError,
+    OutOfGasError,
+    RenderError,
+    TooLargeError,
+    WrongChainError,
+)
+from ..scene.scene import Scene
+from .listener import Listener
+from .part import Part, Piece, check_part
+from .place import Place
+from .referee import Referee
+from .store import Store
+from .tiles import area, halves
+
+#: How often in a row a place may fail, be busy, and, while there are others, find parts too large.
+FAILURES, BUSY, MISSES = 3, 10, 6
+#: The same for parts that take too long: while it is waited for one, nobody else can do it.
+TIMEOUTS = 2
+#: The first pause of a place that failed or is busy, and the longest, in seconds.
+PAUSE, LONGEST_PAUSE = 0.25, 30.0
+#: What a place says when a smaller part may do.
+TOO_MUCH = (OutOfGasError, TooLargeError, NodeTimeoutError)
+
+
+class WrongAnswer(RenderError):
+    """A place drew something else than the contracts draw."""
+
+
+@dataclass(eq=False)
+class Bench:
+    """A place with what was seen of it.
+
+    capacity: the pixels of a part that it can do, as far as is known. failures, busy, misses: in a row.
+    unchecked: the parts that it did and that nobody checked. until: when it may be asked again.
+    """
+
+    place: Place
+    capacity: int = 1 << 62
+    failures: int = 0
+    busy: int = 0
+    misses: int = 0
+    until: float = 0.0
+    checked: bool = False
+    done: int = 0
+    left: bool = False
+    unchecked: list[Part] = field(default_factory=list)
+
+
+class Scheduler:
+    """Renders the parts of some frames."""
+
+    def __init__(
+        self,
+        frames: Sequence[Scene],
+        places: Sequence[Place],
+        count: bool,
+        store: Store | None = None,
+        listener: Listener | None = None,
+        referee: Referee | None = None,
+    ) -> None:
+        """count: whether parts are counted. referee: None checks nothing."""
+        self._frames, self._count = frames, count
+        self._benches = [Bench(place) for place in places]
+        self._store, self._listener, self._referee = store, listener or Listener(), referee
+        self._changed = threading.Condition(threading.RLock())
+        self._pending: deque[Part] = deque()
+        self._flying = 0
+        self._results: dict[Part, Piece] = {}
+        self._error: BaseException | None = None
+        self._stopped = False
+
+    def run(self, parts: Sequence[Part]) -> dict[Part, Piece]:
+        """The finished parts; those given may have been cut further. An error ends all of it."""
+        with self._changed:
+            for part in parts:
+                self._push(part)
+        seats = [(bench, seat) for bench in self._benches for seat in range(bench.place.seats)]
+        # daemons: a node that does not answer shall not keep the process from ending
+        threads = [threading.Thread(target=self._sit, args=each, daemon=True) for each in seats]
+        try:
+            for thread in threads:
+                thread.start()
+            with self._changed:
+                while not self._over():
+                    # with a time, so that Ctrl-C comes through on every platform
+                    self._changed.wait(0.5)
+                if self._error is not None:
+                    raise self._error
+                return dict(self._results)
+        finally:
+            with self._changed:
+                self._stopped = True
+                self._changed.notify_all()
+
+    @property
+    def shares(self) -> dict[str, int]:
+        """How many parts each place did, of those that count."""
+        return {bench.place.name: bench.done for bench in self._benches}
+
+    def _over(self) -> bool:
+        return self._stopped or self._error is not None or not (self._pending or self._flying)
+
+    def _sit(self, bench: Bench, seat: int) -> None:
+        """What the thread of a seat does."""
+        while (part := self._take(bench)) is not None:
+            piece: Piece | None = None
+            checked, failure = False, None
+            try:
+                piece = bench.place.work(seat, self._frames[part.frame], part.tile, self._count)
+                checked = bench.place.distant and self._check(bench, part, piece)
+            except BaseException as error:
+                failure = error
+            with self._changed:
+                self._flying -= 1
+                try:
+                    if self._stopped:
+                        return
+                    if failure is not None:
+                        self._failed(bench, part, failure)
+                    elif bench.left or piece is None:
+                        self._pending.appendleft(part)
+                    else:
+                        self._finished(bench, part, piece, checked)
+                except BaseException as error:
+                    # of a listener, or of the disk
+                    self._error = error
+                finally:
+                    self._changed.notify_all()
+
+    def _take(self, bench: Bench) -> Part | None:
+        """The next part for a place; None if there is nothing more to do for it."""
+        with self._changed:
+            while not self._over() and not bench.left:
+                pause = bench.until - time.monotonic()
+                part = None if pause > 0 else self._next(bench)
+                if part is not None:
+                    self._flying += 1
+                    return part
+                self._changed.wait(pause if pause > 0 else None)
+            return None
+
+    def _next(self, bench: Bench) -> Part | None:
+        """The first part that a place can do; if there are only larger ones, a piece of the first."""
+        for part in self._pending:
+            if area(part.tile) <= bench.capacity:
+                self._pending.remove(part)
+                return part
+        if not self._pending:
+            return None
+        part = self._pending.popleft()
+        while area(part.tile) > bench.capacity and len(cut := halves(part.tile)) > 1:
+            part = Part(part.frame, cut[0])
+            self._pending.appendleft(Part(part.frame, cut[1]))
+        return part
+
+    def _check(self, bench: Bench, part: Part, piece: Piece) -> bool:
+        """Whether a part was checked. WrongAnswer if it is not what it should be."""
+        scene = self._frames[part.frame]
+        try:
+            check_part(piece, part.tile)
+        except RenderError as error:
+            raise WrongAnswer(str(error)) from None
+        with self._changed:
+            first, bench.checked = not bench.checked, True
+            peers = [each for each in self._benches if each.place.distant and not each.left and each is not bench]
+        if self._referee is None or not self._referee.wants(scene, part.tile, first, bool(peers)):
+            return False
+        if not self._referee.fast and peers:
+            try:
+                if random.choice(peers).place.work(0, scene, part.tile, self._count).same(piece):
+                    return True
+            except NodeError:
+                return False
+        if not self._referee.agrees(scene, part.tile, piece):
+            raise WrongAnswer("its picture is not what the contracts draw")
+        return True
+
+    def _push(self, part: Part) -> None:
+        """Takes a part from the store, or else puts it in the queue."""
+        piece = self._store.read(part) if self._store is not None else None
+        if piece is None:
+            self._pending.append(part)
+        else:
+            self._results[part] = piece
+            self._listener.advanced(area(part.tile))
+
+    def _finished(self, bench: Bench, part: Part, piece: Piece, checked: bool) -> None:
+        bench.failures = bench.busy = bench.misses = 0
+        bench.done += 1
+        if bench.place.distant and not checked:
+            bench.unchecked.append(part)
+        if self._store is not None:
+            self._store.write(part, piece)
+        self._results[part] = piece
+        self._listener.advanced(area(part.tile))
+
+    def _failed(self, bench: Bench, part: Part, error: BaseException) -> None:
+        """Decides what becomes of a part, and of the place that did not do it."""
+        if isinstance(error, TOO_MUCH):
+            self._too_much(bench, part, error)
+            return
+        if isinstance(error, WrongAnswer):
+            self._pending.appendleft(part)
+            self._leave(bench, RenderError(f"the {bench.place.name} answers wrongly: {error}"))
+            return
+        if not isinstance(error, NodeError):
+            self._error = error
+            return
+        self._pending.appendleft(part)
+        if isinstance(error, NodeBusyError):
+            bench.busy += 1
+            pause = PAUSE * 2**bench.busy if error.retry_after is None else error.retry_after
+            given_up = bench.busy > BUSY or pause > 4 * LONGEST_PAUSE
+        else:
+            bench.failures += 1
+            pause = PAUSE * 2**bench.failures
+            given_up = bench.failures >= FAILURES or isinstance(error, WrongChainError)
+        if given_up:
+            self._leave(bench, error)
+        else:
+            # not all at the same moment again
+            least = pause if isinstance(error, NodeBusyError) and error.retry_after is not None else pause / 2
+            bench.until = time.monotonic() + random.uniform(least, max(least, min(pause, LONGEST_PAUSE)) * 1.25)
+
+    def _too_much(self, bench: Bench, part: Part, error: BaseException) -> None:
+        pixels = area(part.tile)
+        bench.misses += 1
+        others = [each for each in self._benches if each is not bench and not each.left]
+        if not isinstance(error, OutOfGasError):
+            # gas depends on what there is to see, but answers and time on the number of pixels
+            bench.capacity = min(bench.capacity, max(1, pixels // 2))
+        able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
+        parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
+        if len(parts) == 1 and not others:
+            self._error = type(error)(
+                f"{error}; a part of {part.tile.width} x {part.tile.height} pixels is still too much: "
+                "take fewer triangles (--max-triangles)"
+            )
+            return
+        for each in reversed(parts):
+            if self._store is not None and (piece := self._store.read(each)) is not None:
+                self._results[each] = piece
+                self._listener.advanced(area(each.tile))
+            else:
+                self._pending.appendleft(each)
+        if others and bench.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
+            self._leave(bench, error)
+        elif able:
+            # let the others take it
+            bench.until = time.monotonic() + PAUSE * 2**bench.misses
+
+    def _leave(self, bench: Bench, error: BaseException) -> None:
+        """Leaves a place out, and forgets what it did if nobody can vouch for it."""
+        if bench.left:
+            return
+        bench.left = True
+        wrong = not isinstance(error, NodeError | OutOfGasError)
+        revoked = [part for part in bench.unchecked if wrong and part in self._results]
+        for part in revoked:
+            del self._results[part]
+            bench.done -= 1
+            if self._store is not None:
+                self._store.forget(part)
+            self._pending.append(part)
+            self._listener.advanced(-area(part.tile))
+        if all(each.left for each in self._benches):
+            several = len(self._benches) > 1
+            self._error = RenderError(f"no place is left to render: {error}") if several else error
+            return
+        again = f"; {len(revoked)} parts are rendered again" if revoked else ""
+        self._listener.warned(f"{error}; it is left out{again}")

@@ -1,0 +1,104 @@
+"""Where pictures are rendered, and in what portions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..chain import Chain, open_node
+from ..errors import InputError, NodeError
+from .evm import limited
+from .listener import Listener
+from .place import ChainPlace, Place
+from .processes import ProcessPlace
+
+MOST_JOBS = 256
+
+
+@dataclass(frozen=True)
+class Where:
+    """chain: by name or itself; None takes the fastest EVM here.
+    jobs: worker processes here, calls at a time to each node, or workers of a cluster of our own; None is 1, and for a
+    cluster one for each processor.
+    rpc: addresses of nodes. address: of a renderer that is deployed there. timeout: seconds that a node may take.
+    cluster: address of a dask scheduler, "" for a cluster of our own.
+    gas_limit: what a call may use. tile: width and height of the parts of a picture; None takes what fits.
+    """
+
+    chain: Chain | str | None = None
+    jobs: int | None = None
+    rpc: Sequence[str] = ()
+    address: str | None = None
+    timeout: float | None = None
+    cluster: str | None = None
+    gas_limit: int | None = None
+    tile: tuple[int, int] | None = None
+
+    def __post_init__(self) -> None:
+        jobs, gas = self.jobs, self.gas_limit
+        if jobs is not None and not (isinstance(jobs, int) and not isinstance(jobs, bool) and 1 <= jobs <= MOST_JOBS):
+            raise InputError(f"--jobs must be from 1 to {MOST_JOBS}, not {jobs!r}")
+        if gas is not None and not (isinstance(gas, int) and gas >= 1):
+            raise InputError(f"--gas-limit must be a whole number of gas from 1, not {gas!r}")
+        if self.tile is not None and not all(isinstance(side, int) and side >= 1 for side in self.tile):
+            raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
+        if self.rpc and self.cluster is not None:
+            raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
+        if self.rpc and self.chain is not None:
+            raise InputError("--rpc is a place of its own: leave out --chain")
+        for name, value in (("--address", self.address), ("--rpc-timeout", self.timeout)):
+            if value is not None and not self.rpc:
+                raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+        named = self.chain is None or isinstance(self.chain, str)
+        if not named and (self.count > 1 or self.cluster is not None):
+            raise InputError("a chain itself cannot be given to other processes: give its name")
+
+    @property
+    def count(self) -> int:
+        """How many jobs there are."""
+        return self.jobs or (os.cpu_count() or 1 if self.cluster == "" else 1)
+
+    @property
+    def alone(self) -> bool:
+        """Whether a picture is one call in this process."""
+        several = self.count > 1 or self.rpc or self.cluster is not None
+        return not (several or self.gas_limit is not None or self.tile is not None)
+
+    def open(self, listener: Listener) -> list[Place]:
+        """The places. Nodes that cannot be used are left out with a warning, as long as there are others."""
+        chain = self.chain
+        if self.cluster is not None:
+            from .cluster import ClusterPlace
+
+            assert chain is None or isinstance(chain, str)
+            return [ClusterPlace(self.cluster or None, self.count, chain, self.gas_limit)]
+        if self.rpc:
+            return self._open_nodes(listener)
+        if chain is not None and not isinstance(chain, str):
+            return [ChainPlace(chain, gas=self.gas_limit)]
+        if self.count > 1:
+            limited(chain, self.gas_limit)
+            return [ProcessPlace(chain, self.count, self.gas_limit)]
+        return [ChainPlace(limited(chain, self.gas_limit), gas=self.gas_limit)]
+
+    def _open_nodes(self, listener: Listener) -> list[Place]:
+        places: list[Place] = []
+        urls = list(dict.fromkeys(self.rpc))
+        for url in urls:
+            try:
+                places.append(self._open_node(url))
+            except NodeError as error:
+                if len(urls) == 1:
+                    raise
+                listener.warned(f"{error}; it is left out")
+                last = error
+        if not places:
+            raise last
+        return places
+
+    def _open_node(self, url: str) -> Place:
+        node = open_node(url, self.address, self.timeout)
+        limits = node.limits()
+        gas = limits.gas if self.gas_limit is None else min(limits.gas, self.gas_limit)
+        return ChainPlace(node, self.count, distant=True, gas=gas, answer_bytes=limits.answer_bytes)

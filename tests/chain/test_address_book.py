@@ -1,0 +1,91 @@
+"""The address book: a file that is whole, or said to be broken."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from shackled.chain.address_book import VARIABLE, AddressBook, book_path
+from shackled.chain.addresses import parse_address, show_address
+from shackled.errors import InputError
+
+ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")
+
+
+def test_what_was_written_is_found(tmp_path: Path) -> None:
+    book = AddressBook(tmp_path / "new" / "addresses.json")
+    assert book.find(1, "Engine") is None
+    book.write(1, {"Engine": ONE})
+    book.write(10, {"Engine": TWO})
+    book.write(1, {"Renderer": TWO})
+    assert book.entries(1) == {"Engine": ONE, "Renderer": TWO}
+    assert book.find(10, "Engine") == TWO
+    assert book.find(5, "Engine") is None
+    assert AddressBook(book.path).entries(1) == book.entries(1)
+    # nothing else is left in the folder
+    assert [path.name for path in book.path.parent.iterdir()] == ["addresses.json"]
+
+
+def test_what_is_the_same_is_not_written_again(tmp_path: Path) -> None:
+    book = AddressBook(tmp_path / "addresses.json")
+    book.write(1, {"Engine": ONE})
+    book.path.chmod(0o444)
+    before = book.path.stat()
+    book.write(1, {"Engine": ONE})
+    assert book.path.stat() == before
+
+
+def test_where_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "my.json"))
+    assert book_path() == tmp_path / "my.json"
+    monkeypatch.delenv(VARIABLE)
+    assert book_path().parts[-2:] == ("shackled", "addresses.json") or "shackled" in str(book_path())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{",
+        "[]",
+        "{}",
+        '{"chains": []}',
+        '{"chains": {"one": {}}}',
+        '{"chains": {"1": 5}}',
+        '{"chains": {"1": {"A": 5}}}',
+    ],
+)
+def test_a_broken_book(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "addresses.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=r"the address book .* is broken.*: repair or remove it, or name another"):
+        AddressBook(path).find(1, "Engine")
+    with pytest.raises(InputError, match="is broken"):
+        AddressBook(path).write(1, {"Engine": ONE})
+    assert path.read_text() == text
+
+
+def test_an_address_that_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "addresses.json"
+    path.write_text(json.dumps({"chains": {"1": {"Engine": "0x12"}}}))
+    with pytest.raises(InputError, match=r"Engine on chain 1 in .* must be an address"):
+        AddressBook(path).find(1, "Engine")
+
+
+def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match=r"cannot be (written|read)"):
+        AddressBook(tmp_path / "file" / "addresses.json").write(1, {"Engine": ONE})
+    with pytest.raises(InputError, match="cannot be read"):
+        AddressBook(tmp_path).find(1, "Engine")
+
+
+def test_capitals_are_the_checksum() -> None:
+    """The first example of EIP-55."""
+    assert show_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
+    for text in (show_address(TWO), show_address(TWO).lower(), "0x" + TWO.hex().upper()):
+        assert parse_address(text, "it") == TWO
+    with pytest.raises(InputError, match="it is mistyped"):
+        parse_address("0x5aaeb6053F3E94C9b9A09f33669435E7Ef1BeAed", "it")

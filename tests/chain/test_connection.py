@@ -1,0 +1,272 @@
+"""Connections: every way in which a node can fail is one line that says what to do, and never shows a key."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import re
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime, timedelta
+from email.utils import format_datetime
+from typing import Any
+
+import pytest
+
+from nodes import Reply, failure, free_port, result, serving
+from shackled.chain.connection import Connection
+from shackled.chain.failures import retry_after, revert_data
+from shackled.errors import (
+    InputError,
+    NodeBusyError,
+    NodeError,
+    NodeTimeoutError,
+    NodeUnreachableError,
+    OutOfGasError,
+    RenderError,
+    RevertError,
+    TooLargeError,
+    WrongChainError,
+)
+
+SECRET = "0123456789abcdefsecret"
+
+
+def ask(reply: Reply, timeout: float = 20, attempts: int = 1) -> Any:
+    """What a connection makes of a reply."""
+    with serving(lambda _: reply) as url:
+        return Connection(f"{url}/v3/{SECRET}", timeout, attempts).request("eth_call", {}, "latest")
+
+
+def check(error: RenderError) -> None:
+    """One line, with the name of the node, and without the key."""
+    assert "\n" not in str(error)
+    assert SECRET not in str(error)
+    assert "node 127.0.0.1:" in str(error) or isinstance(error, RevertError)
+
+
+def test_an_answer() -> None:
+    with serving(lambda request: result([request["method"], request["params"], request["jsonrpc"]])) as url:
+        connection = Connection(url)
+        assert connection.request("eth_call", {"to": "0x1"}, "latest") == ["eth_call", [{"to": "0x1"}, "latest"], "2.0"]
+        assert connection.request("eth_chainId") == ["eth_chainId", [], "2.0"]
+        assert connection.name == f"node {url.removeprefix('http://')}"
+
+
+@pytest.mark.parametrize(
+    ("reply", "kind", "words"),
+    [
+        (Reply(b"<html>hello</html>"), NodeUnreachableError, "what is not JSON"),
+        (Reply(b""), NodeUnreachableError, "answered with nothing"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "what is not JSON"),
+        (Reply(b"[]"), NodeUnreachableError, "JSON that is not JSON-RPC"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 0}'), NodeUnreachableError, "JSON that is not JSON-RPC"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered another request"),
+        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "broke off"),
+        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "broke off"),
+        (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
+        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
+        (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller --size"),
+        (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
+        (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
+        (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
+        (Reply(b"", 401), NodeError, "HTTP status 401: it lets nobody in without the right key"),
+        (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
+        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it sends callers elsewhere"),
+        (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot)"),
+        (failure("daily limit", 429, status=429), NodeBusyError, "less often"),
+        (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
+    ],
+)
+def test_answers_over_http_that_are_none(reply: Reply, kind: type[RenderError], words: str) -> None:
+    with pytest.raises(kind, match=re.escape(words)) as error:
+        ask(reply)
+    assert type(error.value) is kind
+    check(error.value)
+
+
+#: As nodes and hosts word them.
+WORDINGS = [
+    # geth, erigon and those made of it
+    (OutOfGasError, -32000, "out of gas"),
+    (OutOfGasError, -32000, "gas required exceeds allowance (50000000)"),
+    (OutOfGasError, -32000, "err: intrinsic gas too low: have 21000, want 3000000 (supplied gas 21000)"),
+    (OutOfGasError, -32000, "err: insufficient gas for floor data gas cost: have 5, want 9 (supplied gas 5)"),
+    (OutOfGasError, -32000, "contract creation code storage out of gas"),
+    (TooLargeError, -32000, "max initcode size exceeded: code size 60000, limit 49152"),
+    (NodeTimeoutError, -32000, "execution aborted (timeout = 5s)"),
+    (NodeTimeoutError, -32002, "request timed out"),
+    (TooLargeError, -32003, "response too large"),
+    (NodeBusyError, -32000, "header not found"),
+    (NodeBusyError, -32000, "missing trie node 45e9 (path )"),
+    (WrongChainError, -32000, "invalid opcode: MCOPY"),
+    # nethermind
+    (OutOfGasError, -32015, "OutOfGas"),
+    (OutOfGasError, -32015, "VM execution error: intrinsic gas too low"),
+    # besu
+    (OutOfGasError, -32000, "Intrinsic gas exceeds gas limit"),
+    (OutOfGasError, -32603, "INSUFFICIENT_GAS"),
+    (WrongChainError, -32603, "Invalid opcode: 0x5e"),
+    # reth
+    (OutOfGasError, -32003, "out of gas: gas required exceeds: 50000000"),
+    (OutOfGasError, -32003, "out of gas: gas exhausted during memory expansion: 50000000"),
+    (TooLargeError, -32008, "Response is too big"),
+    (TooLargeError, -32007, "Request is too big"),
+    # anvil and hardhat
+    (OutOfGasError, -32003, "EVM error OutOfGas"),
+    (OutOfGasError, -32003, "CallGasCostMoreThanGasLimit { initial_gas: 21000, gas_limit: 5 }"),
+    (OutOfGasError, -32603, "Transaction ran out of gas"),
+    (OutOfGasError, -32000, "Transaction requires at least 30000 gas but got 21000"),
+    (WrongChainError, -32603, "EVM error NotActivated"),
+    # hosts
+    (NodeBusyError, 429, "Your app has exceeded its compute units per second capacity."),
+    (NodeBusyError, -32005, "daily request count exceeded, request rate limited"),
+    (NodeBusyError, -32007, "50/second request limit reached - reduce calls per second"),
+    (NodeBusyError, -32090, "Too many requests, reason: call rate limit exhausted, retry in 10s"),
+    (TooLargeError, -32008, "Response size is larger than 150MB limit."),
+    (TooLargeError, -32602, "response size exceeded"),
+    # neither
+    (NodeError, -32601, "the method eth_call does not exist/is not available"),
+    (NodeError, -32602, "invalid argument 0: json: cannot unmarshal"),
+    (RevertError, -32000, "execution reverted"),
+]
+
+
+@pytest.mark.parametrize(("kind", "code", "message"), WORDINGS)
+def test_what_nodes_say(kind: type[RenderError], code: int, message: str) -> None:
+    with pytest.raises(kind) as error:
+        ask(failure(message, code))
+    assert type(error.value) is kind
+    check(error.value)
+
+
+@pytest.mark.parametrize(
+    "data",
+    ["0x1234abcd", "Reverted 0x1234abcd", {"data": "0x1234abcd"}, {"message": "no", "data": {"result": "0x1234abcd"}}],
+)
+def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
+    with pytest.raises(RevertError) as error:
+        ask(failure("execution reverted: out of gas is not what it is", 3, data))
+    assert error.value.data == bytes.fromhex("1234abcd")
+    assert revert_data("Reverted 0x123") is None
+    assert revert_data(None) is None
+
+
+def test_a_node_that_repeats_the_address() -> None:
+    with pytest.raises(NodeError, match=r"no such project: /v3/\*\*\*$") as error:
+        ask(failure(f"no such project: /v3/{SECRET}"))
+    check(error.value)
+
+
+@pytest.mark.parametrize("url", [f"http://user:{SECRET}@127.0.0.1:1", f"http://127.0.0.1:1/?key={SECRET}"])
+def test_keys_elsewhere_in_the_address(url: str) -> None:
+    connection = Connection(url)
+    assert connection.name == "node 127.0.0.1:1"
+    with pytest.raises(NodeUnreachableError) as error:
+        connection.request("eth_chainId")
+    check(error.value)
+
+
+@pytest.mark.parametrize(
+    "url", ["", "localhost:8545", "ftp://127.0.0.1", "http://", "http://[", "http://a:b:c/key0123456"]
+)
+def test_addresses_that_are_none(url: str) -> None:
+    with pytest.raises(InputError, match=r"--rpc must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+        Connection(url)
+    assert "key0123456" not in str(error.value)
+
+
+def test_timeouts_that_are_none() -> None:
+    with pytest.raises(InputError, match="--rpc-timeout must be more than 0 seconds, not 0"):
+        Connection("http://127.0.0.1", 0)
+
+
+def test_nobody_there() -> None:
+    with pytest.raises(NodeUnreachableError, match="cannot be reached; is it running, and is its address right"):
+        Connection(f"http://127.0.0.1:{free_port()}").request("eth_chainId")
+    with pytest.raises(NodeUnreachableError, match="cannot be reached"):
+        Connection("http://nobody.invalid").request("eth_chainId")
+
+
+@pytest.mark.parametrize("reply", [Reply(delay=5), Reply(b"x" * 100, drip=0.05)])
+def test_too_slow(reply: Reply) -> None:
+    """It ends in time even if a byte comes now and then."""
+    with pytest.raises(NodeTimeoutError, match=r"did not answer within 0.3 seconds.* --rpc-timeout"):
+        ask(reply, timeout=0.3)
+
+
+def test_a_busy_node_is_asked_again() -> None:
+    replies = iter([Reply(b"", 429, {"Retry-After": "0"}), failure("rate limit", -32005), result("0x7")])
+    with serving(lambda _: next(replies)) as url:
+        assert Connection(url, attempts=3).chain_id == 7
+
+
+def test_a_busy_node_is_not_waited_for_too_long() -> None:
+    with pytest.raises(NodeBusyError) as error:
+        ask(Reply(b"", 429, {"Retry-After": "3600"}), attempts=3)
+    assert error.value.retry_after == 3600
+    assert pickle.loads(pickle.dumps(error.value)).retry_after == 3600
+
+
+def test_when_to_try_again() -> None:
+    soon = format_datetime(datetime.now(UTC) + timedelta(seconds=90), usegmt=True)
+    assert 80 < (retry_after({"Retry-After": soon}) or 0) <= 90
+    assert retry_after({"Retry-After": "Wed, 21 Oct 2015 07:28:00 GMT"}) == 0
+    assert retry_after({"Retry-After": "soon"}) is None
+    assert retry_after({"Retry-After": "nan"}) is None
+    assert retry_after({}) is None
+
+
+@contextmanager
+def closing() -> Iterator[str]:
+    """A server that closes each connection after one answer, without saying so."""
+
+    def serve() -> None:
+        while True:
+            try:
+                connection, _ = listener.accept()
+            except OSError:
+                return
+            with connection, connection.makefile("rb") as lines:
+                size = 0
+                while (line := lines.readline()) not in (b"\r\n", b""):
+                    if line.lower().startswith(b"content-length:"):
+                        size = int(line.split(b":")[1])
+                number = json.loads(lines.read(size))["id"]
+                body = json.dumps({"jsonrpc": "2.0", "id": number, "result": "0x1"}).encode()
+                connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
+
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        threading.Thread(target=serve, daemon=True).start()
+        yield f"http://127.0.0.1:{listener.getsockname()[1]}"
+        listener.shutdown(socket.SHUT_RDWR)
+
+
+def test_connections_that_were_closed_meanwhile() -> None:
+    with closing() as url:
+        connection = Connection(url)
+        assert [connection.number("eth_blockNumber") for _ in range(5)] == [1] * 5
+
+
+def test_the_wrong_chain() -> None:
+    with serving(lambda _: result("0x1")) as url:
+        connection = Connection(url)
+        connection.expect_chain(None)
+        connection.expect_chain(1)
+        with pytest.raises(WrongChainError, match="belongs to chain 1, not to chain 10"):
+            connection.expect_chain(10)
+
+
+@pytest.mark.parametrize("value", [None, "0x123", "hello", 5, "0xzz"])
+def test_results_of_another_type(value: Any) -> None:
+    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="what is no string of bytes"):
+        Connection(url).data("eth_call", {})
+
+
+def test_web3_over_a_connection() -> None:
+    with serving(lambda request: result({"eth_chainId": "0x5", "eth_blockNumber": "0x20"}[request["method"]])) as url:
+        web3 = Connection(url).web3
+        assert (web3.eth.chain_id, web3.eth.block_number) == (5, 32)

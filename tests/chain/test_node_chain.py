@@ -1,0 +1,389 @@
+"""Pictures from nodes: however a node gets the contracts, they are those of the embedded EVM, for the same gas."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
+from shackled import Background, Camera, Light, Material, Object, Scene
+from shackled.artifacts import artifact
+from shackled.bench.anvil import Anvil
+from shackled.chain import open_chain, open_node, open_place
+from shackled.chain.address_book import VARIABLE, AddressBook
+from shackled.chain.addresses import show_address
+from shackled.chain.embedded import EmbeddedChain, intrinsic_gas
+from shackled.chain.node import MAX_INIT_CODE, NodeChain
+from shackled.datasets.teapot import teapot
+from shackled.errors import (
+    InputError,
+    NodeError,
+    NodeUnreachableError,
+    OutOfGasError,
+    RenderError,
+    RevertError,
+    WrongChainError,
+)
+from shackled.gas.search import search, suffices
+from shackled.scene.codec import Rectangle, encode
+
+pytestmark = needs_anvil
+
+POT = teapot(2)
+SCENES = {
+    "smooth": Scene(
+        [Object(POT, material=Material("smooth"), cull=False)],
+        Camera(eye=(2, 4, 8), target=(0, 1.5, 0)),
+        [Light("point", (3, 6, 5)), Light("directional", (-1, 0.5, 0), (90, 60, 30))],
+        Background("#102040", "#a0b0c0"),
+        width=40,
+        height=28,
+    ),
+    "empty": Scene([], width=5, height=3),
+}
+TILE = Rectangle(7, 3, 20, 11)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """No test reads or writes the book of whoever runs it."""
+    path = tmp_path_factory.mktemp("book") / "addresses.json"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(VARIABLE, str(path))
+        yield path
+
+
+@pytest.fixture(scope="module")
+def embedded() -> EmbeddedChain:
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    return chain
+
+
+@pytest.fixture(scope="module")
+def bare() -> Iterator[Anvil]:
+    """With nothing deployed, at its default limits."""
+    with anvil() as node:
+        yield node
+
+
+def put(node: Anvil, address: bytes, code: bytes) -> None:
+    node.rpc("anvil_setCode", "0x" + address.hex(), "0x" + code.hex())
+
+
+@pytest.fixture(scope="module")
+def deployed(embedded: EmbeddedChain) -> Iterator[Anvil]:
+    """With the contracts where `shackled deploy` puts them."""
+    with anvil() as node:
+        for name in ("Engine", "Renderer"):
+            put(node, embedded.address(name), embedded.code(name))
+        yield node
+
+
+def check(node: NodeChain, embedded: EmbeddedChain, way: str) -> None:
+    """All that can be asked of it."""
+    assert "(" not in node.name
+    for scene in SCENES.values():
+        assert node.draw(scene) == embedded.draw(scene)
+        assert node.count(scene) == embedded.count(scene)
+    assert node.name == f"{node.connection.name} ({way})"
+    assert node.draw(SCENES["smooth"], TILE) == embedded.draw(SCENES["smooth"], TILE)
+    assert node.count(SCENES["smooth"], TILE) == embedded.count(SCENES["smooth"], TILE)
+    # what the contract refuses, and what takes too much gas
+    data = bytearray(encode(artifact("Renderer").selectors["render"], SCENES["empty"]))
+    data[4 + 32 : 4 + 64] = bytes(32)
+    with pytest.raises(RenderError, match=r"^the contract refused: CanvasSize\(width=0, height=3\)$"):
+        node.call("Renderer", bytes(data))
+    data = bytearray(encode(artifact("Renderer").selectors["render"], SCENES["smooth"]))
+    with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
+        node.call("Renderer", bytes(data), 50_000)
+    for limit in (0, 2_000):
+        with pytest.raises(OutOfGasError, match=f"{limit:,} did not suffice"):
+            node.call("Renderer", bytes(data), limit)
+    # neither is taken for the other
+    with pytest.raises(RenderError, match="not a scene") as refused:
+        node.call("Renderer", b"nothing")
+    assert not isinstance(refused.value, OutOfGasError)
+
+
+def test_nothing_deployed(bare: Anvil, embedded: EmbeddedChain) -> None:
+    check(open_node(bare.url), embedded, "state override")
+
+
+@pytest.mark.parametrize("refuse", [True, False])
+def test_a_node_without_overrides(bare: Anvil, embedded: EmbeddedChain, refuse: bool) -> None:
+    with without_overrides(bare.url, refuse) as url:
+        check(open_node(url), embedded, "creation call")
+
+
+def test_deployed(deployed: Anvil, embedded: EmbeddedChain) -> None:
+    check(open_node(deployed.url), embedded, "deployed")
+    check(open_node(deployed.url, show_address(embedded.address("Renderer"))), embedded, "deployed")
+
+
+def test_deployed_on_a_node_without_overrides(deployed: Anvil, embedded: EmbeddedChain) -> None:
+    with without_overrides(deployed.url) as url:
+        check(open_node(url), embedded, "deployed")
+
+
+def test_deployed_on_a_node_that_only_calls(deployed: Anvil, embedded: EmbeddedChain) -> None:
+    """Then no gas is told."""
+
+    def answer(request: dict[str, object]) -> Reply:
+        parameters = request["params"]
+        assert isinstance(parameters, list)
+        if request["method"] == "eth_call" and (len(parameters) > 2 or "to" not in parameters[0]):
+            return failure("not here", -32601)
+        return forward(deployed.url, request)
+
+    with serving(answer) as url:
+        node = open_node(url)
+        drawing = node.draw(SCENES["smooth"])
+        assert (drawing.bmp, drawing.gas) == (embedded.draw(SCENES["smooth"]).bmp, None)
+        assert node.limits().gas < 30_000_000
+        data = encode(artifact("Renderer").selectors["render"], SCENES["smooth"])
+        with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
+            node.call("Renderer", data, 50_000)
+
+
+def test_the_search_for_gas_agrees(bare: Anvil, deployed: Anvil, embedded: EmbeddedChain) -> None:
+    data = encode(artifact("Renderer").selectors["render"], SCENES["smooth"])
+    expected = search(suffices(embedded, "Renderer", data), upper=5_000_000).gas
+    with without_overrides(bare.url) as url:
+        for place in (bare.url, url, deployed.url):
+            assert search(suffices(open_node(place), "Renderer", data), upper=5_000_000).gas == expected
+
+
+def test_another_contract(bare: Anvil, embedded: EmbeddedChain) -> None:
+    """Of whatever others: of three that build on one another the last."""
+    call = artifact("Genesis").selectors["render"] + (7).to_bytes(32, "big") + (24).to_bytes(32, "big")
+    here = embedded.call("Genesis", call)
+    with without_overrides(bare.url) as url:
+        for place in (bare.url, url):
+            node = open_node(place).call("Genesis", call)
+            assert (node.output, node.gas) == (here.output, here.gas)
+
+
+def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, book: Path) -> None:
+    """A renderer may stand anywhere, with an engine anywhere."""
+    engine, renderer = b"\x11" * 20, b"\x22" * 20
+    try:
+        word = embedded.address("Engine").rjust(32, b"\0")
+        put(bare, engine, embedded.code("Engine"))
+        put(bare, renderer, embedded.code("Renderer").replace(word, engine.rjust(32, b"\0")))
+        check(open_node(bare.url, show_address(renderer)), embedded, "deployed")
+        AddressBook(book).write(bare.connection.chain_id, {"Renderer": renderer, "Engine": engine})
+        check(open_node(bare.url), embedded, "deployed")
+        # a book that is out of date is passed over
+        put(bare, engine, b"")
+        check(open_node(bare.url), embedded, "state override")
+        with pytest.raises(RenderError, match="is not the renderer of this version of shackled"):
+            open_node(bare.url, show_address(renderer)).draw(SCENES["empty"])
+    finally:
+        book.unlink(missing_ok=True)
+        for address in (engine, renderer):
+            put(bare, address, b"")
+
+
+def test_addresses_that_are_wrong(bare: Anvil) -> None:
+    with pytest.raises(RenderError, match=r"^there is no contract at 0x3333.* on chain 31337 \(the node 127"):
+        open_node(bare.url, "0x" + 40 * "3").draw(SCENES["empty"])
+    proxy = "0x4e59b44847b379578588920cA78FbF26c0B4956C"
+    with pytest.raises(RenderError, match=r"^the contract at 0x4e59.* is not the renderer of this version"):
+        open_node(bare.url, proxy).draw(SCENES["empty"])
+    with pytest.raises(InputError, match="--address must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
+        open_node(bare.url, "0x12")
+    with pytest.raises(InputError, match="--address is mistyped"):
+        open_node(bare.url, proxy.replace("cA78F", "Ca78F"))
+    with pytest.raises(InputError, match="--address is a contract on a node: give --rpc too"):
+        open_place(None, None, proxy)
+    with pytest.raises(InputError, match="leave out --chain"):
+        open_place("pyrevm", bare.url)
+
+
+def large_scene(triangles: int) -> Scene:
+    """Of a mesh whose bytes say nothing, so that they can hardly be packed."""
+    from shackled import Mesh
+
+    random = Random(1)
+    vertices = [[random.uniform(-9, 9) for _ in range(3)] for _ in range(triangles // 2)]
+    faces = [random.sample(range(len(vertices)), 3) for _ in range(triangles)]
+    return Scene([Object(Mesh(vertices, faces), scale=0.1)], width=16, height=16)
+
+
+def test_a_mesh_that_has_to_be_packed(bare: Anvil, embedded: EmbeddedChain) -> None:
+    scene = large_scene(1500)
+    size = len(encode(artifact("Renderer").selectors["render"], scene))
+    assert size + len(artifact("Engine").creation + artifact("Renderer").creation) > MAX_INIT_CODE
+    with without_overrides(bare.url) as url:
+        assert open_node(url).draw(scene) == embedded.draw(scene)
+
+
+def test_a_mesh_that_is_too_large_for_a_creation(bare: Anvil) -> None:
+    with without_overrides(bare.url) as url, pytest.raises(NodeError, match=r"too large for a creation call.*49,152"):
+        open_node(url).draw(large_scene(6000))
+
+
+def test_a_node_that_keeps_back_what_is_reverted(bare: Anvil) -> None:
+    def answer(request: dict[str, object]) -> Reply:
+        if request["method"] == "eth_call":
+            parameters = request["params"]
+            assert isinstance(parameters, list)
+            if len(parameters) > 2 or len(parameters[0]["data"]) > 100:
+                return failure("execution reverted", 3)
+        return forward(bare.url, request)
+
+    with serving(answer) as url, pytest.raises(NodeError, match="keeps back what a creation call says"):
+        open_node(url).draw(SCENES["empty"])
+
+
+def test_rules_that_are_too_old() -> None:
+    with anvil("--hardfork", "shanghai") as node, pytest.raises(WrongChainError, match="need the rules of Cancun"):
+        open_node(node.url).draw(SCENES["empty"])
+
+
+@pytest.mark.parametrize("output", ["0x", "0x" + 31 * "00", "0x" + 64 * "ff"])
+def test_answers_that_hold_no_picture(output: str) -> None:
+    answers = {"eth_chainId": "0x1", "eth_getCode": "0x"}
+
+    def answer(request: dict[str, object]) -> Reply:
+        if request["method"] == "eth_call" and "GAS" not in str(request):
+            parameters = request["params"]
+            assert isinstance(parameters, list)
+            probe = parameters[0].get("data", "0x") == "0x"
+            return result("0x" + (10**8).to_bytes(32, "big").hex() if probe else output)
+        return result(answers[str(request["method"])])
+
+    with serving(answer) as url, pytest.raises(RenderError, match=r"do not hold a picture"):
+        open_node(url).draw(SCENES["empty"])
+
+
+def test_limits_are_those_of_the_node(bare: Anvil, embedded: EmbeddedChain) -> None:
+    cap = 50_000_000
+    with serving(lambda request: geth(request, bare.url, cap)) as url:
+        node = open_node(url)
+        limits = node.limits()
+        assert 0.97 * cap < limits.gas < cap
+        drawing = node.draw(SCENES["smooth"])
+        assert drawing == embedded.draw(SCENES["smooth"])
+    # what is promised is there, and not much more: a picture that just fits
+    assert drawing.gas is not None
+    assert drawing.intrinsic_gas is not None
+    need = drawing.gas + drawing.intrinsic_gas
+    for cap in range(need, need + need // 10, need // 100):
+        with serving(lambda request, cap=cap: geth(request, bare.url, cap)) as url:  # type: ignore[misc]
+            node = open_node(url)
+            if need <= node.limits().gas:
+                assert node.draw(SCENES["smooth"]) == drawing
+                break
+    else:
+        pytest.fail("the limit that is told is too low by a tenth")
+
+
+def geth(request: dict[str, object], url: str, cap: int) -> Reply:
+    """A node in front of another that gives calls no more gas than `cap`, and says nothing of it."""
+    if request["method"] == "eth_call":
+        parameters = request["params"]
+        assert isinstance(parameters, list)
+        parameters[0]["gas"] = hex(min(int(parameters[0].get("gas", hex(cap)), 16), cap))
+    return forward(url, request)
+
+
+def test_too_little_gas_on_a_node(bare: Anvil) -> None:
+    with serving(lambda request: geth(request, bare.url, 300_000)) as url:
+        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller --size"):
+            open_node(url).draw(SCENES["smooth"])
+        with without_overrides(url) as other:
+            assert open_node(other).limits().gas == 0
+            with pytest.raises(OutOfGasError, match="allows a call too little gas"):
+                open_node(other).draw(SCENES["smooth"])
+
+
+#: Code that returns the data of a call, and what creates it.
+ECHO = bytes.fromhex("66365f5f37365ff35f5260076019f3")
+
+
+def unpacked(node: Anvil, packed: bytes) -> bytes:
+    """What the creation call makes of a deflated stream that begins with `ECHO`."""
+    arguments = b"".join(value.to_bytes(32, "big") for value in (0, 1, 96, len(packed))) + packed
+    data = artifact("CreationCall").creation + arguments + bytes(-len(arguments) % 32)
+    with pytest.raises(RevertError) as error:
+        node.rpc("eth_call", {"data": "0x" + data.hex()}, "latest")
+    assert error.value.data[:32] == (1).to_bytes(32, "big")
+    return error.value.data[64:]
+
+
+SAMPLES = {
+    "nothing": b"",
+    "a byte": b"x",
+    "zeros": bytes(5000),
+    "a pattern": b"abc" * 2000,
+    "noise": Random(2).randbytes(9000),
+    "words": b"".join(n.to_bytes(32, "big") for n in range(700)),
+    "code": artifact("Renderer").creation,
+    "far repeats": Random(3).randbytes(15000) * 2,
+    "all lengths": b"".join(bytes([n]) * (n + 2) + Random(n).randbytes(3) for n in range(256)),
+}
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_what_was_packed_is_unpacked(bare: Anvil, name: str) -> None:
+    data = SAMPLES[name]
+    stream = len(ECHO).to_bytes(4, "big") + ECHO + data
+    ways = [(level, zlib.Z_DEFAULT_STRATEGY) for level in (0, 1, 6, 9)]
+    ways += [(9, strategy) for strategy in (zlib.Z_FIXED, zlib.Z_HUFFMAN_ONLY, zlib.Z_RLE)]
+    for level, strategy in ways:
+        deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9, strategy)
+        packed = deflate.compress(stream[:1000]) + deflate.flush(zlib.Z_FULL_FLUSH)
+        packed += deflate.compress(stream[1000:]) + deflate.flush()
+        if len(packed) < MAX_INIT_CODE - 6000:
+            assert unpacked(bare, packed) == data
+
+
+def test_intrinsic_gas_is_told(bare: Anvil) -> None:
+    data = encode(artifact("Renderer").selectors["render"], SCENES["empty"])
+    assert open_node(bare.url).draw(SCENES["empty"]).intrinsic_gas == intrinsic_gas(data)
+
+
+def test_public_limits(embedded: EmbeddedChain) -> None:
+    with anvil(*PUBLIC) as node:
+        assert open_node(node.url).draw(SCENES["smooth"]) == embedded.draw(SCENES["smooth"])
+
+
+@pytest.mark.parametrize("triangles", [200, 2400])
+def test_the_limit_of_a_creation_call_is_kept(bare: Anvil, embedded: EmbeddedChain, triangles: int) -> None:
+    """What it costs to bring the contracts along is subtracted, even if they and a large mesh have to be unpacked."""
+    scene = large_scene(triangles)
+    drawing = embedded.draw(scene)
+    assert drawing.gas is not None
+    assert drawing.intrinsic_gas is not None
+    need = drawing.gas + drawing.intrinsic_gas
+    cap = need
+    with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
+        while open_node(other).limits().gas < need:
+            cap += 500_000
+        assert open_node(other).draw(scene) == drawing
+
+
+def test_several_threads_at_once(bare: Anvil, embedded: EmbeddedChain) -> None:
+    tiles = [Rectangle(x, y, 8, 7) for y in range(0, 28, 7) for x in range(0, 40, 8)]
+    expected = [embedded.draw(SCENES["smooth"], tile) for tile in tiles]
+    with without_overrides(bare.url) as url:
+        for place in (bare.url, url):
+            node = open_node(place)
+            with ThreadPoolExecutor(8) as pool:
+                assert list(pool.map(lambda tile, node=node: node.draw(SCENES["smooth"], tile), tiles)) == expected
+
+
+def test_a_node_that_dies() -> None:
+    with anvil() as node:
+        place = open_node(node.url)
+        place.draw(SCENES["empty"])
+        node.stop()
+        with pytest.raises(NodeUnreachableError, match="cannot be reached"):
+            place.draw(SCENES["empty"])

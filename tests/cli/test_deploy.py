@@ -1,0 +1,234 @@
+"""The command `shackled deploy`."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from eth_account import Account
+
+from nodes import KEY, Reply, anvil, failure, forward, free_port, needs_anvil, serving
+from shackled.artifacts import artifact
+from shackled.bench.anvil import Anvil
+from shackled.chain.address_book import VARIABLE
+from shackled.cli.app import run
+from shackled.deploy import deployments
+
+pytestmark = needs_anvil
+
+PASSWORD = "a pass phrase 77"
+
+
+@pytest.fixture(autouse=True)
+def book(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    path = folder / "book" / "addresses.json"
+    monkeypatch.setenv(VARIABLE, str(path))
+    monkeypatch.setenv("TEST_KEY", KEY)
+    for name in ("SHACKLED_RPC", "SHACKLED_PASSWORD"):
+        monkeypatch.delenv(name, raising=False)
+    return path
+
+
+@pytest.fixture
+def node() -> Iterator[Anvil]:
+    with anvil() as running:
+        yield running
+
+
+@dataclass(frozen=True)
+class Told:
+    """What a command said."""
+
+    code: int
+    out: str
+    err: str
+
+
+Command = Callable[..., Told]
+
+
+@pytest.fixture
+def deploy(folder: Path, capsys: pytest.CaptureFixture[str]) -> Command:
+    """Runs the command, and looks whether it printed or wrote a key or a password."""
+
+    def command(*arguments: str) -> Told:
+        code = run(["deploy", *arguments])
+        told = Told(code, *capsys.readouterr())
+        written = [path for path in folder.rglob("*") if path.is_file() and path.name != "keystore"]
+        for text in [told.out, told.err, *(path.read_text("utf-8") for path in written)]:
+            assert KEY[2:] not in text
+            assert PASSWORD not in text
+        return told
+
+    return command
+
+
+def test_deploying_twice(node: Anvil, book: Path, deploy: Command, capsys: pytest.CaptureFixture[str]) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
+    assert told.code == 0
+    for each in deployments():
+        address = json.loads(book.read_text("utf-8"))["chains"]["31337"][each.name]
+        assert address.lower() == "0x" + each.address.hex()
+        assert node.connection.data("eth_getCode", address, "latest") == each.code
+        # in the table before, and when it was done
+        assert told.out.count(address) == 2
+        assert told.out.count(f"{each.gas:,}") == 2
+    assert f"on chain 31337, by the {node.connection.name}, at " in told.out
+    blocks = node.rpc("eth_blockNumber")
+    told = deploy("--rpc", node.url)
+    assert told.code == 0
+    assert "everything is there already: nothing was sent" in told.out
+    assert node.rpc("eth_blockNumber") == blocks
+    # and a render finds it
+    assert run(["render", "shape.obj", "--size", "8", "--rpc", node.url, "--json"]) == 0
+    assert "(deployed)" in json.loads(capsys.readouterr().out)["chain"]
+
+
+def test_what_verifies_the_sources(node: Anvil, folder: Path, deploy: Command) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "verify")
+    assert told.code == 0
+    summary = json.loads((folder / "verify" / "contracts.json").read_text("utf-8"))
+    assert summary["chainId"] == 31337
+    for each, entry in zip(deployments(), summary["contracts"], strict=True):
+        assert entry["name"].endswith(f":{each.name}")
+        assert each.creation == artifact(each.name).creation + bytes.fromhex(entry["constructorArguments"])
+        source = json.loads((folder / "verify" / entry["standardInput"]).read_text("utf-8"))
+        assert entry["name"].split(":")[0] in source["sources"]
+        assert entry["compiler"].startswith("0.8.")
+
+
+def test_json(node: Anvil, book: Path, deploy: Command) -> None:
+    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", "Renderer"]
+    told = json.loads(deploy(*arguments).out)
+    assert [each["name"] for each in told["contracts"]] == ["deployment proxy", "Engine", "Renderer"]
+    assert [each["deployed_now"] for each in told["contracts"]] == [False, True, True]
+    assert (told["chain_id"], len(told["transactions"])) == (31337, 2)
+    assert told["gas"] == sum(each.gas for each in deployments(["Renderer"]))
+    assert told["wei"] > 0
+    assert (told["address_book"], told["standard_json"]) == (str(book), "deployed-31337")
+    told = json.loads(deploy(*arguments).out)
+    assert (told["gas"], told["transactions"]) == (0, [])
+    assert not any(each["deployed_now"] for each in told["contracts"])
+
+
+def test_a_keystore(node: Anvil, folder: Path, deploy: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    keystore = Account.encrypt(bytes.fromhex(KEY[2:]), PASSWORD, kdf="pbkdf2", iterations=1000)
+    (folder / "keystore").write_text(json.dumps(keystore))
+    arguments = ["--rpc", node.url, "--account", "keystore", "--contracts", "Engine", "--yes"]
+    told = deploy(*arguments)
+    assert told.code == 2
+    assert "the password of keystore cannot be asked here: put it into SHACKLED_PASSWORD" in told.err
+    monkeypatch.setenv("SHACKLED_PASSWORD", PASSWORD[:-1])
+    told = deploy(*arguments)
+    assert told.code == 2
+    assert "the password is wrong" in told.err
+    monkeypatch.setenv("SHACKLED_PASSWORD", PASSWORD)
+    assert deploy(*arguments).code == 0
+
+
+def test_nobody_to_ask_and_nobody_to_pay(node: Anvil, deploy: Command) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY")
+    assert told.code == 2
+    assert "nothing was sent, since nobody can be asked here: --yes" in told.err
+    # what it would cost is told all the same
+    assert all(f"{each.gas:,}" in told.out for each in deployments())
+    told = deploy("--rpc", node.url, "--yes")
+    assert told.code == 2
+    assert "--account FILE or --private-key-env NAME" in told.err
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
+
+
+@pytest.mark.parametrize(("answer", "code", "blocks"), [("n", 1, 0), ("y", 0, 1)])
+def test_asking(node: Anvil, folder: Path, answer: str, code: int, blocks: int) -> None:
+    """On a terminal; nothing is sent for anything but yes, and the cost is told before."""
+    pty = pytest.importorskip("pty")
+    command = [sys.executable, "-m", "shackled", "deploy", "--rpc", node.url, "--private-key-env", "TEST_KEY"]
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [*command, "--contracts", "Engine"], stdin=theirs, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    os.close(theirs)
+    try:
+        os.write(ours, f"{answer}\n".encode())
+        out, _ = process.communicate(timeout=60)
+    finally:
+        process.kill()
+        os.close(ours)
+    text = out.decode()
+    assert process.returncode == code
+    assert text.index(f"{deployments(['Engine'])[0].gas:,}") < text.index("pay for it?")
+    assert int(node.rpc("eth_blockNumber"), 16) == blocks
+    assert KEY[2:] not in text
+
+
+def test_the_wrong_chain(node: Anvil, deploy: Command) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--chain-id", "1")
+    assert told.code == 1
+    assert "belongs to chain 31337, not to chain 1" in told.err
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "--rpc is missing"),
+        (["--rpc", "nowhere"], "--rpc must be the address of a node"),
+        (["--rpc", "URL", "--contracts", "Nothing"], "there is no contract 'Nothing' to deploy"),
+        (["--rpc", "URL", "--contracts", ","], "--contracts names none"),
+        (["--rpc", "URL", "--account", "none", "--yes"], "there is no keystore file none"),
+        (["--rpc", "URL", "--account", "shape.obj", "--yes"], "shape.obj is no keystore file"),
+        (["--rpc", "URL", "--private-key-env", "NO_SUCH", "--yes"], "environment variable NO_SUCH"),
+        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "takes the name of a variable, not the key"),
+        (["--rpc", "URL", "--account", "x", "--private-key-env", "TEST_KEY"], "give one of them"),
+        (["--rpc", "URL", "--rpc-timeout", "0"], "--rpc-timeout must be more than 0 seconds"),
+    ],
+)
+def test_bad_input(node: Anvil, deploy: Command, arguments: list[str], words: str) -> None:
+    told = deploy(*(node.url if each == "URL" else each for each in arguments))
+    assert told.code == 2
+    assert words in told.err
+    assert told.err.count("\n") == 1
+
+
+def test_a_broken_book_is_told_first(node: Anvil, book: Path, deploy: Command) -> None:
+    book.parent.mkdir()
+    book.write_text("{")
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
+    assert told.code == 2
+    assert f"the address book {book} is broken" in told.err
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
+
+
+def test_a_folder_that_cannot_be_written_is_told_first(node: Anvil, deploy: Command) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "shape.obj")
+    assert told.code == 2
+    assert "the folder shape.obj cannot be written to" in told.err
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
+
+
+def test_no_node(deploy: Command) -> None:
+    told = deploy("--rpc", f"http://127.0.0.1:{free_port()}", "--private-key-env", "TEST_KEY")
+    assert told.code == 1
+    assert "cannot be reached" in told.err
+
+
+def test_errors_show_no_key(node: Anvil, deploy: Command) -> None:
+    """Not even if a node repeats what it was sent, or the address has one."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_sendRawTransaction":
+            return failure(f"no, at /v2/secret-of-the-node: {request['params'][0]}")
+        return forward(node.url, request)
+
+    with serving(answer) as url:
+        told = deploy("--rpc", f"{url}/v2/secret-of-the-node", "--private-key-env", "TEST_KEY", "--yes")
+    assert told.code == 1
+    assert "the transaction was refused" in told.err
+    assert "secret-of-the-node" not in told.err + told.out

@@ -1,0 +1,218 @@
+"""`shackled render` in parts, in other places, and of turntables."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from nodes import anvil, needs_anvil
+from shackled.cli.app import run
+from shackled.cli.arguments import with_cluster
+from shackled.parallel.part import Piece
+
+PATIENCE = 60
+
+
+def report(capsys: pytest.CaptureFixture[str], *options: str) -> dict[str, object]:
+    """What the shape's picture with these options is said to be."""
+    assert run(["render", "shape.obj", "--size", "48", "--json", *options]) == 0
+    found: dict[str, object] = json.loads(capsys.readouterr().out)
+    return found
+
+
+def test_one_picture_in_parts(capsys: pytest.CaptureFixture[str]) -> None:
+    whole = report(capsys)
+    for options in (["--tile", "48x7"], ["--tile", "20"], ["--gas-limit", "400000"], ["--jobs", "2"]):
+        parts = report(capsys, *options)
+        for key in ("sha256", "triangles", "lit_pixels", "width", "height"):
+            assert parts[key] == whole[key]
+        assert list(parts) == [*whole, "frames", "calls"]
+        assert isinstance(parts["calls"], int)
+        assert parts["calls"] > 1
+        assert Path("shape.png").is_file()
+        assert not Path("shape.png.parts").exists()
+
+
+def test_what_a_job_says(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj", "--size", "64", "--tile", "64x16"]) == 0
+    output, messages = capsys.readouterr()
+    assert messages.startswith("4 calls, about ")
+    assert "to send the scene 4 times)" in output
+    assert "shape.png, 64 x 64 pixels" in output
+
+
+def test_a_turntable(capsys: pytest.CaptureFixture[str]) -> None:
+    one = report(capsys, "--turntable", "5", "-o", "spin.gif", "--duration", "120")
+    two = report(capsys, "--turntable", "5", "-o", "two.gif", "--jobs", "2")
+    assert one["sha256"] == two["sha256"]
+    assert one["gas"] == two["gas"]
+    assert (one["frames"], one["calls"], one["triangles"]) == (5, 5, None)
+    with PillowImage.open("spin.gif") as gif, PillowImage.open("two.gif") as other:
+        assert gif.n_frames == other.n_frames == 5  # type: ignore[attr-defined]
+        assert (gif.info["duration"], other.info["duration"], gif.info["loop"]) == (120, 80, 0)
+    report(capsys, "--turntable", "5", "-o", "frames")
+    frames = sorted(Path("frames").iterdir())
+    assert [path.name for path in frames] == ["000.png", "001.png", "002.png", "003.png", "004.png"]
+    pixels = b"".join(np.array(PillowImage.open(path)).tobytes() for path in frames)
+    assert hashlib.sha256(pixels).hexdigest() == one["sha256"]
+
+
+def test_the_words_of_a_turntable(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj", "--size", "32", "--turntable", "3"]) == 0
+    output, messages = capsys.readouterr()
+    assert "shape.gif, 3 frames of 32 x 32 pixels" in output
+    assert "triangles" not in output
+    assert messages.startswith("3 frames, 3 calls, about ")
+
+
+@needs_anvil
+def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = report(capsys)
+    with anvil() as first, anvil() as second:
+        there = report(capsys, "--rpc", first.url)
+        both = report(capsys, "--rpc", first.url, "--rpc", second.url, "--jobs", "2", "--tile", "48x3")
+        monkeypatch.setenv("SHACKLED_RPC", f"{first.url} {second.url}")
+        variable = report(capsys)
+        assert str(report(capsys, "--chain", "pyrevm")["chain"]).startswith("embedded")
+        assert run(["render", "teapot", "-o", "teapot.png", "--rpc", first.url]) == 0
+    keys = ("sha256", "triangles", "lit_pixels")
+    assert {tuple(each[key] for key in keys) for each in (whole, there, both, variable)} == {
+        tuple(whole[key] for key in keys)
+    }
+    assert (there["gas"], there["calls"], both["calls"]) == (whole["gas"], 1, 16)
+    assert str(variable["chain"]).startswith("2 nodes: ")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--turntable", "1"], "the number of frames of a turntable must be a finite number from 2 to 720"),
+        (["--turntable", "3", "-o", "a.svg"], "must end in .gif or .png, or in nothing for a folder"),
+        (["--turntable", "3", "-o", "missing/a.gif"], "the folder missing of the turntable a.gif does not exist"),
+        (["--turntable", "3", "-o", "shape"], "shape is there already, and is no folder"),
+        (["--turntable", "3", "--duration", "5"], "the duration of a frame in milliseconds must be"),
+        (["--duration", "50"], "--duration is about a --turntable"),
+        (["--tile", "0"], "--tile must be a side such as 128 or WIDTHxHEIGHT"),
+        (["--tile", "4x"], "--tile must be a side such as 128 or WIDTHxHEIGHT"),
+        (["--jobs", "0"], "--jobs must be from 1 to 256, not 0"),
+        (["--gas-limit", "-1"], "--gas-limit must be a whole number of gas from 1"),
+        (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
+        (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "leave out --chain"),
+        (["--rpc", "http://127.0.0.1:1", "--cluster"], "give --rpc or --cluster"),
+        (["--rpc-timeout", "5"], "--rpc-timeout is about a node"),
+        (["--chain", "reference", "--gas-limit", "1000"], "counts no gas: leave out --gas-limit"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_wrong_usage(capsys: pytest.CaptureFixture[str], options: list[str], message: str) -> None:
+    Path("shape").write_text("", "utf-8")
+    assert run(["render", "shape.obj", *options]) == 2
+    output, messages = capsys.readouterr()
+    assert message in messages
+    assert output == ""
+    assert messages.count("\n") == 1
+
+
+def test_a_cluster_needs_no_address() -> None:
+    assert with_cluster(["render", "--cluster", "teapot"]) == ["render", "--cluster=", "teapot"]
+    assert with_cluster(["render", "teapot", "--cluster"]) == ["render", "teapot", "--cluster="]
+    assert with_cluster(["render", "--cluster", "--json"]) == ["render", "--cluster=", "--json"]
+    assert with_cluster(["--cluster", "tcp://a:1", "x"]) == ["--cluster", "tcp://a:1", "x"]
+    assert with_cluster(["--", "--cluster"]) == ["--", "--cluster"]
+
+
+def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "teapot", "-o", "a.png", "--gas-limit", "100000"]) == 1
+    messages = capsys.readouterr().err
+    assert "ran out of gas: 100,000 did not suffice; a part of" in messages
+    assert not Path("a.png").exists()
+    assert not Path("a.png.parts").exists()
+
+
+def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    from shackled.parallel import part, place
+
+    options = ["--turntable", "12"]
+    expected = report(capsys, *options, "-o", "expected.gif")
+    draw, limit = part.draw_part, 7
+    drawn: list[object] = []
+
+    def counted(*arguments: object) -> Piece:
+        if len(drawn) == limit:
+            raise KeyboardInterrupt
+        drawn.append(arguments)
+        return draw(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(place, "draw_part", counted)
+    assert run(["render", "shape.obj", "--size", "48", *options, "-o", "spin.gif"]) == 1
+    messages = capsys.readouterr().err.splitlines()
+    assert messages[-2:] == [
+        "shackled: finished parts are kept in spin.gif.parts: the same command goes on from there",
+        "shackled: stopped",
+    ]
+    assert not Path("spin.gif").exists()
+    limit = 1000
+    assert report(capsys, *options, "-o", "spin.gif")["sha256"] == expected["sha256"]
+    assert len(drawn) == 12
+    assert Path("spin.gif").read_bytes() == Path("expected.gif").read_bytes()
+    assert not Path("spin.gif.parts").exists()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGKILL], ids=["interrupted", "killed"])
+def test_nothing_runs_on(kind: signal.Signals) -> None:
+    """Ctrl-C ends the workers, and so does the sudden death of the process that started them."""
+    mark = f"SHACKLED_TEST_{os.getpid()}_{kind}"
+    command = [sys.executable, "-m", "shackled", "render", "teapot", "--size", "128", "--jobs", "2"]
+    with subprocess.Popen(
+        [*command, "--turntable", "720", "-o", "spin.gif"],
+        env={**os.environ, mark: "1"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        wait_until(lambda: len(list(Path("spin.gif.parts").glob("*.part"))) > 4)
+        workers = marked(mark) - {process.pid}
+        assert len(workers) == 2
+        process.send_signal(kind)
+        output, messages = process.communicate(timeout=PATIENCE)
+    wait_until(lambda: not marked(mark))
+    assert output == ""
+    assert "Traceback" not in messages
+    if kind == signal.SIGINT:
+        assert process.returncode == 1
+        assert messages.endswith("shackled: stopped\n")
+    assert not Path("spin.gif").exists()
+    kept = len(list(Path("spin.gif.parts").glob("*.part")))
+    assert 4 < kept < 720
+
+
+def wait_until(true: object) -> None:
+    """Returns when a condition holds."""
+    assert callable(true)
+    end = time.monotonic() + PATIENCE
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def marked(mark: str) -> set[int]:
+    """The processes with a variable of that name."""
+    found = set()
+    for path in Path("/proc").glob("[0-9]*/environ"):
+        try:
+            if mark.encode() in path.read_bytes():
+                found.add(int(path.parent.name))
+        except OSError:
+            continue
+    return found

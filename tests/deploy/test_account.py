@@ -1,0 +1,83 @@
+"""Accounts: from keystores and environment variables; whatever is wrong with them, no key is told."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from eth_account import Account
+
+from nodes import KEY
+from shackled.deploy import environment_account, keystore_account
+from shackled.errors import InputError
+
+ADDRESS = "0xf39Fd6e51aad88F6F4ce6aB8827279cffFb92266"
+
+
+@pytest.fixture
+def keystore(tmp_path: Path) -> Path:
+    path = tmp_path / "keystore"
+    path.write_text(json.dumps(Account.encrypt(bytes.fromhex(KEY[2:]), "right", kdf="pbkdf2", iterations=1000)))
+    return path
+
+
+def test_a_keystore(keystore: Path) -> None:
+    assert keystore_account(keystore, "right").address == ADDRESS
+
+
+def test_a_wrong_password(keystore: Path) -> None:
+    with pytest.raises(InputError, match="cannot be opened: the password is wrong") as error:
+        keystore_account(keystore, "wrong-password")
+    assert "wrong-password" not in str(error.value)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", KEY, '{"version": 3}', "\x00"])
+def test_files_that_are_no_keystores(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "file"
+    path.write_text(text)
+    with pytest.raises(InputError, match="is no keystore file") as error:
+        keystore_account(path, "right")
+    assert KEY[2:10] not in str(error.value)
+
+
+def test_a_damaged_keystore(keystore: Path) -> None:
+    text = json.loads(keystore.read_text())
+    del text["crypto"]["kdfparams"]
+    keystore.write_text(json.dumps(text))
+    with pytest.raises(InputError, match="cannot be opened: it is damaged"):
+        keystore_account(keystore, "right")
+
+
+def test_a_keystore_that_is_missing(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="there is no keystore file"):
+        keystore_account(tmp_path / "nothing", "")
+    with pytest.raises(InputError, match="cannot be read"):
+        keystore_account(tmp_path, "")
+
+
+@pytest.mark.parametrize("value", [KEY, KEY[2:], f" {KEY}\n", KEY.upper().replace("0X", "0x")])
+def test_a_key_in_the_environment(monkeypatch: pytest.MonkeyPatch, value: str) -> None:
+    monkeypatch.setenv("SOME_KEY", value)
+    assert environment_account("SOME_KEY").address == ADDRESS
+
+
+@pytest.mark.parametrize("value", [KEY[:-1], KEY + "0", "secret words", "0x" + 64 * "f", "0x" + 64 * "0"])
+def test_keys_that_are_none(monkeypatch: pytest.MonkeyPatch, value: str) -> None:
+    monkeypatch.setenv("SOME_KEY", value)
+    with pytest.raises(InputError, match="SOME_KEY must hold a private key, 64 hexadecimal digits") as error:
+        environment_account("SOME_KEY")
+    assert value not in str(error.value)
+    assert error.value.__cause__ is None
+
+
+def test_a_variable_that_is_not_set(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("SOME_KEY", raising=False)
+    with pytest.raises(InputError, match="no private key in the environment variable SOME_KEY: set it"):
+        environment_account("SOME_KEY")
+
+
+def test_a_key_in_place_of_the_name_of_its_variable() -> None:
+    with pytest.raises(InputError, match="takes the name of a variable, not the key") as error:
+        environment_account(KEY)
+    assert KEY[2:10] not in str(error.value)

@@ -1,0 +1,232 @@
+"""Deploying on real nodes: at addresses that are known before, for the gas that was told, once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from eth_account import Account
+
+from nodes import KEY, Reply, anvil, forward, needs_anvil, serving
+from shackled.artifacts import artifact
+from shackled.bench.anvil import Anvil
+from shackled.chain.address_book import AddressBook
+from shackled.chain.addresses import PROXY, SALT, create2_address, keccak256, parse_address, show_address
+from shackled.chain.connection import Connection
+from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
+from shackled.deploy.contract import PROXY_CODE, STANDARD, deployment, local_chain
+from shackled.deploy.proxy import COST, SIGNED, SIGNER
+from shackled.errors import InputError, RenderError, TransactionError
+
+#: A chain without the proxy.
+NO_PROXY = ("--disable-default-create2-deployer",)
+
+
+@pytest.fixture
+def book(tmp_path: Path) -> AddressBook:
+    return AddressBook(tmp_path / "addresses.json")
+
+
+@pytest.fixture
+def node() -> Iterator[Anvil]:
+    with anvil() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def wanted() -> list[Deployment]:
+    return deployments()
+
+
+def parts(node: Anvil, book: AddressBook) -> tuple[Deployer, Transactor]:
+    return Deployer(node.connection, book), Transactor(node.connection, Account.from_key(KEY))
+
+
+def code(node: Anvil, address: bytes) -> bytes:
+    return node.connection.data("eth_getCode", "0x" + address.hex(), "latest")
+
+
+def missing(plan: Plan) -> list[str]:
+    return [step.name for step in plan.missing]
+
+
+def test_addresses_come_from_the_code() -> None:
+    # the first and the last example of EIP-1014 are of other deployers: the formula is checked with the proxy's
+    hashed = keccak256(b"\xff" + PROXY + SALT + keccak256(b"\x00"))
+    assert create2_address(b"\x00") == hashed[12:]
+    assert show_address(PROXY) == "0x4e59b44847b379578588920cA78FbF26c0B4956C"
+    assert parse_address(show_address(PROXY), "it") == PROXY
+
+
+def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
+    assert [each.name for each in wanted] == list(STANDARD)
+    local = local_chain()
+    for each in wanted:
+        assert each.address == local.address(each.name)
+        assert each.creation.startswith(artifact(each.name).creation)
+        assert len(each.code) == len(artifact(each.name).runtime)
+    assert [each.name for each in deployments(["Renderer"])] == ["Engine", "Renderer"]
+    assert [each.name for each in deployments(["Genesis", "Renderer"])] == ["Engine", "Renderer", "Genesis"]
+    with pytest.raises(InputError, match="there is no contract 'Meter' to deploy; the contracts are Engine, Renderer"):
+        deployments(["Meter"])
+
+
+def test_a_constructor_that_refuses() -> None:
+    engine = bytes(31) + b"\x05"
+    with pytest.raises(RenderError, match=r"Renderer could not be deployed|the contract refused"):
+        deployment("Renderer", artifact("Renderer").creation + engine)
+
+
+def test_the_transaction_that_deploys_the_proxy() -> None:
+    """It is what was published: its signer is the one whose first contract has the address that everybody knows."""
+    assert Account.recover_transaction(SIGNED) == show_address(SIGNER)
+    # keccak256(rlp([signer, 0]))
+    assert keccak256(b"\xd6\x94" + SIGNER + b"\x80")[12:] == PROXY
+    assert SIGNED.count(PROXY_CODE) == 1
+    assert COST == 10**16
+
+
+@needs_anvil
+def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+    deployer, transactor = parts(node, book)
+    plan = deployer.plan(wanted)
+    assert missing(plan) == list(STANDARD)
+    assert plan.steps[0].name == "deployment proxy"
+    assert all(code(node, each.address) == b"" for each in wanted)
+    told: list[tuple[str, int]] = []
+    receipts = deployer.carry_out(
+        plan, transactor, lambda step, done: told.append((step.name, sum(each.gas for each in done)))
+    )
+    assert [code(node, each.address) for each in wanted] == [each.code for each in wanted]
+    # gas is known before, exactly
+    assert told == [(each.name, each.gas) for each in wanted]
+    assert plan.gas == sum(receipt.gas for receipt in receipts)
+    assert book.entries(31337) == {each.name: each.address for each in wanted}
+    # the second time there is nothing to do
+    nonce = node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest")
+    again = deployer.plan(wanted)
+    assert (again.missing, again.gas, again.cost) == ([], 0, 0)
+    assert deployer.carry_out(again, transactor) == []
+    assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
+
+
+@needs_anvil
+def test_the_price_that_was_told_is_kept(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+    deployer, transactor = parts(node, book)
+    plan = deployer.plan(wanted)
+    receipts = deployer.carry_out(plan, transactor)
+    # the base fee of an empty chain falls meanwhile
+    assert 0 < sum(receipt.fee for receipt in receipts) <= plan.cost
+
+
+@needs_anvil
+def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) -> None:
+    with anvil(*NO_PROXY, "--chain-id", "4321") as node:
+        deployer, transactor = parts(node, book)
+        assert code(node, PROXY) == b""
+        plan = deployer.plan(wanted[:2])
+        assert missing(plan) == ["deployment proxy", "Engine", "Renderer"]
+        before = transactor.balance()
+        deployer.carry_out(plan, transactor)
+        assert before - transactor.balance() <= plan.cost
+        assert code(node, PROXY) == PROXY_CODE
+        assert [code(node, each.address) for each in wanted[:2]] == [each.code for each in wanted[:2]]
+        assert book.entries(4321).keys() == {"Engine", "Renderer"}
+
+
+@needs_anvil
+def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: list[Deployment]) -> None:
+    with anvil(*NO_PROXY) as node:
+        node.rpc("anvil_setBalance", "0x" + SIGNER.hex(), hex(COST // 4))
+        deployer, transactor = parts(node, book)
+        plan = deployer.plan(wanted[:1])
+        assert COST * 3 // 4 < plan.steps[0].cost < COST
+        deployer.carry_out(plan, transactor)
+        assert code(node, PROXY) == PROXY_CODE
+        assert code(node, wanted[0].address) == wanted[0].code
+
+
+@needs_anvil
+def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+    deployer, transactor = parts(node, book)
+    plan = deployer.plan(wanted)
+
+    class StopError(Exception):
+        pass
+
+    def stop(step: object, done: object) -> None:
+        raise StopError
+
+    with pytest.raises(StopError):
+        deployer.carry_out(plan, transactor, stop)
+    rest = deployer.plan(wanted)
+    assert missing(rest) == list(STANDARD[1:])
+    deployer.carry_out(rest, transactor)
+    assert deployer.plan(wanted).missing == []
+
+
+@needs_anvil
+def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+    deployer, _ = parts(node, book)
+    node.rpc("anvil_setCode", "0x" + wanted[1].address.hex(), "0x00")
+    with pytest.raises(TransactionError, match="is not that of Renderer"):
+        deployer.plan(wanted)
+    node.rpc("anvil_setCode", "0x" + wanted[1].address.hex(), "0x")
+    node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x00")
+    with pytest.raises(TransactionError, match="something else where the deployment proxy belongs"):
+        deployer.plan(wanted)
+
+
+@needs_anvil
+def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
+    deployer = Deployer(node.connection, book)
+    poor = Transactor(node.connection, Account.create())
+    with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether on chain 31337, and .* are needed"):
+        deployer.carry_out(deployer.plan(wanted), poor)
+    assert not book.path.exists()
+
+
+@needs_anvil
+def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
+    """Such as that of a collection."""
+    deployer, transactor = parts(node, book)
+    # leaves a contract of one byte: PUSH1 1 PUSH0 RETURN
+    own = deployment("Stop", bytes.fromhex("60015ff3"))
+    assert (own.code, own.address) == (b"\0", create2_address(own.creation))
+    receipt = deployer.deploy(own, transactor)
+    assert receipt.gas == own.gas
+    assert deployer.stands(own)
+
+
+@needs_anvil
+def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deployment]) -> None:
+    """Each answer but every third comes from a node that has not heard of the last block."""
+    count = 0
+    with anvil() as node:
+
+        def answer(request: dict[str, Any]) -> Reply:
+            nonlocal count
+            count += 1
+            method, parameters = request["method"], request["params"]
+            if count % 3 and method in ("eth_getCode", "eth_getTransactionCount"):
+                latest = int(node.rpc("eth_blockNumber"), 16)
+                request = request | {"params": [parameters[0], hex(max(0, latest - 1))]}
+            return forward(node.url, request)
+
+        with serving(answer) as url:
+            connection = Connection(url)
+            deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
+            deployer.carry_out(deployer.plan(wanted[:3]), transactor)
+        assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+
+
+@needs_anvil
+def test_a_proxy_that_is_too_dear_now(book: AddressBook, wanted: list[Deployment]) -> None:
+    with anvil(*NO_PROXY, "--base-fee", str(300 * 10**9)) as node:
+        deployer, transactor = parts(node, book)
+        with pytest.raises(TransactionError, match=r"^gas costs \d+ gwei now, and the published .* offers 100: wait"):
+            deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+        # the ether for it was not sent in vain
+        assert node.connection.number("eth_getBalance", "0x" + SIGNER.hex(), "latest") == 0

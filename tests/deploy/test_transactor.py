@@ -1,0 +1,182 @@
+"""Transactions: what can go wrong with one is said in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from eth_account import Account
+
+from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, serving
+from shackled.artifacts import artifact
+from shackled.bench.anvil import Anvil
+from shackled.chain.connection import Connection
+from shackled.deploy import Fees, Transactor
+from shackled.deploy.transactor import ETHER, ether
+from shackled.errors import NodeUnreachableError, TransactionError
+
+pytestmark = needs_anvil
+
+SOMEONE = b"\x77" * 20
+
+
+@pytest.fixture(scope="module")
+def node() -> Iterator[Anvil]:
+    with anvil() as running:
+        yield running
+
+
+def transactor(url: str, patience: float = 20) -> Transactor:
+    return Transactor(Connection(url), Account.from_key(KEY), patience)
+
+
+def balance(node: Anvil, address: bytes) -> int:
+    return node.connection.number("eth_getBalance", "0x" + address.hex(), "latest")
+
+
+def test_sending_ether(node: Anvil) -> None:
+    payer, before = transactor(node.url), balance(node, SOMEONE)
+    owned = payer.balance()
+    receipt = payer.send(SOMEONE, value=ETHER)
+    assert balance(node, SOMEONE) - before == ETHER
+    assert receipt.gas == 21000
+    assert owned - payer.balance() == ETHER + receipt.fee
+
+
+def test_fees_of_a_chain_without_eip_1559() -> None:
+    with anvil("--hardfork", "berlin") as node:
+        payer = transactor(node.url)
+        assert payer.fees().tip is None
+        receipt = payer.send(SOMEONE, value=7)
+        assert balance(node, SOMEONE) == 7
+        assert receipt.gas == 21000
+        assert int(node.rpc("eth_getTransactionByHash", receipt.hash)["type"], 16) == 0
+
+
+def test_fees_of_a_chain_with_eip_1559(node: Anvil) -> None:
+    payer = transactor(node.url)
+    fees = payer.fees()
+    assert fees.tip is not None
+    assert fees.likely <= fees.most
+    receipt = payer.send(SOMEONE, agreed=Fees(fees.likely, fees.most, 5))
+    sent = node.rpc("eth_getTransactionByHash", receipt.hash)
+    assert (int(sent["type"], 16), int(sent["maxPriorityFeePerGas"], 16)) == (2, 5)
+
+
+def test_no_suggestion_of_a_tip(node: Anvil) -> None:
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_maxPriorityFeePerGas":
+            return failure("the method does not exist", -32601)
+        return forward(node.url, request)
+
+    with serving(answer) as url:
+        assert transactor(url).fees().tip == 10**9
+
+
+def test_too_little_ether(node: Anvil) -> None:
+    with pytest.raises(TransactionError, match=r"has \d+\.\d+ ether, a transaction may cost 1000000.* send it some"):
+        transactor(node.url).send(SOMEONE, value=10**6 * ETHER)
+    poor = Transactor(node.connection, Account.create())
+    with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether, a transaction may cost 0\.0\d+: send"):
+        poor.send(SOMEONE, gas=10**7)
+
+
+def reverting(node: Anvil) -> bytes:
+    """An account whose code says `CanvasSize(1, 2)`."""
+    (selector,) = (key for key, (name, _) in artifact("Renderer").errors.items() if name == "CanvasSize")
+    # PUSH4 selector, shifted up; 1; 2; then REVERT
+    code = b"\x63" + selector + bytes.fromhex("60e01b5f52600160045260026024526044" + "5ffd")
+    node.rpc("anvil_setCode", "0x" + "99" * 20, "0x" + code.hex())
+    return b"\x99" * 20
+
+
+def test_what_a_contract_refuses(node: Anvil) -> None:
+    place = reverting(node)
+    with pytest.raises(TransactionError, match=r"would fail: the contract refused: CanvasSize\(width=1, height=2\)"):
+        transactor(node.url).send(place)
+    # with a limit of gas nothing is estimated, and it fails on the chain
+    with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed.*CanvasSize\(width=1, height=2\)"):
+        transactor(node.url).send(place, gas=100_000)
+
+
+def test_a_contract_without_gas(node: Anvil) -> None:
+    creation = artifact("Engine").creation
+    with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed: .* too little gas"):
+        transactor(node.url).send(None, creation, gas=2_000_000)
+
+
+@pytest.mark.parametrize(
+    ("said", "words"),
+    [
+        ("nonce too low: next nonce 5, tx nonce 4", "was used by another program meanwhile"),
+        ("replacement transaction underpriced", "gas has become more expensive meanwhile"),
+        ("max fee per gas less than block base fee: address 0x, maxFeePerGas: 1", "gas has become more expensive"),
+        ("only replay-protected (EIP-155) transactions allowed over RPC", "not bound to a chain"),
+        ("insufficient funds for gas * price + value", "ether, a transaction may cost"),
+        ("the moon is full", "the transaction was refused: .*the moon is full"),
+    ],
+)
+def test_what_nodes_say(node: Anvil, said: str, words: str) -> None:
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_sendRawTransaction":
+            return failure(said)
+        return forward(node.url, request)
+
+    with serving(answer) as url, pytest.raises(TransactionError, match=words) as error:
+        transactor(url).send(SOMEONE)
+    assert KEY[2:] not in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_an_answer_that_was_lost(node: Anvil) -> None:
+    """The transaction came through all the same: it is followed, not sent twice."""
+    sent = []
+
+    def answer(request: dict[str, Any]) -> Reply:
+        reply = forward(node.url, request)
+        if request["method"] == "eth_sendRawTransaction":
+            sent.append(request)
+            return Reply(reply.body, cut=5)
+        return reply
+
+    before = balance(node, SOMEONE)
+    with serving(answer) as url:
+        transactor(url).send(SOMEONE, value=3)
+    assert balance(node, SOMEONE) - before == 3
+    # a broken connection is tried again at once, and the node knows the transaction then
+    assert {each["params"][0] for each in sent} == {sent[0]["params"][0]}
+
+
+def test_a_transaction_that_is_in_no_block() -> None:
+    with anvil("--no-mining") as node:
+        payer = transactor(node.url, patience=0.3)
+        with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} is in no block after 0.3 s"):
+            payer.send(SOMEONE)
+        with pytest.raises(TransactionError, match="has 1 transactions that are in no block"):
+            payer.settle()
+        node.rpc("evm_mine")
+        payer.settle()
+
+
+def test_a_node_that_dies_meanwhile() -> None:
+    with anvil("--no-mining") as node:
+
+        def answer(request: dict[str, Any]) -> Reply:
+            reply = forward(node.url, request)
+            if request["method"] == "eth_sendRawTransaction":
+                node.stop()
+            return reply
+
+        def dead(request: dict[str, Any]) -> Reply:
+            return answer(request) if node.process.poll() is None else Reply(b"", 502)
+
+        with serving(dead) as url, pytest.raises(NodeUnreachableError, match="out of order"):
+            transactor(url, patience=0.5).send(SOMEONE)
+
+
+@pytest.mark.parametrize(
+    ("wei", "text"), [(0, "0"), (ETHER, "1"), (ETHER // 100, "0.01"), (1, "1e-18"), (1234567 * 10**12, "1.234567")]
+)
+def test_ether_for_people(wei: int, text: str) -> None:
+    assert ether(wei) == text

@@ -1,0 +1,130 @@
+"""Nodes for tests: real ones, and servers that behave as nodes should not."""
+
+from __future__ import annotations
+
+import http.server
+import json
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import pytest
+import requests
+
+from shackled.bench.anvil import Anvil, find_anvil
+
+ANVIL = find_anvil()
+needs_anvil = pytest.mark.skipif(ANVIL is None, reason="anvil is not installed: npm ci in contracts/")
+
+#: Of the first account that anvil gives ether to, as its documentation has it. It is worth nothing anywhere else.
+KEY = "0xac0974bec39a17e36ba4a6b4d238ff944bacb478cbed5efcae784d7bf4f2ff80"
+#: Limits as a public node has them: geth's default for calls, on a chain with the main network's blocks.
+PUBLIC = ("--gas-limit", "50000000")
+
+
+def anvil(*options: str) -> Anvil:
+    """A node, to be used as a context; several may run at once."""
+    assert ANVIL is not None
+    return Anvil(ANVIL, *options)
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What a server sends. cut: so many bytes of the body are sent, then the connection is closed. delay: seconds
+    before anything is sent. drip: seconds between single bytes of the body.
+    """
+
+    body: bytes = b""
+    status: int = 200
+    headers: dict[str, str] = field(default_factory=dict)
+    cut: int | None = None
+    delay: float = 0.0
+    drip: float = 0.0
+
+
+def result(value: Any, number: Any = None) -> Reply:
+    """A node's answer to the request of that number; `serving` puts in the number."""
+    return Reply(json.dumps({"jsonrpc": "2.0", "id": number, "result": value}).encode())
+
+
+def failure(message: str, code: int = -32000, data: Any = None, status: int = 200) -> Reply:
+    """A node's refusal."""
+    error = {"code": code, "message": message} | ({} if data is None else {"data": data})
+    return Reply(json.dumps({"jsonrpc": "2.0", "id": None, "error": error}).encode(), status)
+
+
+def forward(url: str, request: dict[str, Any]) -> Reply:
+    """What a real node says."""
+    answer = requests.post(url, json=request, timeout=60)
+    return Reply(answer.content, answer.status_code)
+
+
+@contextmanager
+def serving(answer: Callable[[dict[str, Any]], Reply]) -> Iterator[str]:
+    """The address of a server that answers each request as the function says."""
+
+    class Handler(http.server.BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            request = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
+            reply = answer(request)
+            body = reply.body
+            if reply.status == 200 and b'"id": null' in body and b'"result"' in body:
+                body = body.replace(b'"id": null', b'"id": ' + json.dumps(request["id"]).encode(), 1)
+            time.sleep(reply.delay)
+            try:
+                self.send_response(reply.status)
+                for name, value in {"Content-Length": str(len(body)), **reply.headers}.items():
+                    self.send_header(name, value)
+                self.end_headers()
+                if reply.drip:
+                    for each in body:
+                        self.wfile.write(bytes([each]))
+                        time.sleep(reply.drip)
+                else:
+                    self.wfile.write(body[: reply.cut])
+            except OSError:
+                pass
+            if reply.cut is not None:
+                self.close_connection = True
+                self.connection.shutdown(socket.SHUT_RDWR)
+
+        def log_message(self, *_: Any) -> None:
+            pass
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    server.daemon_threads = True
+    server.block_on_close = False
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}, daemon=True)
+    thread.start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}"
+    finally:
+        server.shutdown()
+        server.server_close()
+        thread.join()
+
+
+@contextmanager
+def without_overrides(url: str, refuse: bool = True) -> Iterator[str]:
+    """A node in front of another that refuses state overrides, or takes no notice of them, as old ones do."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if len(request.get("params", [])) > 2:
+            if refuse:
+                return failure("too many arguments, want at most 2", -32602)
+            request = request | {"params": request["params"][:2]}
+        return forward(url, request)
+
+    with serving(answer) as found:
+        yield found
+
+
+def free_port() -> int:
+    """A port on which nobody listens."""
+    with socket.socket() as found:
+        found.bind(("127.0.0.1", 0))
+        return int(found.getsockname()[1])

@@ -1,0 +1,96 @@
+"""Workers of a dask cluster."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from shackled import InputError, RenderError, load
+from shackled.parallel import Where, render_frames
+from shackled.parallel.cluster import ClusterPlace
+from shackled.scene.turning import full_turn
+
+pytest.importorskip("distributed")
+SCENE = replace(load("teapot"), width=48, height=48)
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    """A cluster of two workers that somebody else has started."""
+    command = [sys.executable, "-m", "shackled.parallel.local_cluster", "2"]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        assert process.stdout is not None
+        yield process.stdout.readline().strip()
+        process.communicate(timeout=60)
+    assert process.returncode == 0
+
+
+def test_a_turntable_on_two_workers(address: str) -> None:
+    frames = full_turn(SCENE, 36)
+    there = render_frames(frames, Where(cluster=address), count=False)
+    here = render_frames(frames, Where(), count=False)
+    two = render_frames(frames, Where(jobs=2), count=False)
+    assert [image.bmp for image in there.images] == [image.bmp for image in here.images]
+    assert [image.bmp for image in two.images] == [image.bmp for image in here.images]
+    assert [image.gas for image in there.images] == [image.gas for image in here.images]
+    assert len({image.bmp for image in here.images}) == 36
+    assert there.images[0].chain.endswith("2 workers")
+
+
+def test_tiles_on_a_cluster_of_our_own() -> None:
+    large = replace(SCENE, width=100, height=100)
+    job = render_frames([large], Where(cluster="", jobs=2, tile=(100, 9)))
+    (image,) = render_frames([large], Where()).images
+    assert job.images[0].bmp == image.bmp
+    assert (job.images[0].triangles, job.images[0].lit_pixels) == (image.triangles, image.lit_pixels)
+
+
+def test_what_a_worker_says_is_told(address: str) -> None:
+    with pytest.raises(RenderError, match="still too much: take fewer triangles"):
+        render_frames([SCENE], Where(cluster=address, gas_limit=100_000))
+
+
+def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.parallel.cluster.PATIENCE", 1)
+    with pytest.raises(RenderError, match=r"no dask scheduler answers at tcp://127.0.0.1:1: "):
+        render_frames([SCENE], Where(cluster="tcp://127.0.0.1:1"))
+
+
+class Workers:
+    """A cluster whose workers say this of themselves."""
+
+    def __init__(self, found: str | None) -> None:
+        self.found = found
+
+    def wait_for_workers(self, count: int, timeout: float) -> None:
+        pass
+
+    def run(self, function: Any) -> dict[str, Any]:
+        return {"tcp://1.2.3.4:5": function(), "tcp://1.2.3.4:6": self.found}
+
+
+@pytest.mark.parametrize(
+    ("found", "message"),
+    [
+        (None, "the worker tcp://1.2.3.4:6 lacks shackled: pip install"),
+        ("00" * 32, "the worker tcp://1.2.3.4:6 has other contracts: install the same version"),
+    ],
+)
+def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
+    place = ClusterPlace.__new__(ClusterPlace)
+    place._client = Workers(found)  # type: ignore[assignment]
+    with pytest.raises(InputError, match=message):
+        place._check()
+
+
+def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"pip install 'shackled\[cluster\]'"):
+        render_frames([SCENE], Where(cluster=""))

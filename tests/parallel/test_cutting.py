@@ -1,0 +1,57 @@
+"""How a canvas is cut."""
+
+from __future__ import annotations
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shackled.parallel.tiles import SMALLEST, area, covers, cut, grid, halves
+from shackled.scene.codec import Rectangle
+
+SIDES = st.integers(1, 300) | st.sampled_from([1024, 2047, 2048])
+
+
+@given(SIDES, SIDES, st.integers(1, 1 << 23), st.integers(1, 64))
+@settings(max_examples=60, deadline=None)
+def test_tiles_cover_each_pixel_once(width: int, height: int, pixels: int, at_least: int) -> None:
+    pixels = max(pixels, width * height // 400, 1)
+    tiles = cut(width, height, pixels, at_least)
+    assert covers(tiles, width, height)
+    assert max(map(area, tiles)) <= max(pixels, 1)
+    assert len(tiles) >= min(at_least, height)
+
+
+@given(SIDES, SIDES, st.integers(1, 3000), st.integers(1, 3000))
+@settings(max_examples=40, deadline=None)
+def test_grids_cover_each_pixel_once(width: int, height: int, columns: int, rows: int) -> None:
+    columns, rows = max(columns, width // 40, 1), max(rows, height // 40, 1)
+    tiles = list(grid(width, height, columns, rows))
+    assert covers(tiles, width, height)
+    assert all(tile.width <= columns and tile.height <= rows for tile in tiles)
+
+
+@given(st.integers(0, 9), st.integers(0, 9), st.integers(1, 200), st.integers(1, 200))
+@settings(max_examples=60, deadline=None)
+def test_halves_are_the_whole(x: int, y: int, width: int, height: int) -> None:
+    tile = Rectangle(x, y, width, height)
+    parts = halves(tile)
+    assert len(parts) == (2 if width * height >= 2 * SMALLEST else 1)
+    assert sum(map(area, parts)) == area(tile)
+    moved = [Rectangle(part.x - x, part.y - y, part.width, part.height) for part in parts]
+    assert covers(moved, width, height)
+
+
+def test_strips_where_they_fit() -> None:
+    assert cut(100, 50, 10_000) == [Rectangle(0, 0, 100, 50)]
+    assert [tile.width for tile in cut(100, 50, 1000)] == [100] * 5
+    assert [(tile.width, tile.height) for tile in cut(100, 8, 200)] == [(50, 4)] * 4
+
+
+def test_what_does_not_cover() -> None:
+    whole = Rectangle(0, 0, 4, 3)
+    assert covers([whole], 4, 3)
+    assert not covers([whole, Rectangle(1, 1, 1, 1)], 4, 3)
+    assert not covers([Rectangle(0, 0, 4, 2)], 4, 3)
+    assert not covers([Rectangle(0, 0, 5, 3)], 4, 3)
+    assert not covers([Rectangle(-1, 0, 5, 3)], 4, 3)
+    assert not covers([], 4, 3)

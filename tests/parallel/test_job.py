@@ -1,0 +1,176 @@
+"""The same picture, however it is cut and wherever it is rendered."""
+
+from __future__ import annotations
+
+import os
+import signal
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shackled
+from shackled import Image, InputError, RenderError, Scene, load
+from shackled.chain import open_chain
+from shackled.chain.embedded import PyrevmChain
+from shackled.parallel import Where, render_frames
+from shackled.parallel.estimate import estimate
+from shackled.parallel.job import plan
+from shackled.parallel.part import draw_part
+from shackled.parallel.place import ChainPlace
+from shackled.parallel.processes import ProcessPlace
+from shackled.parallel.referee import Referee
+from shackled.parallel.tiles import area
+from shackled.render import render_whole
+from shackled.scene.codec import Rectangle
+
+SCENE = replace(load("teapot"), width=96, height=70)
+
+
+@pytest.fixture(scope="module")
+def whole() -> Image:
+    return render_whole(SCENE, open_chain())
+
+
+@pytest.mark.parametrize(
+    "where",
+    [
+        Where(tile=(96, 10)),
+        Where(tile=(17, 13)),
+        Where(tile=(1000, 1000)),
+        Where(gas_limit=4_000_000),
+        Where("reference", tile=(96, 35)),
+        Where("pyrevm", jobs=2),
+        Where(jobs=2, gas_limit=5_000_000),
+    ],
+    ids=str,
+)
+def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
+    job = render_frames([SCENE], where)
+    (image,) = job.images
+    assert image.bmp == whole.bmp
+    assert (image.pixels == whole.pixels).all()
+    assert (image.triangles, image.lit_pixels) == (whole.triangles, whole.lit_pixels)
+    assert job.calls == sum(job.shares.values())
+    assert image.gas is None if where.chain == "reference" else image.gas >= whole.gas  # type: ignore[operator]
+    if job.calls == 1:
+        assert (image.gas, image.intrinsic_gas) == (whole.gas, whole.intrinsic_gas)
+
+
+def test_parts_fit_their_gas() -> None:
+    limit = 4_000_000
+    chain = open_chain()
+    assert isinstance(chain, PyrevmChain)
+    job = render_frames([SCENE], Where(gas_limit=limit))
+    tiles = plan(SCENE, 1, [ChainPlace(chain, gas=limit)], estimate(SCENE, chain), None)
+    assert 1 < len(tiles) <= job.calls
+    fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
+    assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
+    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
+        render_frames([SCENE], Where(gas_limit=500_000))
+
+
+def test_answers_stay_small() -> None:
+    place = ChainPlace(open_chain(), distant=True, answer_bytes=40_000)
+    large = replace(SCENE, width=300, height=300)
+    tiles = plan(large, 1, [place], None, None)
+    assert max(2 * (54 + 3 * area(tile)) for tile in tiles) < 40_000
+    assert sum(map(area, tiles)) == 300 * 300
+
+
+def test_the_cost_is_told_about_right() -> None:
+    chain = open_chain()
+    assert isinstance(chain, PyrevmChain)
+    for name, side in (("teapot", 512), ("cube", 300), ("genesis/3", 400)):
+        scene = replace(load(name), width=side, height=side)
+        gas = chain.draw(scene).gas
+        assert gas is not None
+        assert abs(estimate(scene, chain).gas(side * side) / gas - 1) < 0.25
+        job = render_frames([scene], Where(gas_limit=16_777_216))
+        assert job.estimated_gas is not None
+        assert abs(job.estimated_gas / (job.images[0].gas or 0) - 1) < 0.35
+
+
+def test_an_empty_scene() -> None:
+    scene = Scene([], width=50, height=40)
+    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == render_whole(scene, open_chain()).bmp
+
+
+def test_a_picture_of_2048() -> None:
+    scene = replace(load("cube"), width=2048, height=48)
+    (image,) = render_frames([scene], Where(gas_limit=6_000_000)).images
+    assert image.bmp == render_whole(scene, open_chain()).bmp
+
+
+def test_a_worker_that_dies_is_replaced() -> None:
+    place = ProcessPlace(None, 1)
+    tile = Rectangle(0, 0, 96, 20)
+    try:
+        first = place.work(0, SCENE, tile, True)
+        worker = place._workers[0]
+        assert worker is not None
+        os.kill(worker.pid, signal.SIGKILL)
+        assert place.work(0, SCENE, tile, True) == first
+        assert place._workers[0] is not worker
+    finally:
+        place.close()
+    assert place._workers == [None]
+
+
+def test_errors_of_a_worker_are_told() -> None:
+    with pytest.raises(RenderError, match="still too much"):
+        render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
+    with pytest.raises(InputError, match="counts no gas: leave out --gas-limit"):
+        render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))
+
+
+def test_the_interface_of_python(tmp_path: Path) -> None:
+    picture = shackled.render("cube", 40)
+    assert (shackled.render("cube", 40, tile=(40, 9)).pixels == picture.pixels).all()
+    assert (shackled.render("cube", 40, tile=16, jobs=2).pixels == picture.pixels).all()
+    spin = shackled.turntable("cube", 4, size=24, duration=50)
+    assert spin.pixels.shape == (4, 24, 24, 3)
+    assert spin.gas == sum(frame.gas or 0 for frame in spin.frames)
+    assert len(np.unique(spin.pixels.reshape(4, -1), axis=0)) >= 1
+    spin.save(tmp_path / "spin.gif")
+    assert (tmp_path / "spin.gif").stat().st_size > 100
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"jobs": 0}, "--jobs must be from 1 to 256, not 0"),
+        ({"jobs": 1.5}, "--jobs must be from 1 to 256"),
+        ({"gas_limit": 0}, "--gas-limit must be a whole number of gas from 1, not 0"),
+        ({"tile": 0}, "sides of a --tile must be whole numbers from 1"),
+        ({"tile": "big"}, "the size of a tile must be one number"),
+        ({"rpc": "http://127.0.0.1:1", "cluster": ""}, "give --rpc or --cluster"),
+        ({"rpc": "http://127.0.0.1:1", "chain": "pyrevm"}, "leave out --chain"),
+        ({"rpc": ["nowhere"]}, "must be the address of a node"),
+        ({"address": "0x00"}, "--address is about a node"),
+        ({"chain": open_chain("reference"), "jobs": 2}, "give its name"),
+    ],
+)
+def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        shackled.render("cube", 16, **options)  # type: ignore[arg-type]
+
+
+def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, whole: Image) -> None:
+    slow = open_chain("pyevm")
+    monkeypatch.setattr("shackled.parallel.job.open_chain", lambda name: slow)
+    job = render_frames([SCENE], Where("pyrevm", gas_limit=4_000_000))
+    assert job.estimated_gas is None
+    assert job.calls > 1
+    assert job.images[0].bmp == whole.bmp
+    monkeypatch.setattr("shackled.parallel.referee.open_chain", lambda name: slow)
+    judge, small, cube = Referee(), Rectangle(0, 0, 16, 16), replace(load("cube"), width=96, height=96)
+    assert judge.wants(cube, small, True, False)
+    assert not judge.wants(cube, small, False, False)
+    assert not judge.wants(cube, Rectangle(0, 0, 96, 96), True, False)
+    assert judge.wants(cube, Rectangle(0, 0, 96, 96), True, True)
+    piece = draw_part(open_chain("pyrevm"), cube, small, True)
+    assert judge.agrees(cube, small, piece)
+    assert not judge.agrees(cube, small, replace(piece, bmp=piece.bmp[:-1] + b"\x7f"))
+    assert not judge.agrees(cube, small, replace(piece, triangles=(piece.triangles or 0) + 1))

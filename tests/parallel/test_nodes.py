@@ -1,0 +1,154 @@
+"""Several nodes at once, and nodes that misbehave: the picture is right, or the error is clear."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from nodes import anvil, free_port, needs_anvil
+from proxies import after, always, each_third, proxy
+from shackled import Image, RenderError, load
+from shackled.chain import open_chain
+from shackled.errors import NodeError
+from shackled.parallel import Listener, Where, referee, render_frames, scheduler
+from shackled.render import render_whole
+
+SCENE = replace(load("cube"), width=64, height=60)
+TILE = (64, 5)
+PARTS = 12
+
+
+pytestmark = needs_anvil
+
+
+class Notes(Listener):
+    def __init__(self) -> None:
+        self.warnings: list[str] = []
+
+    def warned(self, text: str) -> None:
+        self.warnings.append(text)
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(scheduler, "PAUSE", 0.01)
+
+
+@pytest.fixture(scope="module")
+def node() -> Iterator[str]:
+    with anvil() as node:
+        yield node.url
+
+
+@pytest.fixture(scope="module")
+def right() -> Image:
+    return render_whole(SCENE, open_chain())
+
+
+def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
+    with anvil() as other:
+        job = render_frames([SCENE], Where(rpc=(node, other.url, node), tile=TILE))
+    assert job.images[0].bmp == right.bmp
+    assert (job.images[0].triangles, job.images[0].lit_pixels) == (right.triangles, right.lit_pixels)
+    assert len(job.shares) == 2
+    assert sum(job.shares.values()) == job.calls == PARTS
+    assert job.images[0].chain.startswith("2 nodes: 127.0.0.1:")
+
+
+def test_a_large_picture_survives_the_death_of_a_node() -> None:
+    scene = replace(load("teapot"), width=1024, height=1024)
+
+    class Killer(Notes):
+        done = 0
+
+        def advanced(self, pixels: int) -> None:
+            self.done += 1
+            if self.done == 6:
+                victim.kill()
+
+    with anvil() as first, anvil() as second:
+        victim = first.process
+        job = render_frames([scene], Where(rpc=(first.url, second.url), gas_limit=16_777_216), listener=Killer())
+        assert victim.wait(timeout=30) != 0
+    assert job.calls > 30
+    assert job.images[0].bmp == open_chain().draw(scene).bmp
+
+
+@pytest.mark.parametrize("manner", ["kill", "429", "500", "html", "half"])
+def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) -> None:
+    asked: list[str] = []
+    with proxy(node, each_third(manner), asked) as url:
+        job = render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+    assert job.images[0].bmp == right.bmp
+    assert asked.count(manner) >= 2 * PARTS // 3
+
+
+@pytest.mark.parametrize(
+    ("manner", "message"),
+    [
+        ("kill", "broke off its answer"),
+        ("429", "called less often|asked later|too many|busy"),
+        ("500", "500"),
+        ("html", "not JSON"),
+        ("half", "broke off its answer"),
+        ("wrong", "answers wrongly: its picture is not what the contracts draw"),
+    ],
+)
+def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
+    with proxy(node, always(manner)) as url:
+        with pytest.raises(RenderError, match=message) as error:
+            render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+        assert "\n" not in str(error.value)
+        # with another one beside it, the picture is made
+        notes = Notes()
+        job = render_frames([SCENE], Where(rpc=(url, node), tile=TILE), listener=notes)
+    assert job.images[0].bmp == right.bmp
+    assert all("it is left out" in warning for warning in notes.warnings)
+    assert len(job.shares) == 2
+
+
+def test_a_node_that_turns_bad(node: str, right: Image, monkeypatch: pytest.MonkeyPatch) -> None:
+    # every part is checked, so that the test does not depend on luck
+    monkeypatch.setattr(referee, "SAMPLE", 1)
+    notes = Notes()
+    with proxy(node, after(5, "wrong")) as url:
+        job = render_frames([SCENE], Where(rpc=(url, node), tile=(64, 2)), listener=notes)
+    assert job.images[0].bmp == right.bmp
+    assert len(notes.warnings) == 1
+    assert "answers wrongly" in notes.warnings[0]
+
+
+def test_a_slow_node_gets_fewer_tiles(node: str, right: Image) -> None:
+    with proxy(node, always("slow")) as slow:
+        job = render_frames([SCENE], Where(rpc=(slow, node), tile=TILE))
+    slow_share = next(count for name, count in job.shares.items() if slow.rpartition(":")[2] in name)
+    assert job.images[0].bmp == right.bmp
+    assert slow_share < PARTS / 2
+
+
+def test_a_node_that_does_not_answer_in_time(node: str, right: Image) -> None:
+    with proxy(node, always("stuck")) as url:
+        job = render_frames([SCENE], Where(rpc=(url, node), tile=TILE, timeout=1.0), listener=Notes())
+        assert job.images[0].bmp == right.bmp
+    with proxy(node, always("stuck")) as url, pytest.raises(NodeError, match=r"did not answer within 0.2 seconds"):
+        render_frames([replace(SCENE, width=12, height=10)], Where(rpc=(url,), timeout=0.2))
+
+
+def test_nodes_that_are_not_there(node: str, right: Image) -> None:
+    gone = f"http://127.0.0.1:{free_port()}"
+    notes = Notes()
+    job = render_frames([SCENE], Where(rpc=(gone, node)), listener=notes)
+    assert job.images[0].bmp == right.bmp
+    assert len(notes.warnings) == 1
+    assert "cannot be reached" in notes.warnings[0]
+    with pytest.raises(NodeError, match="cannot be reached"):
+        render_frames([SCENE], Where(rpc=(gone,)))
+
+
+def test_a_node_with_little_gas(right: Image) -> None:
+    with anvil("--gas-limit", "3000000") as little:
+        job = render_frames([SCENE], Where(rpc=(little.url,)))
+    assert job.images[0].bmp == right.bmp
+    assert job.images[0].gas is None or job.images[0].gas >= (right.gas or 0)

@@ -1,0 +1,264 @@
+"""What the scheduler does with places that fail."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from shackled import InputError, RenderError, Scene, load
+from shackled.chain import open_chain
+from shackled.errors import (
+    NodeBusyError,
+    NodeTimeoutError,
+    NodeUnreachableError,
+    OutOfGasError,
+    TooLargeError,
+    WrongChainError,
+)
+from shackled.parallel import scheduler as module
+from shackled.parallel.listener import Listener
+from shackled.parallel.part import Part, Piece, draw_part
+from shackled.parallel.place import Place
+from shackled.parallel.referee import Referee
+from shackled.parallel.scheduler import Scheduler
+from shackled.parallel.store import Store
+from shackled.parallel.tiles import area, cut
+from shackled.scene.codec import Rectangle
+
+SIDE = 40
+SCENE = replace(load("cube"), width=SIDE, height=SIDE)
+#: Says what goes wrong with the n-th call of a place, counted from 0; or answers None.
+Trouble = Callable[[int, Rectangle], BaseException | None]
+
+
+class Shaky:
+    """A place that does right but for its trouble."""
+
+    gas: int | None = None
+    answer_bytes: int | None = None
+
+    def __init__(
+        self, name: str, trouble: Trouble = lambda n, tile: None, seats: int = 1, distant: bool = True
+    ) -> None:
+        self.name, self.trouble, self.seats, self.distant = name, trouble, seats, distant
+        self.calls = 0
+        self.tiles: list[Rectangle] = []
+        self.lies = False
+        self.lock = threading.Lock()
+
+    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        with self.lock:
+            number, self.calls = self.calls, self.calls + 1
+        error = self.trouble(number, tile)
+        if error is not None:
+            raise error
+        piece = draw_part(open_chain(), scene, tile, count)
+        with self.lock:
+            self.tiles.append(tile)
+        return replace(piece, bmp=piece.bmp[:-4] + b"\x01\x02\x03\x04") if self.lies else piece
+
+    def close(self) -> None:
+        pass
+
+
+class Notes(Listener):
+    def __init__(self) -> None:
+        self.warnings: list[str] = []
+        self.pixels = 0
+
+    def advanced(self, pixels: int) -> None:
+        self.pixels += pixels
+
+    def warned(self, text: str) -> None:
+        self.warnings.append(text)
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "PAUSE", 0.001)
+
+
+PARTS = [Part(0, tile) for tile in cut(SIDE, SIDE, 4 * SIDE)]
+
+
+def run(places: Sequence[Place], referee: Referee | None = None, store: Store | None = None) -> Notes:
+    """Renders the scene; each pixel must come out once, and right."""
+    notes = Notes()
+    pieces = Scheduler([SCENE], places, True, store, notes, referee).run(PARTS)
+    assert sum(area(part.tile) for part in pieces) == notes.pixels == SIDE * SIDE
+    for part, piece in pieces.items():
+        assert piece == draw_part(open_chain(), SCENE, part.tile, True)
+    return notes
+
+
+def test_several_seats_share_the_parts() -> None:
+    places = [Shaky("a", seats=3), Shaky("b")]
+    assert run(places).warnings == []
+    assert sum(place.calls for place in places) == len(PARTS)
+
+
+def test_a_slow_place_gets_fewer_parts() -> None:
+    slow, quick = Shaky("slow", lambda n, tile: time.sleep(0.3)), Shaky("quick", lambda n, tile: time.sleep(0.01))
+    run([slow, quick])
+    assert slow.calls < quick.calls
+
+
+def test_what_is_too_much_is_cut() -> None:
+    def too_much(n: int, tile: Rectangle) -> BaseException | None:
+        return OutOfGasError("too much") if area(tile) > 100 else None
+
+    place = Shaky("a", too_much)
+    run([place])
+    assert max(map(area, place.tiles)) <= 100
+
+
+@pytest.mark.parametrize("error", [TooLargeError("too large"), NodeTimeoutError("too slow")], ids=repr)
+def test_a_place_learns_what_is_too_large(error: BaseException) -> None:
+    small = Shaky("small", lambda n, tile: error if area(tile) > 100 else None)
+    run([small])
+    # after a few attempts it is given nothing larger any more
+    assert small.calls <= len(small.tiles) + 3
+
+
+def test_what_cannot_be_cut_any_more() -> None:
+    place = Shaky("a", lambda n, tile: OutOfGasError("the call ran out of gas"))
+    with pytest.raises(
+        OutOfGasError, match=r"^the call ran out of gas; a part of .* is still too much: .*--max-triang"
+    ):
+        run([place])
+
+
+@pytest.mark.parametrize(
+    "error", [NodeUnreachableError("gone"), OutOfGasError("gas"), NodeTimeoutError("slow")], ids=repr
+)
+def test_a_place_that_never_works_is_left_out(error: BaseException) -> None:
+    bad = Shaky("bad", lambda n, tile: error)
+    # the good one waits for the bad one to give up
+    good = Shaky("good", lambda n, tile: time.sleep(0.02))
+    notes = run([bad, good])
+    assert notes.warnings in ([], [f"{error}; it is left out"])
+    assert bad.tiles == []
+
+
+def test_a_place_that_fails_now_and_then() -> None:
+    place = Shaky("a", lambda n, tile: NodeUnreachableError("gone") if n % 3 else None)
+    assert run([place]).warnings == []
+
+
+def test_the_error_of_the_only_place() -> None:
+    place = Shaky("a", lambda n, tile: NodeUnreachableError("the node a cannot be reached") if n > 2 else None)
+    with pytest.raises(NodeUnreachableError, match=r"^the node a cannot be reached$"):
+        run([place])
+    assert place.calls == 3 + module.FAILURES
+    places = [place, Shaky("b", lambda n, tile: WrongChainError("the wrong one"))]
+    with pytest.raises(RenderError, match=r"^no place is left to render: "):
+        run(places)
+
+
+def test_a_busy_place_is_asked_when_it_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    times: list[float] = []
+
+    def busy(n: int, tile: Rectangle) -> BaseException | None:
+        times.append(time.monotonic())
+        return NodeBusyError("busy", 0.2) if n == 0 else None
+
+    run([Shaky("a", busy)])
+    assert times[1] - times[0] >= 0.2
+    with pytest.raises(NodeBusyError):
+        run([Shaky("b", lambda n, tile: NodeBusyError("busy"))])
+    with pytest.raises(NodeBusyError, match="tomorrow"):
+        run([Shaky("c", lambda n, tile: NodeBusyError("tomorrow", 86400))])
+
+
+def test_what_a_contract_refuses_ends_it() -> None:
+    place = Shaky("a", lambda n, tile: RenderError("the contract refused: NoViewDirection()"), seats=2)
+    with pytest.raises(RenderError, match="NoViewDirection"):
+        run([place, Shaky("b", lambda n, tile: time.sleep(0.05))])
+
+
+def test_a_place_that_lies_at_once() -> None:
+    liar, honest = Shaky("liar"), Shaky("honest", lambda n, tile: time.sleep(0.02))
+    liar.lies = True
+    notes = run([liar, honest], Referee())
+    assert notes.warnings == ["the liar answers wrongly: its picture is not what the contracts draw; it is left out"]
+    assert liar.calls == 1
+    with pytest.raises(RenderError, match="answers wrongly"):
+        run([liar], Referee())
+
+
+def test_places_are_compared_where_the_evm_is_slow(monkeypatch: pytest.MonkeyPatch) -> None:
+    judge = Referee()
+    judge.fast = False
+    liar, honest, third = Shaky("liar"), Shaky("honest", lambda n, tile: time.sleep(0.02)), Shaky("third")
+    liar.lies = True
+    decided: list[Rectangle] = []
+    agrees = judge.agrees
+
+    def counted(scene: Scene, tile: Rectangle, piece: Piece) -> bool:
+        decided.append(tile)
+        return agrees(scene, tile, piece)
+
+    monkeypatch.setattr(judge, "agrees", counted)
+    notes = run([liar, honest, third], judge)
+    assert [warning.split(" answers")[0] for warning in notes.warnings] == ["the liar"]
+    # those that agree are not drawn once more here
+    assert 1 <= len(decided) < len(PARTS)
+
+
+def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
+    """Nothing that it did since it was last known to be right is kept."""
+
+    class OnlyFirstAndLast(Referee):
+        asked = 0
+
+        def wants(self, scene: Scene, tile: Rectangle, first: bool, peers: bool) -> bool:
+            if tile.y < SIDE // 2:
+                return first
+            return True
+
+    class Turncoat(Shaky):
+        def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+            self.lies = self.calls > 0
+            return super().work(seat, scene, tile, count)
+
+    liar, honest = Turncoat("liar"), Shaky("honest", lambda n, tile: time.sleep(0.2))
+    store = Store(tmp_path / "parts", [SCENE], True)
+    notes = run([liar, honest], OnlyFirstAndLast(), store)
+    assert len(notes.warnings) == 1
+    assert "parts are rendered again" in notes.warnings[0]
+    for part in PARTS:
+        assert store.read(part) == draw_part(open_chain(), SCENE, part.tile, True)
+
+
+def test_half_a_picture_is_no_picture() -> None:
+    class Cutter(Shaky):
+        def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+            piece = super().work(seat, scene, tile, count)
+            return replace(piece, bmp=piece.bmp[: len(piece.bmp) // 2])
+
+    with pytest.raises(RenderError, match=r"^the cutter answers wrongly: the contract "):
+        run([Cutter("cutter")])
+
+
+def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(path: Path, data: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    store = Store(tmp_path / "parts", [SCENE], True)
+    monkeypatch.setattr("shackled.parallel.store.write_whole", full)
+    with pytest.raises(InputError, match="No space left on device"):
+        run([Shaky("a")], store=store)
+
+
+def test_a_listener_that_fails_ends_it() -> None:
+    class Deaf(Listener):
+        def advanced(self, pixels: int) -> None:
+            raise OSError("nobody listens")
+
+    with pytest.raises(OSError, match="nobody listens"):
+        Scheduler([SCENE], [Shaky("a")], True, None, Deaf()).run(PARTS)

@@ -1,0 +1,124 @@
+"""Finished parts on the disk."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from shackled import InputError, RenderError, Scene, load
+from shackled.chain import open_chain
+from shackled.parallel import Listener, Where, render_frames
+from shackled.parallel import place as place_module
+from shackled.parallel.part import Part, Piece, draw_part
+from shackled.parallel.store import PLAN, Store, folder_of, remove_parts
+from shackled.parallel.tiles import cut
+from shackled.scene.codec import Rectangle
+from shackled.scene.turning import full_turn
+
+SCENE = replace(load("cube"), width=32, height=20)
+PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]
+PIECE = draw_part(open_chain(), SCENE, PARTS[0].tile, True)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    return Store(tmp_path / "cube.png.parts", [SCENE], True)
+
+
+def test_parts_are_found_again(store: Store) -> None:
+    assert store.read(PARTS[0]) is None
+    store.write(PARTS[0], PIECE)
+    assert Store(store.folder, [SCENE], True).read(PARTS[0]) == PIECE
+    assert store.read(PARTS[1]) is None
+    store.forget(PARTS[0])
+    assert store.read(PARTS[0]) is None
+
+
+def test_parts_of_another_picture_are_not_taken(store: Store) -> None:
+    store.write(PARTS[0], PIECE)
+    assert Store(store.folder, [replace(SCENE, invert=True)], True).read(PARTS[0]) is None
+    assert Store(store.folder, [SCENE], False).read(PARTS[0]) is None
+
+
+@pytest.mark.parametrize("damage", [b"", b"x", b"{}\n", bytes(500)], ids=repr)
+def test_what_is_damaged_is_not_there(store: Store, damage: bytes) -> None:
+    store.write(PARTS[0], PIECE)
+    (file,) = store.folder.glob("*.part")
+    for data in (damage, file.read_bytes()[:-1], file.read_bytes() + b"x"):
+        file.write_bytes(data)
+        assert store.read(PARTS[0]) is None
+
+
+def test_plans(store: Store) -> None:
+    assert store.read_plan() is None
+    store.write_plan(PARTS)
+    assert store.read_plan() == PARTS
+    assert Store(store.folder, [replace(SCENE, invert=True)], True).read_plan() is None
+    for plan in (PARTS[1:], [*PARTS, PARTS[0]], [*PARTS, Part(1, Rectangle(0, 0, 32, 20))]):
+        store.write_plan(plan)
+        assert store.read_plan() is None
+    (store.folder / PLAN).write_text("[1", "utf-8")
+    assert store.read_plan() is None
+
+
+def test_only_its_own_files_are_removed(store: Store) -> None:
+    store.write(PARTS[0], PIECE)
+    store.write_plan(PARTS)
+    other = store.folder / "note.txt"
+    other.write_text("mine", "utf-8")
+    remove_parts(store.folder)
+    assert list(store.folder.iterdir()) == [other]
+    other.unlink()
+    remove_parts(store.folder)
+    assert not store.folder.exists()
+    remove_parts(store.folder)
+
+
+def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
+    (tmp_path / "a.png.parts").write_text("", "utf-8")
+    with pytest.raises(InputError, match=r"a.png.parts, where finished parts are kept, cannot be made"):
+        Store(folder_of(tmp_path / "a.png"), [SCENE], True)
+    remove_parts(folder_of(tmp_path / "a.png"))
+    assert (tmp_path / "a.png.parts").is_file()
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt(), RenderError("no more")], ids=repr)
+def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: BaseException) -> None:
+    frames = full_turn(SCENE, 5)
+    where, keep = Where(tile=(32, 7)), tmp_path / "spin.gif.parts"
+    expected = render_frames(frames, where, False)
+    drawn: list[Rectangle] = []
+
+    def counted(chain: object, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        if len(drawn) == 8 and not resumed:
+            raise stop
+        drawn.append(tile)
+        return draw_part(open_chain(), scene, tile, count)
+
+    monkeypatch.setattr(place_module, "draw_part", counted)
+    monkeypatch.setattr(Listener, "warned", lambda self, text: said.append(text))
+    said: list[str] = []
+    resumed = False
+    with pytest.raises(type(stop)):
+        render_frames(frames, where, False, keep=keep)
+    assert said == [f"finished parts are kept in {keep}: the same command goes on from there"]
+    assert len(list(keep.glob("*.part"))) == 8
+    resumed = True
+    again = render_frames(frames, where, False, keep=keep)
+    assert len(drawn) == expected.calls == 15
+    assert [image.bmp for image in again.images] == [image.bmp for image in expected.images]
+    assert [image.gas for image in again.images] == [image.gas for image in expected.images]
+
+
+def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
+    keep = tmp_path / "cube.png.parts"
+    first = render_frames([SCENE], Where(tile=(16, 10)), keep=keep)
+    assert first.calls == 4
+    assert render_frames([SCENE], Where(gas_limit=20_000_000), keep=keep).calls == 1
+    keep2 = tmp_path / "large.png.parts"
+    large = replace(SCENE, width=64, height=64)
+    tight = render_frames([large], Where(tile=(64, 16)), keep=keep2)
+    # two processes would be given more parts
+    assert render_frames([large], Where(jobs=2), keep=keep2).calls == tight.calls == 4

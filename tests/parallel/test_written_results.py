@@ -1,0 +1,31 @@
+"""The written figures of tiles are those of the contracts."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from benchmarks.measure import gas
+from benchmarks.parallel import GRIDS, SIDES
+
+from shackled import load
+from shackled.parallel.tiles import grid
+
+FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
+
+
+@pytest.mark.parametrize("side", SIDES[:3])
+def test_gas_of_tiles(side: int) -> None:
+    scene, written = replace(load("teapot"), width=side, height=side), FIGURES["Tiles"][str(side)]
+    assert written["whole"] == gas(scene)
+    for across, down in GRIDS[:3]:
+        parts = grid(side, side, side // across, side // down)
+        assert written[f"{across} x {down}"] == sum(gas(scene, "renderTile", part) for part in parts)
+
+
+def test_strips_cost_less_than_squares() -> None:
+    for written in FIGURES["Tiles"].values():
+        assert written["1 x 4"] < written["2 x 2"]
+        assert written["1 x 64"] < written["8 x 8"]

@@ -1,0 +1,79 @@
+"""Animations as files."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+from PIL import ImageSequence
+
+from shackled import Animation, Image, InputError
+from shackled.animation import check_animation, frame_names
+from shackled.reference import encode_bmp
+
+
+def picture(pixels: np.ndarray) -> Image:
+    return Image(pixels, encode_bmp(pixels), 10, 2, 1, 1, "nowhere", 0.1)
+
+
+RNG = np.random.default_rng(5)
+FEW = Animation([picture(RNG.choice(np.array([0, 90, 255], np.uint8), (6, 9, 3))) for _ in range(4)], 100)
+MANY = Animation([picture(RNG.integers(0, 256, (30, 40, 3), np.uint8)) for _ in range(3)])
+
+
+def frames(data: bytes) -> list[np.ndarray]:
+    with PillowImage.open(io.BytesIO(data)) as file:
+        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
+
+
+@pytest.mark.parametrize(("animation", "extension"), [(FEW, ".gif"), (FEW, ".png"), (MANY, ".png")])
+def test_every_pixel_is_kept(animation: Animation, extension: str) -> None:
+    found = frames(animation.encode(extension))
+    assert len(found) == len(animation.frames)
+    assert (np.stack(found) == animation.pixels).all()
+
+
+def test_a_gif_has_one_palette() -> None:
+    data = MANY.encode(".gif")
+    colors = np.unique(np.concatenate([frame.reshape(-1, 3) for frame in frames(data)]), axis=0)
+    assert len(colors) <= 256
+    error = np.abs(np.stack(frames(data)).astype(int) - MANY.pixels).mean()
+    assert error < 25
+
+
+def test_frames_that_are_alike_take_their_time() -> None:
+    for extension in (".gif", ".png"):
+        with PillowImage.open(io.BytesIO(Animation([FEW.frames[i] for i in (0, 0, 1)], 50).encode(extension))) as file:
+            shown = sum(frame.info["duration"] for frame in ImageSequence.Iterator(file))
+            assert shown == 150
+            assert file.info["loop"] == 0
+
+
+def test_the_sums() -> None:
+    assert (FEW.gas, FEW.intrinsic_gas) == (40, 8)
+
+
+def test_files_and_folders(tmp_path: Path) -> None:
+    FEW.save(tmp_path / "a.gif")
+    FEW.save(tmp_path / "a.png")
+    FEW.save(f"{tmp_path}/a/")
+    assert (tmp_path / "a.gif").read_bytes() == FEW.encode(".gif")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "a.gif", "a.png"]
+    assert [path.name for path in sorted((tmp_path / "a").iterdir())] == frame_names(4)
+    assert frame_names(2000)[-1] == "1999.png"
+    for path, message in (
+        ("b.bmp", "must end in .gif"),
+        ("no/b.gif", "the folder .*no"),
+        ("a.gif/b.gif", "the folder"),
+    ):
+        with pytest.raises(InputError, match=message):
+            check_animation(tmp_path / path)
+    with pytest.raises(InputError, match="from 20 to 10000"):
+        Animation(FEW.frames, 5)
+
+
+def test_it_shows_itself() -> None:
+    assert FEW._repr_mimebundle_()["image/png"].startswith(b"\x89PNG")
