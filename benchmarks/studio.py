@@ -1,0 +1,139 @@
+"""The gas of the Studio: storing, decoding, PNG files.
+
+    python -m benchmarks.studio
+
+measures everything and rewrites studio.json; what changed is printed.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled import Object, Scene, load, render
+from shackled.artifacts import artifact
+from shackled.chain import open_chain
+from shackled.chain.embedded import EmbeddedChain
+from shackled.datasets.genesis import seed_of
+from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
+from shackled.datasets.teapot import teapot
+from shackled.reference.bmp import encode_bmp
+from shackled.scene.fit import fit
+from shackled.scene.packed_mesh import pack
+from shackled.studio.compact_mesh import compact
+from shackled.studio.keeping import on_grid, store_mesh, store_scene
+
+from .snapshot import changes
+
+FILE = Path(__file__).with_name("studio.json")
+
+Figures = dict[str, int]
+
+#: Pieces of Genesis of which the mean is taken.
+PIECES = 16
+
+
+class Keeper:
+    """The embedded chain, with what its Studio keeps."""
+
+    def __init__(self) -> None:
+        """With nothing in it."""
+        chain = open_chain()
+        assert isinstance(chain, EmbeddedChain)
+        self.chain = chain
+        self.studio = chain.address("Studio")
+
+    def gas(self, contract: str, function: str, data: bytes) -> int:
+        """Of a call, without what a transaction costs."""
+        identifiers = artifact(contract).selectors
+        return self.chain.call(contract, identifiers[function] + data).gas
+
+    def kept_mesh(self, o: Object, normal_bits: int) -> tuple[int, int, int]:
+        """Bytes of a mesh, gas of the transaction that stores it, and of reading it."""
+        packed = pack(o.mesh, o.material.shading == "smooth")
+        (storing,) = store_mesh(packed, self.studio, normal_bits, self.chain)
+        self.chain._codes[storing.pointer] = b"\0" + compact(packed, normal_bits)
+        try:
+            reading = self.gas("Studio", "mesh", storing.pointer.rjust(32, b"\0"))
+        finally:
+            del self.chain._codes[storing.pointer]
+        return storing.size, storing.gas, reading
+
+
+def mesh_figures(keeper: Keeper) -> Figures:
+    """What 1,000 triangles cost: 992 of a teapot, without loss and with."""
+    smooth = load("teapot")
+    flat = Scene([Object(teapot(4))])
+    figures: Figures = {}
+    for name, scene, bits, normal_bits in (
+        ("992 triangles, faces of one shade", flat, None, 10),
+        ("992 triangles, smooth", smooth, None, 10),
+        ("992 triangles, smooth, grid of 2^11, normals of 6 bits", smooth, 11, 6),
+        ("icons/crown", load("icons/crown"), None, 10),
+        ("icons/heart", load("icons/heart"), None, 10),
+    ):
+        if bits is not None:
+            scene = replace(scene, objects=[on_grid(o, bits) for o in scene.objects])
+        (o,) = fit(scene).objects
+        size, storing, reading = keeper.kept_mesh(o, normal_bits)
+        figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}
+    figures["icons/crown: store the scene, its mesh being there"] = store_scene(load("icons/crown"), keeper.studio)[
+        -1
+    ].gas
+    return figures
+
+
+def png_figures(keeper: Keeper) -> Figures:
+    """PNG files of pictures of 128 x 128 pixels."""
+
+    def encoding(pixels: NDArray[np.uint8], scale: int) -> tuple[int, int]:
+        bmp = encode_bmp(pixels)
+        data = b"".join(value.to_bytes(32, "big") for value in (64, scale, len(bmp))) + bmp + bytes(-len(bmp) % 32)
+        result = keeper.chain.call("PngEncoder", artifact("PngEncoder").selectors["encode"] + data)
+        return result.gas, int.from_bytes(result.output[32:64], "big")
+
+    pieces = [picture_on_chain(generate_on_chain(seed_of(number))[0]).pixels for number in range(PIECES)]
+    figures: Figures = {}
+    for scale in (1, 2, 4, 8):
+        gas, size = zip(*(encoding(pixels, scale) for pixels in pieces), strict=True)
+        name = f"PNG, Genesis, x {scale}, mean of {PIECES} pieces"
+        figures |= {f"{name}: gas": sum(gas) // PIECES, f"{name}: bytes": sum(size) // PIECES}
+    others = {
+        "one colour": np.full((128, 128, 3), 200, np.uint8),
+        "teapot": render(load("teapot"), size=128).pixels,
+        "noise": np.random.default_rng(1).integers(0, 256, (128, 128, 3), np.uint8),
+    }
+    for picture, pixels in others.items():
+        gas_, size_ = encoding(pixels, 4)
+        figures |= {f"PNG, {picture}, x 4: gas": gas_, f"PNG, {picture}, x 4: bytes": size_}
+    return figures
+
+
+def take() -> Figures:
+    """All figures."""
+    keeper = Keeper()
+    return mesh_figures(keeper) | png_figures(keeper)
+
+
+def recorded() -> Figures:
+    """The figures of studio.json."""
+    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    return figures
+
+
+def main() -> int:
+    """The command."""
+    old, new = recorded(), take()
+    worse, better = changes({"studio": old}, {"studio": new})
+    print("\n".join([*worse, *better]) or "no figure has changed")
+    FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

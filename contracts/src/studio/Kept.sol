@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {SSTORE2} from "solady/src/utils/SSTORE2.sol";
+
+/// @notice Bytes kept for ever as the code of contracts that cannot run, at addresses made of the bytes themselves and of the contract that
+/// keeps them: the same bytes have one address, and nobody can put others there.
+/// @dev What is longer than a contract may be is kept in parts, together with a list of them: PARTS, then their addresses.
+library Kept {
+    /// @notice Bytes that one contract can hold: 24,576, less the instruction in front that stops all calls.
+    uint256 internal constant MAX_PART = 24575;
+    /// @notice The first byte of a list of parts.
+    uint256 internal constant PARTS = 0x13;
+
+    /// @notice Nothing is kept there.
+    error NothingKept(address pointer);
+    /// @notice There is nothing to be kept, or its first byte is that of a list of parts.
+    error NotToBeKept();
+
+    /// @notice Keeps bytes, unless they are kept already.
+    /// @return pointer Where they are. created Whether they were not.
+    function keep(bytes memory data) internal returns (address pointer, bool created) {
+        unchecked {
+            if (data.length == 0 || uint8(data[0]) == PARTS) revert NotToBeKept();
+            if (data.length <= MAX_PART) return keepPart(data);
+            uint256 count = (data.length + MAX_PART - 1) / MAX_PART;
+            address[] memory parts = new address[](count);
+            for (uint256 k; k != count; ++k) {
+                uint256 size = k + 1 == count ? data.length - k * MAX_PART : MAX_PART;
+                bytes memory part = new bytes(size);
+                assembly ("memory-safe") {
+                    mcopy(add(part, 32), add(add(data, 32), mul(k, MAX_PART)), size)
+                }
+                (parts[k],) = keepPart(part);
+            }
+            return join(parts);
+        }
+    }
+
+    /// @notice Keeps a list of parts, whose bytes one after the other are what is meant; for what does not fit one transaction.
+    function join(address[] memory parts) internal returns (address pointer, bool created) {
+        unchecked {
+            bytes memory list = new bytes(1 + 20 * parts.length);
+            list[0] = bytes1(uint8(PARTS));
+            for (uint256 k; k != parts.length; ++k) {
+                address part = parts[k];
+                if (part.code.length == 0) revert NothingKept(part);
+                assembly ("memory-safe") {
+                    let place := add(add(list, 33), mul(20, k))
+                    mstore(place, or(shl(96, part), shr(160, shl(160, mload(place)))))
+                }
+            }
+            return keepPart(list);
+        }
+    }
+
+    /// @notice Keeps up to MAX_PART bytes, whatever they are.
+    function keepPart(bytes memory data) internal returns (address pointer, bool created) {
+        pointer = SSTORE2.predictCounterfactualAddress(data, 0);
+        if (pointer.code.length == 0) return (SSTORE2.writeCounterfactual(data, 0), true);
+    }
+
+    /// @notice The bytes that are kept there.
+    function read(address pointer) internal view returns (bytes memory data) {
+        unchecked {
+            data = readPart(pointer);
+            if (data.length == 0 || uint8(data[0]) != PARTS) return data;
+            uint256 count = (data.length - 1) / 20;
+            bytes memory list = data;
+            // all parts together are read to where they belong
+            data = new bytes(0);
+            uint256 target;
+            assembly ("memory-safe") {
+                data := mload(0x40)
+                target := add(data, 32)
+            }
+            for (uint256 k; k != count; ++k) {
+                address part;
+                assembly ("memory-safe") {
+                    part := shr(96, mload(add(add(list, 33), mul(20, k))))
+                }
+                uint256 size = part.code.length;
+                if (size == 0) revert NothingKept(part);
+                assembly ("memory-safe") {
+                    extcodecopy(part, target, 1, sub(size, 1))
+                    target := add(target, sub(size, 1))
+                }
+            }
+            assembly ("memory-safe") {
+                mstore(data, sub(target, add(data, 32)))
+                mstore(target, 0)
+                mstore(0x40, and(add(target, 63), not(31)))
+            }
+        }
+    }
+
+    function readPart(address pointer) private view returns (bytes memory) {
+        if (pointer.code.length == 0) revert NothingKept(pointer);
+        return SSTORE2.read(pointer);
+    }
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {LibZip} from "solady/src/utils/LibZip.sol";
+import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {COMPACT, CompactMesh} from "./CompactMesh.sol";
+import {Kept} from "./Kept.sol";
+
+// The first byte of a mesh says what it is: 0 to 3, packed as in `Mesh.sol`; COMPACT; or one of these.
+
+/// @dev A packed mesh, compressed with FastLZ.
+uint256 constant ZIPPED = 0x11;
+/// @dev 20 bytes: the address at which a mesh is kept.
+uint256 constant POINTED = 0x12;
+
+/// @notice Meshes in any of their forms.
+library Meshes {
+    /// @notice The first byte of a mesh is none that is known.
+    error UnknownMesh(uint256 kind);
+
+    /// @notice The mesh in the format of `Mesh.sol`, which the renderer takes.
+    function open(bytes memory data) internal view returns (bytes memory) {
+        uint256 kind = kindOf(data);
+        if (kind == POINTED) {
+            data = Kept.read(pointerIn(data));
+            kind = kindOf(data);
+        }
+        if (kind <= NORMALS + WIDE) return data;
+        if (kind == COMPACT) return CompactMesh.expand(data);
+        if (kind == ZIPPED) return LibZip.flzDecompress(rest(data));
+        revert UnknownMesh(kind);
+    }
+
+    /// @notice What stands for a mesh that is kept.
+    function pointed(address pointer) internal pure returns (bytes memory) {
+        return abi.encodePacked(uint8(POINTED), pointer);
+    }
+
+    /// @notice The first byte; 256 if there is none.
+    function kindOf(bytes memory data) internal pure returns (uint256) {
+        return data.length == 0 ? 256 : uint8(data[0]);
+    }
+
+    function pointerIn(bytes memory data) private pure returns (address pointer) {
+        if (data.length != 21) revert UnknownMesh(POINTED);
+        assembly ("memory-safe") {
+            pointer := shr(96, mload(add(data, 33)))
+        }
+    }
+
+    /// @dev The bytes without the first one.
+    function rest(bytes memory data) internal pure returns (bytes memory tail) {
+        assembly ("memory-safe") {
+            tail := mload(0x40)
+            let size := sub(mload(data), 1)
+            mstore(tail, size)
+            mcopy(add(tail, 32), add(data, 33), size)
+            mstore(add(add(tail, 32), size), 0)
+            mstore(0x40, and(add(add(tail, size), 95), not(31)))
+        }
+    }
+}

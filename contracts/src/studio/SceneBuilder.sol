@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
+import {Vector} from "../math/Vector.sol";
+import {Quaternion} from "../math/Quaternion.sol";
+import {fromEuler} from "../math/Euler.sol";
+import {
+    Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES
+} from "../scene/Scene.sol";
+
+/// @notice A mesh in the making: room for so many vertices and faces is set aside at once, and nothing is moved until it is packed.
+/// @param vertices Where the next vertex belongs. faces Where the next face belongs. vertexCount, faceCount How many there are.
+struct Model {
+    uint256 vertices;
+    uint256 faces;
+    uint256 vertexCount;
+    uint256 faceCount;
+    uint256 maxVertices;
+    uint256 maxFaces;
+}
+
+using {ModelMaker.vertex, ModelMaker.face, ModelMaker.quad, ModelMaker.box, ModelMaker.pack} for Model global;
+
+/// @notice Meshes of coloured triangles, made step by step on chain: without normals, coordinates of 16 bits.
+library ModelMaker {
+    uint256 private constant HEADER_SIZE = 5;
+    uint256 private constant VERTEX_SIZE = 9;
+    uint256 private constant FACE_SIZE = 6;
+
+    /// @notice A contract counts vertices and faces in 16 bits.
+    error ModelTooLarge(uint256 vertices, uint256 faces);
+    error TooManyVertices(uint256 most);
+    error TooManyFaces(uint256 most);
+    /// @notice Coordinates are whole numbers from -32,768 to 32,767.
+    error PositionOutOfRange(int256 x, int256 y, int256 z);
+    error NotAColor(uint256 color);
+    /// @notice A face names a vertex that is not there yet.
+    error NoSuchVertex(uint256 vertex, uint256 vertexCount);
+
+    /// @notice An empty mesh with room for as many vertices and faces.
+    function model(uint256 maxVertices, uint256 maxFaces) internal pure returns (Model memory made) {
+        unchecked {
+            if (maxVertices > 65535 || maxFaces > 65535) revert ModelTooLarge(maxVertices, maxFaces);
+            (made.maxVertices, made.maxFaces) = (maxVertices, maxFaces);
+            assembly ("memory-safe") {
+                // the length and the header, the vertices, and a word that may be written behind them; the faces likewise
+                let begin := add(mload(0x40), 37)
+                let faces := add(begin, add(mul(maxVertices, VERTEX_SIZE), 32))
+                mstore(made, begin)
+                mstore(add(made, 0x20), faces)
+                mstore(0x40, and(add(add(faces, mul(maxFaces, FACE_SIZE)), 63), not(31)))
+            }
+        }
+    }
+
+    /// @notice Adds a vertex, its colour 0xRRGGBB; its number.
+    function vertex(Model memory m, int256 x, int256 y, int256 z, uint256 color) internal pure returns (uint256 index) {
+        unchecked {
+            index = m.vertexCount;
+            if (index == m.maxVertices) revert TooManyVertices(index);
+            if (int16(x) != x || int16(y) != y || int16(z) != z) revert PositionOutOfRange(x, y, z);
+            if (color > 0xffffff) revert NotAColor(color);
+            uint256 packed = (uint256(uint16(int16(x))) << 56) | (uint256(uint16(int16(y))) << 40) | (uint256(uint16(int16(z))) << 24) | color;
+            uint256 target = m.vertices;
+            assembly ("memory-safe") {
+                mstore(target, shl(184, packed))
+            }
+            m.vertices = target + VERTEX_SIZE;
+            m.vertexCount = index + 1;
+        }
+    }
+
+    /// @notice Adds a face of three vertices, counter-clockwise as seen from the front.
+    function face(Model memory m, uint256 a, uint256 b, uint256 c) internal pure {
+        unchecked {
+            uint256 count = m.vertexCount;
+            if (a >= count || b >= count || c >= count) revert NoSuchVertex(a >= count ? a : b >= count ? b : c, count);
+            if (m.faceCount == m.maxFaces) revert TooManyFaces(m.faceCount);
+            uint256 target = m.faces;
+            assembly ("memory-safe") {
+                mstore(target, shl(208, or(or(shl(32, a), shl(16, b)), c)))
+            }
+            m.faces = target + FACE_SIZE;
+            ++m.faceCount;
+        }
+    }
+
+    /// @notice Adds two faces: a, b, c, d counter-clockwise as seen from the front.
+    function quad(Model memory m, uint256 a, uint256 b, uint256 c, uint256 d) internal pure {
+        face(m, a, b, c);
+        face(m, a, c, d);
+    }
+
+    /// @notice Adds a box: 8 vertices, 12 faces. The first corner must be the lower one.
+    function box(Model memory m, int256 x0, int256 y0, int256 z0, int256 x1, int256 y1, int256 z1, uint256 color) internal pure {
+        uint256 v = vertex(m, x0, y0, z0, color);
+        vertex(m, x1, y0, z0, color);
+        vertex(m, x1, y1, z0, color);
+        vertex(m, x0, y1, z0, color);
+        vertex(m, x0, y0, z1, color);
+        vertex(m, x1, y0, z1, color);
+        vertex(m, x1, y1, z1, color);
+        vertex(m, x0, y1, z1, color);
+        quad(m, v + 4, v + 5, v + 6, v + 7);
+        quad(m, v, v + 3, v + 2, v + 1);
+        quad(m, v + 1, v + 2, v + 6, v + 5);
+        quad(m, v, v + 4, v + 7, v + 3);
+        quad(m, v + 3, v + 7, v + 6, v + 2);
+        quad(m, v, v + 1, v + 5, v + 4);
+    }
+
+    /// @notice The bytes of the mesh, in place: nothing may be added afterwards.
+    function pack(Model memory m) internal pure returns (bytes memory mesh) {
+        unchecked {
+            uint256 vertexSize = VERTEX_SIZE * m.vertexCount;
+            uint256 faceSize = FACE_SIZE * m.faceCount;
+            uint256 end = m.vertices;
+            uint256 first = m.faces - faceSize;
+            uint256 header = (m.vertexCount << 16) | m.faceCount;
+            assembly ("memory-safe") {
+                mcopy(end, first, faceSize)
+                let begin := sub(end, vertexSize)
+                mesh := sub(begin, 37)
+                // the header has a byte of zeros before it, and overwrites nothing: it is put into the word that ends where vertices begin
+                mstore(mesh, add(HEADER_SIZE, add(vertexSize, faceSize)))
+                mstore(sub(begin, 5), or(shl(216, header), shr(40, mload(begin))))
+                mstore(add(end, faceSize), 0)
+            }
+            // closed for more
+            (m.maxVertices, m.maxFaces) = (m.vertexCount, m.faceCount);
+        }
+    }
+}
+
+/// @notice A scene in the making; `scene` is what the renderer takes, at any time.
+/// @param maxObjects How many objects there is room for.
+struct Stage {
+    Scene scene;
+    uint256 maxObjects;
+}
+
+using {StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.add} for Stage global;
+
+/// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
+/// per cent. What is out of range is told by the renderer.
+library StageMaker {
+    error TooManyObjects(uint256 most);
+    error TooManyLights(uint256 most);
+
+    uint256 private constant MAX_LIGHTS = 4;
+
+    /// @notice An empty scene with room for as many objects: the eye 1,000 units in front of the origin, 50 degrees of view, white ambient
+    /// light and no other, a dark background.
+    function stage(uint256 width, uint256 height, uint256 maxObjects) internal pure returns (Stage memory made) {
+        Scene memory s = made.scene;
+        s.canvas = Canvas(width, height);
+        look(made, units(0, 0, 1000), units(0, 0, 0));
+        // the tangent of half of 50 degrees
+        s.camera.halfHeight = Fixed.wrap(2002776142);
+        s.background = Background(0x2e3648, 0x8892a2);
+        s.ambientLight = 0xffffff;
+        s.objects = new Object[](maxObjects);
+        s.lights = new Light[](MAX_LIGHTS);
+        made.maxObjects = maxObjects;
+        setCounts(s, 0, 0);
+    }
+
+    /// @notice The camera, upright, at `eye`, looking at `target`. What is nearer than a unit is not seen.
+    function look(Stage memory made, Vector memory eye, Vector memory target) internal pure {
+        Camera memory camera = made.scene.camera;
+        (camera.eye, camera.target, camera.up) = (eye, target, units(0, 1, 0));
+        (camera.projection, camera.near) = (PERSPECTIVE, ONE);
+    }
+
+    /// @notice The background, from top to bottom.
+    function background(Stage memory made, uint256 top, uint256 bottom) internal pure {
+        made.scene.background = Background(top, bottom);
+    }
+
+    /// @notice Adds light from a direction.
+    function sun(Stage memory made, Vector memory toward, uint256 color) internal pure {
+        addLight(made.scene, Light(DIRECTIONAL, toward, color));
+    }
+
+    /// @notice Adds light from a place.
+    function lamp(Stage memory made, Vector memory place, uint256 color) internal pure {
+        addLight(made.scene, Light(POINT, place, color));
+    }
+
+    /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away. What is
+    /// returned can be changed.
+    function add(Stage memory made, bytes memory mesh, Material memory material) internal pure returns (Object memory object) {
+        Scene memory s = made.scene;
+        uint256 count = s.objects.length;
+        if (count == made.maxObjects) revert TooManyObjects(count);
+        setCounts(s, count + 1, s.lights.length);
+        object = s.objects[count];
+        (object.mesh, object.material) = (mesh, material);
+        (object.rotation, object.scale) = (Quaternion(ZERO, ZERO, ZERO, ONE), ONE);
+        object.flags = CULL_BACKFACES;
+    }
+
+    /// @notice The rotation about the x axis, then y, then z.
+    function turned(int256 x, int256 y, int256 z) internal pure returns (Quaternion memory) {
+        return fromEuler(unit(x), unit(y), unit(z));
+    }
+
+    /// @notice A point or a direction, in whole units.
+    function units(int256 x, int256 y, int256 z) internal pure returns (Vector memory) {
+        return Vector(unit(x), unit(y), unit(z));
+    }
+
+    /// @notice A whole number.
+    function unit(int256 value) internal pure returns (Fixed) {
+        return Fixed.wrap(value * 4294967296);
+    }
+
+    /// @notice So many hundredths.
+    function percent(int256 value) internal pure returns (Fixed) {
+        return Fixed.wrap(value * 4294967296 / 100);
+    }
+
+    /// @notice A surface with faces of one shade each.
+    function flat(int256 ambient, int256 diffuse, int256 specular, uint256 shininess) internal pure returns (Material memory) {
+        return Material(FLAT, percent(ambient), percent(diffuse), percent(specular), shininess);
+    }
+
+    /// @notice A surface that shows its colours as they are.
+    function unlit() internal pure returns (Material memory) {
+        return Material(UNLIT, ONE, ZERO, ZERO, 1);
+    }
+
+    function addLight(Scene memory s, Light memory light) private pure {
+        uint256 count = s.lights.length;
+        if (count == MAX_LIGHTS) revert TooManyLights(count);
+        setCounts(s, s.objects.length, count + 1);
+        s.lights[count] = light;
+    }
+
+    /// @dev There is room in memory behind both arrays, up to the sizes with which they were made.
+    function setCounts(Scene memory s, uint256 objects, uint256 lights) private pure {
+        (Object[] memory o, Light[] memory l) = (s.objects, s.lights);
+        assembly ("memory-safe") {
+            mstore(o, objects)
+            mstore(l, lights)
+        }
+    }
+}

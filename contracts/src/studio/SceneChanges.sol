@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "../math/Fixed.sol";
+import {Vector} from "../math/Vector.sol";
+import {sqrt} from "../math/Roots.sol";
+import {Quaternion, Matrix} from "../math/Quaternion.sol";
+import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {Scene, Object, Background, Canvas} from "../scene/Scene.sol";
+
+uint256 constant TURN = 1;
+uint256 constant PAINT = 2;
+uint256 constant BACKGROUND = 4;
+uint256 constant INVERT = 8;
+uint256 constant CANVAS = 16;
+
+/// @notice How a picture differs from that of the scene that is kept.
+/// @param fields Which of the following count: the sum of TURN, PAINT, BACKGROUND, INVERT, CANVAS.
+/// @param turn A rotation of all objects about their middle. Its length must not be zero, and is best 1.
+/// @param color Of all vertices of all objects, 0xRRGGBB.
+/// @param background As in a scene. invert 1 or 0. canvas The size of the picture.
+struct Changes {
+    uint256 fields;
+    Quaternion turn;
+    uint256 color;
+    Background background;
+    uint256 invert;
+    Canvas canvas;
+}
+
+/// @notice Makes a scene differ.
+library SceneChanges {
+    /// @notice A field is named that there is not.
+    error UnknownChanges(uint256 fields);
+    error ColorOutOfRange(uint256 color);
+    /// @notice The rotation is zero, or a part of it is larger than 2^16.
+    error TurnOutOfRange();
+
+    int256 private constant MAX_PART = 1 << 48;
+
+    /// @dev Meshes must be in the format of `Mesh.sol`.
+    function make(Scene memory scene, Changes memory changes) internal pure {
+        uint256 fields = changes.fields;
+        if (fields > 31) revert UnknownChanges(fields);
+        if (fields & TURN != 0) {
+            checkTurn(changes.turn);
+            turn(scene, changes.turn);
+        }
+        if (fields & PAINT != 0) {
+            if (changes.color > 0xffffff) revert ColorOutOfRange(changes.color);
+            for (uint256 k; k < scene.objects.length; ++k) paint(scene.objects[k].mesh, changes.color);
+        }
+        if (fields & BACKGROUND != 0) scene.background = changes.background;
+        if (fields & INVERT != 0) scene.invert = changes.invert;
+        if (fields & CANVAS != 0) scene.canvas = changes.canvas;
+    }
+
+    /// @notice Turns all objects about their middle.
+    function turn(Scene memory scene, Quaternion memory q) internal pure {
+        Matrix memory m = q.toMatrix();
+        Vector memory center = middle(scene);
+        for (uint256 k; k < scene.objects.length; ++k) {
+            Object memory object = scene.objects[k];
+            object.position = center.add(m.times(object.position.sub(center)));
+            object.rotation = times(q, object.rotation);
+        }
+    }
+
+    /// @notice The middle of all objects, each taken as the ball around the box of its vertices.
+    function middle(Scene memory scene) internal pure returns (Vector memory center) {
+        unchecked {
+            Vector memory low;
+            Vector memory high;
+            for (uint256 k; k < scene.objects.length; ++k) {
+                (Vector memory place, Fixed radius) = ball(scene.objects[k]);
+                if (k == 0) {
+                    (low, high) = (place.sub(Vector(radius, radius, radius)), place.add(Vector(radius, radius, radius)));
+                    continue;
+                }
+                (low.x, high.x) = span(low.x, high.x, place.x, radius);
+                (low.y, high.y) = span(low.y, high.y, place.y, radius);
+                (low.z, high.z) = span(low.z, high.z, place.z, radius);
+            }
+            return low.add(high).scale(Fixed.wrap(1 << 31));
+        }
+    }
+
+    function span(Fixed low, Fixed high, Fixed place, Fixed radius) private pure returns (Fixed, Fixed) {
+        return (place - radius < low ? place - radius : low, place + radius > high ? place + radius : high);
+    }
+
+    /// @dev The ball around the box of an object's vertices.
+    function ball(Object memory object) private pure returns (Vector memory place, Fixed radius) {
+        unchecked {
+            (int256[3] memory low, int256[3] memory high) = box(object.mesh);
+            Vector memory twice = Vector(Fixed.wrap((low[0] + high[0]) << 32), Fixed.wrap((low[1] + high[1]) << 32), Fixed.wrap((low[2] + high[2]) << 32));
+            Fixed half = Fixed.wrap(object.scale.raw() >> 1);
+            bool still = object.rotation.x.raw() | object.rotation.y.raw() | object.rotation.z.raw() | object.rotation.w.raw() == 0;
+            // a rotation of zero is refused by the renderer
+            if (!still) place = object.position.add(object.rotation.toMatrix().times(twice.scale(half)));
+            (int256 x, int256 y, int256 z) = (high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+            radius = Fixed.wrap(int256(sqrt(uint256(x * x + y * y + z * z) << 64))) * half;
+        }
+    }
+
+    /// @dev The lowest and the highest coordinates of a packed mesh; zeros if it has no vertices or is not complete.
+    function box(bytes memory mesh) private pure returns (int256[3] memory low, int256[3] memory high) {
+        assembly ("memory-safe") {
+            let header := shr(216, mload(add(mesh, 32)))
+            let format := shr(32, header)
+            let size := add(2, shr(1, and(format, WIDE)))
+            let stride := add(add(mul(3, size), 3), mul(4, and(format, NORMALS)))
+            let begin := add(mesh, 37)
+            let end := add(begin, mul(stride, and(shr(16, header), 0xffff)))
+            if or(iszero(mload(mesh)), gt(end, add(add(mesh, 32), mload(mesh)))) { end := 0 }
+            let cut := sub(256, shl(3, size))
+            for { let axis := 0 } lt(axis, 3) { axis := add(axis, 1) } {
+                let place := add(begin, mul(axis, size))
+                let least := sar(cut, mload(place))
+                let most := least
+                if iszero(lt(begin, end)) {
+                    least := 0
+                    most := 0
+                }
+                for {} lt(place, end) { place := add(place, stride) } {
+                    let value := sar(cut, mload(place))
+                    if slt(value, least) { least := value }
+                    if sgt(value, most) { most := value }
+                }
+                mstore(add(low, shl(5, axis)), least)
+                mstore(add(high, shl(5, axis)), most)
+            }
+        }
+    }
+
+    /// @notice Gives all vertices of a packed mesh one colour.
+    function paint(bytes memory mesh, uint256 color) internal pure {
+        assembly ("memory-safe") {
+            let header := shr(216, mload(add(mesh, 32)))
+            let format := shr(32, header)
+            let place := add(6, mul(3, shr(1, and(format, WIDE))))
+            let stride := add(add(place, 3), mul(4, and(format, NORMALS)))
+            let end := add(add(mesh, 37), mul(stride, and(shr(16, header), 0xffff)))
+            // a mesh that is not complete is refused by the renderer: nothing outside of it is touched here
+            if gt(end, add(add(mesh, 32), mload(mesh))) { end := 0 }
+            color := shl(232, color)
+            for { place := add(add(mesh, 37), place) } lt(place, end) { place := add(place, stride) } {
+                mstore(place, or(color, shr(24, shl(24, mload(place)))))
+            }
+        }
+    }
+
+    /// @dev First q, then p: p * q.
+    function times(Quaternion memory p, Quaternion memory q) private pure returns (Quaternion memory) {
+        return Quaternion(
+            p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
+            p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
+            p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w,
+            p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z
+        );
+    }
+
+    function checkTurn(Quaternion memory q) private pure {
+        bool fits = fit(q.x) && fit(q.y) && fit(q.z) && fit(q.w);
+        if (!fits || q.x.raw() | q.y.raw() | q.z.raw() | q.w.raw() == 0) revert TurnOutOfRange();
+    }
+
+    function fit(Fixed part) private pure returns (bool) {
+        return part.raw() >= -MAX_PART && part.raw() <= MAX_PART;
+    }
+}

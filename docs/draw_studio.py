@@ -1,0 +1,44 @@
+"""Draws the picture of docs/studio.md: tokens of examples/tokens, as they stand in their own URIs.
+
+    python docs/draw_studio.py
+
+Needs the compiler: `npm ci` in contracts/.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+from PIL import Image as PillowImage
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tests"))
+
+from ledger import World  # noqa: E402
+from shackled import load  # noqa: E402
+from shackled.studio.keeping import store_scene  # noqa: E402
+from test_examples import compile_example, picture, token_uri  # noqa: E402
+
+
+def main() -> None:
+    """The command."""
+    world = World()
+    studio = world.address("Studio")
+    for storing in store_scene(load("icons/diamond"), studio, chain=world.chain):
+        world.run(studio, storing.data, created=True)
+    arguments = [address.rjust(32, b"\0") for address in (studio, storing.pointer)]
+    kept = world.deploy(compile_example("examples/tokens/PictureToken.sol")[0], b"".join(arguments))
+    town = world.deploy(compile_example("examples/tokens/SkylineToken.sol")[0], arguments[0])
+    rows = []
+    for token, numbers in ((kept, (0, 2, 4, 6)), (town, (0, 1, 2, 3))):
+        pictures = [picture(token_uri(world, token, number, 7)) for number in numbers]
+        print(f"{world.gas:,} gas")
+        # one pixel of each square of 4 x 4
+        rows.append(np.hstack([each[::4, ::4] for each in pictures]))
+    PillowImage.fromarray(np.vstack(rows)).save(ROOT / "docs" / "images" / "studio.png", optimize=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ERC721A} from "erc721a/contracts/ERC721A.sol";
+import {Base64} from "solady/src/utils/Base64.sol";
+import {Fixed, ZERO} from "../../contracts/src/math/Fixed.sol";
+import {fromEuler} from "../../contracts/src/math/Euler.sol";
+import {Studio} from "../../contracts/src/studio/Studio.sol";
+import {Changes, TURN} from "../../contracts/src/studio/SceneChanges.sol";
+
+/// @notice Tokens whose picture is a scene that the Studio keeps, turned by ten degrees more for each token.
+contract PictureToken is ERC721A("Pictures", "PIC") {
+    Studio public immutable studio;
+    address public immutable picture;
+
+    constructor(Studio studio_, address picture_) {
+        (studio, picture) = (studio_, picture_);
+    }
+
+    function mint() external {
+        _mint(msg.sender, 1);
+    }
+
+    function tokenURI(uint256 id) public view override returns (string memory) {
+        if (!_exists(id)) revert URIQueryForNonexistentToken();
+        Changes memory changes;
+        (changes.fields, changes.turn) = (TURN, fromEuler(ZERO, Fixed.wrap(int256(id * 10) << 32), ZERO));
+        string memory image = studio.renderDataURI(picture, 4, changes);
+        string memory json = string.concat('{"name":"Picture ', _toString(id), '","image":"', image, '"}');
+        return string.concat("data:application/json;base64,", Base64.encode(bytes(json)));
+    }
+}

@@ -1,0 +1,1 @@
+"""Meshes and scenes kept on chain: contracts/src/studio."""

@@ -1,0 +1,225 @@
+"""What is kept in the Studio: the data of the calls that store it, where it will be, and what it costs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from Crypto.Hash import keccak
+
+from ..artifacts import artifact
+from ..chain import ContractChain, open_chain
+from ..errors import InputError
+from ..scene.codec import encode_scene
+from ..scene.fit import fit
+from ..scene.object import Object
+from ..scene.packed_mesh import pack
+from ..scene.rotation import rotate
+from ..scene.scene import Scene
+from .compact_mesh import compact
+
+STUDIO = "Studio"
+
+#: What one contract can hold: 24,576 bytes, less the instruction in front that stops all calls.
+MAX_PART = 24575
+#: The first bytes of what is kept (contracts/src/studio/Kept.sol, Meshes.sol, Studio.sol).
+PARTS = 0x13
+POINTED = 0x12
+SCENE = 0x20
+
+#: The struct Scene of contracts/src/scene/Scene.sol.
+VECTOR = "(int256,int256,int256)"
+MATERIAL = "(uint256,int256,int256,int256,uint256)"
+OBJECT = f"(bytes,{VECTOR},(int256,int256,int256,int256),int256,{MATERIAL},uint256)"
+SCENE_STRUCT = (
+    f"((uint256,uint256),({VECTOR},{VECTOR},{VECTOR},uint256,int256,int256),(uint256,uint256),uint256,uint256,"
+    f"(uint256,{VECTOR},uint256)[],{OBJECT}[])"
+)
+
+
+@dataclass(frozen=True)
+class Storing:
+    """A transaction to the Studio.
+
+    what: in words. data: of the call. pointer: where the Studio will keep it. size: bytes that are kept. gas: of the
+    whole transaction, if nothing of it is kept yet.
+    """
+
+    what: str
+    data: bytes
+    pointer: bytes
+    size: int
+    gas: int
+
+
+def store_scene(
+    scene: Scene,
+    studio: bytes,
+    position_bits: int | None = None,
+    normal_bits: int = 10,
+    chain: ContractChain | None = None,
+) -> list[Storing]:
+    """The transactions that store a scene: first its meshes, each once, last the scene itself, whose pointer is that of
+    the picture.
+
+    studio: the address of the Studio, 20 bytes. position_bits: if given, meshes are laid on a grid of 2^position_bits
+    steps across their largest side, 4 to 16; else nothing is lost. normal_bits: see `compact`.
+    chain: where gas is counted; the embedded EVM if None.
+    """
+    check_address(studio)
+    if position_bits is not None:
+        scene = replace(scene, objects=[on_grid(o, position_bits) for o in scene.objects])
+    fitted = fit(scene)
+    meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
+    result: list[Storing] = []
+    for number, mesh in enumerate(dict.fromkeys(meshes), 1):
+        result += _storings(f"mesh {number}", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+    struct = pointing(fitted, [kept_at(mesh, studio) for mesh in meshes])
+    data = artifact(STUDIO).selectors["storeScene"] + (32).to_bytes(32, "big") + struct
+    # as the ABI says, a struct is encoded behind the offset of itself
+    kept = bytes([SCENE]) + compress_zeros((32).to_bytes(32, "big") + struct)
+    return result + _storings("scene", kept, data, studio, chain)
+
+
+def store_mesh(
+    packed: bytes, studio: bytes, normal_bits: int = 10, chain: ContractChain | None = None
+) -> list[Storing]:
+    """The transactions that store a packed mesh; mostly one. The last has its pointer."""
+    check_address(studio)
+    mesh = compact(packed, normal_bits)
+    return _storings("mesh", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+
+
+def read_mesh(pointer: bytes, chain: ContractChain) -> bytes:
+    """The packed mesh that the Studio of a chain keeps there."""
+    from eth_abi.abi import decode
+
+    output = chain.call(STUDIO, artifact(STUDIO).selectors["mesh"] + check_address(pointer).rjust(32, b"\0")).output
+    return bytes(decode(["bytes"], output)[0])
+
+
+def read_picture(pointer: bytes, scale: int, chain: ContractChain) -> bytes:
+    """The PNG file of a scene that the Studio of a chain keeps there."""
+    from eth_abi.abi import decode
+
+    data = _call("renderPNG(address,uint256)", ["address", "uint256"], [check_address(pointer), scale])
+    return bytes(decode(["bytes"], chain.call(STUDIO, data).output)[0])
+
+
+def kept_at(data: bytes, studio: bytes) -> bytes:
+    """The address at which a Studio keeps these bytes."""
+    if len(data) <= MAX_PART:
+        return _created(data, studio)
+    return _created(_list(parts_of(data), studio), studio)
+
+
+def parts_of(data: bytes) -> list[bytes]:
+    """The bytes in parts that a contract can hold."""
+    return [data[at : at + MAX_PART] for at in range(0, len(data), MAX_PART)]
+
+
+def on_grid(o: Object, bits: int) -> Object:
+    """The object with its mesh on a grid of 2^bits steps across its largest side, in whole numbers; it stays in place.
+
+    This loses precision: half a step each way. Normals are those of the mesh as it was.
+    """
+    if not 4 <= bits <= 16:
+        raise InputError(f"a grid has 4 to 16 bits a side, not {bits}")
+    positions = np.asarray(o.mesh.positions, dtype=np.float64)
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    center = (low + high) / 2
+    step = float((high - low).max()) / ((1 << bits) - 2) or 1.0
+    mesh = replace(o.mesh, positions=np.rint((positions - center) / step))
+    place = np.asarray(o.position) + rotate(o.rotation, center * o.scale)
+    return replace(o, mesh=mesh, position=place, scale=o.scale * step)
+
+
+def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
+    """The struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
+    from eth_abi.abi import decode, encode
+
+    (struct,) = decode([SCENE_STRUCT], (32).to_bytes(32, "big") + encode_scene(scene))
+    *others, objects = struct
+    pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
+    return encode([SCENE_STRUCT], [(*others, pointed)])[32:]
+
+
+def compress_zeros(data: bytes) -> bytes:
+    """As LibZip.cdCompress of solady: runs of zeros and of ones in two bytes, and the first four bytes negated."""
+    result = bytearray()
+    at = 0
+    while at < len(data):
+        value, most = data[at], {0: 128, 255: 32}.get(data[at], 1)
+        end = at + 1
+        while end < len(data) and end - at < most and data[end] == value:
+            end += 1
+        result += bytes([value]) if most == 1 else bytes([0, (value & 128) + end - at - 1])
+        at = end
+    return bytes(value ^ 255 for value in result[:4]) + bytes(result[4:])
+
+
+def check_address(address: bytes) -> bytes:
+    """The address, if it has 20 bytes."""
+    if len(address) != 20:
+        raise InputError(f"an address has 20 bytes, not {len(address)}")
+    return address
+
+
+def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: ContractChain | None) -> list[Storing]:
+    if len(kept) <= MAX_PART:
+        return [_storing(what, whole, _created(kept, studio), len(kept), chain)]
+    parts = parts_of(kept)
+    result = [
+        _storing(
+            f"{what}, part {number} of {len(parts)}",
+            _call("storePart(bytes)", ["bytes"], [part]),
+            _created(part, studio),
+            len(part),
+            chain,
+        )
+        for number, part in enumerate(parts, 1)
+    ]
+    addresses = [storing.pointer for storing in result]
+    listed = _list(parts, studio)
+    joining = _call("join(address[])", ["address[]"], [addresses])
+    # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
+    gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 300 * len(parts)
+    return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), len(listed), gas)]
+
+
+def _storing(what: str, data: bytes, pointer: bytes, size: int, chain: ContractChain | None) -> Storing:
+    result = (chain or _embedded()).call(STUDIO, data)
+    return Storing(what, data, pointer, size, result.gas + result.intrinsic_gas)
+
+
+def _embedded() -> ContractChain:
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    return chain
+
+
+def _list(parts: Sequence[bytes], studio: bytes) -> bytes:
+    return bytes([PARTS]) + b"".join(_created(part, studio) for part in parts)
+
+
+def _created(data: bytes, studio: bytes) -> bytes:
+    """Where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
+    code = bytes.fromhex("61") + (len(data) + 1).to_bytes(2, "big") + bytes.fromhex("80600a3d393df300") + data
+    return _hash(b"\xff" + studio + bytes(32) + _hash(code))[12:]
+
+
+def _hash(data: bytes) -> bytes:
+    return keccak.new(digest_bits=256, data=data).digest()
+
+
+def _call(signature: str, kinds: list[str], values: list[Any]) -> bytes:
+    from eth_abi.abi import encode
+
+    return _hash(signature.encode())[:4] + encode(kinds, values)
+
+
+def _intrinsic(data: bytes) -> int:
+    zeros = data.count(0)
+    return 21_000 + 4 * zeros + 16 * (len(data) - zeros)

@@ -1,0 +1,104 @@
+"""A chain in this process on which contracts may create others, as the Studio does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+from eth_abi.abi import decode, encode
+
+from shackled.artifacts import artifact
+from shackled.chain.embedded import EmbeddedChain, _hex, _pyrevm_error, intrinsic_gas
+from shackled.chain.opening import open_chain
+
+GAS = 2_000_000_000
+SENDER = b"\x5a" * 20
+
+
+class World:
+    """Contracts by their addresses. Each call finds the same addresses cold."""
+
+    def __init__(self) -> None:
+        pytest.importorskip("pyrevm")
+        chain = open_chain("pyrevm")
+        assert isinstance(chain, EmbeddedChain)
+        for name in ("Renderer", "Studio", "PngEncoder"):
+            chain.address(name)
+        self.chain = chain
+        self.codes = dict(chain.codes())
+        self.gas = 0
+
+    def address(self, contract: str) -> bytes:
+        return self.chain.address(contract)
+
+    def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
+        """Where a new contract stands."""
+        address = b"\xde" + len(self.codes).to_bytes(19, "big")
+        self.codes[address] = self.chain._create("a contract", creation + arguments)
+        return address
+
+    def run(self, to: bytes, data: bytes, gas: int = GAS, created: bool = False, before: Sequence[bytes] = ()) -> bytes:
+        """Calls a contract; `gas` then tells what it took without the cost of a transaction. With `created`, the answer
+        is the address of a contract that is kept from now on. `before` are the data of calls of it that come first.
+        """
+        import pyrevm
+
+        evm: Any = pyrevm.EVM(spec_id="Cancun")
+        for address, code in self.codes.items():
+            evm.insert_account_info(_hex(address), pyrevm.AccountInfo(code=code))
+        try:
+            for earlier in before:
+                evm.message_call(_hex(SENDER), _hex(to), earlier, None, gas)
+            output = bytes(evm.message_call(_hex(SENDER), _hex(to), data, None, gas))
+        except RuntimeError as error:
+            raise _pyrevm_error(str(error), gas) from None
+        self.gas = evm.result.gas_used - intrinsic_gas(data)
+        if created:
+            self._keep(evm, output[12:32])
+        return output
+
+    def _keep(self, evm: Any, address: bytes) -> None:
+        if address not in self.codes:
+            # pyrevm adds 33 bytes of zeros to what was created
+            code = bytes(evm.get_code(_hex(address)))[:-33]
+            self.codes[address] = code
+            for at in range(2, len(code), 20) if code[1] == 0x13 else ():
+                self._keep(evm, code[at : at + 20])
+
+    def call(self, contract: str, signature: str, *values: Any, gas: int = GAS) -> Any:
+        """The one value that a function returns."""
+        output = self.run(self.address(contract), call_data(signature, *values), gas)
+        return decode([returned(contract, signature)], output)[0]
+
+    def store(self, signature: str, *values: Any) -> bytes:
+        """Stores something in the Studio; its pointer."""
+        return self.run(self.address("Studio"), call_data(signature, *values), created=True)[12:32]
+
+
+def call_data(signature: str, *values: Any) -> bytes:
+    """The data of a call of a function whose parameters have these types."""
+    from Crypto.Hash import keccak
+
+    kinds = signature.partition("(")[2][:-1]
+    selector = keccak.new(digest_bits=256, data=signature.encode()).digest()[:4]
+    return selector + encode(_split(kinds), values)
+
+
+def returned(contract: str, signature: str) -> str:
+    """The type of what a function returns."""
+    name = signature.partition("(")[0]
+    (kind,) = {entry["outputs"][0]["type"] for entry in artifact(contract).abi if entry.get("name") == name}
+    return str(kind)
+
+
+def _split(kinds: str) -> list[str]:
+    parts, depth, part = [], 0, ""
+    for letter in kinds:
+        depth += (letter == "(") - (letter == ")")
+        if letter == "," and not depth:
+            parts.append(part)
+            part = ""
+        else:
+            part += letter
+    return [*parts, part] if part else parts

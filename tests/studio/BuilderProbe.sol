@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Scene} from "../../contracts/src/scene/Scene.sol";
+import {Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
+
+/// @notice Builds meshes and scenes as it is told.
+contract BuilderProbe {
+    struct V {
+        int256 x;
+        int256 y;
+        int256 z;
+        uint256 color;
+    }
+
+    function mesh(uint256 maxVertices, uint256 maxFaces, V[] memory vertices, uint256[3][] memory faces)
+        external
+        pure
+        returns (bytes memory packed, bytes memory behind)
+    {
+        Model memory m = ModelMaker.model(maxVertices, maxFaces);
+        // what is set aside is not what others get
+        behind = abi.encodePacked(uint256(0x1234567890abcdef), uint256(0xfedcba0987654321));
+        for (uint256 k; k < vertices.length; ++k) {
+            uint256 index = m.vertex(vertices[k].x, vertices[k].y, vertices[k].z, vertices[k].color);
+            assert(index == k);
+        }
+        for (uint256 k; k < faces.length; ++k) m.face(faces[k][0], faces[k][1], faces[k][2]);
+        packed = m.pack();
+    }
+
+    function addAfterPacking() external pure {
+        Model memory m = ModelMaker.model(4, 4);
+        m.vertex(1, 2, 3, 4);
+        m.pack();
+        m.vertex(1, 2, 3, 4);
+    }
+
+    function box() external pure returns (bytes memory packed) {
+        Model memory m = ModelMaker.model(8, 12);
+        m.box(-10, -20, -30, 40, 50, 60, 0x102030);
+        return m.pack();
+    }
+
+    function scene(uint256 objects, uint256 added, uint256 lights) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(20, 10, objects);
+        for (uint256 k; k < added; ++k) {
+            stage.add(hex"0000000000", k % 2 == 0 ? StageMaker.flat(25, 50, 100, 7) : StageMaker.unlit()).rotation =
+                StageMaker.turned(0, 90, 0);
+        }
+        for (uint256 k; k < lights; ++k) {
+            if (k % 2 == 0) stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
+            else stage.lamp(StageMaker.units(10, -20, 30), 0x808080);
+        }
+        return stage.scene;
+    }
+}

@@ -1,0 +1,157 @@
+"""Meshes as they are kept: nothing is lost, and the contract gives back what Python does."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from eth_abi.abi import decode
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ledger import call_data
+from pictures import chain
+from shackled import InputError, Mesh, RenderError, load
+from shackled.chain.embedded import EmbeddedChain
+from shackled.datasets.teapot import teapot
+from shackled.scene.fit import fit
+from shackled.scene.packed_mesh import pack
+from shackled.studio.compact_mesh import COMPACT, compact, expand, take_apart
+
+KEPT = b"\xaa" * 20
+
+
+def opened(stored: bytes) -> bytes:
+    """What the Studio makes of it, had it been kept."""
+    place = chain()
+    assert isinstance(place, EmbeddedChain)
+    place.address("Studio")
+    place._codes[KEPT] = b"\0" + stored
+    try:
+        output = place.call("Studio", call_data("mesh(address)", "0x" + KEPT.hex())).output
+    finally:
+        del place._codes[KEPT]
+    return bytes(decode(["bytes"], output)[0])
+
+
+def content(packed: bytes) -> tuple[list[str], list[str]]:
+    """The vertices, and the faces by what their vertices are: in no order, from no particular corner."""
+    parts = take_apart(packed)
+    vertices = [f"{parts.positions[k]} {parts.colors[k]} {parts.normals[k]}" for k in range(len(parts.positions))]
+    faces = [tuple(vertices[corner] for corner in face) for face in parts.faces]
+    turned = [str(min(face[k:] + face[:k] for k in range(3))) for face in faces]
+    return sorted(vertices), sorted(turned)
+
+
+@st.composite
+def meshes(draw: st.DrawFn) -> bytes:
+    """Any faces over any vertices: far from what surfaces look like."""
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    n, m = draw(st.integers(1, 400)), draw(st.integers(1, 120))
+    reach = draw(st.sampled_from([0, 5, 300, 2**15 - 1, 2**15, 2**23 - 1]))
+    positions = random.integers(-reach, reach + 1, (n, 3))
+    near = draw(st.sampled_from([2, 20, 400]))
+    faces = (np.arange(m)[:, None] + random.integers(0, near, (m, 3))) % n
+    colors = random.integers(0, 256, (draw(st.sampled_from([1, 2, 5, 400])), 3))
+    mesh = Mesh(positions, faces, colors[random.integers(0, len(colors), n)], random.normal(size=(n, 3)))
+    return pack(mesh, smooth=draw(st.booleans()))
+
+
+@settings(max_examples=60, deadline=None)
+@given(packed=meshes())
+def test_nothing_is_lost(packed: bytes) -> None:
+    stored = compact(packed)
+    assert content(expand(stored)) == content(packed)
+    assert opened(stored) == expand(stored)
+
+
+@pytest.mark.parametrize("normal_bits", range(4, 11))
+def test_normals_of_fewer_bits(normal_bits: int) -> None:
+    packed = pack(Mesh(np.round(np.asarray(teapot(3).positions) * 1000), teapot(3).faces), smooth=True)
+    stored = compact(packed, normal_bits)
+    assert opened(stored) == expand(stored)
+    exact, near = take_apart(expand(compact(packed))), take_apart(expand(stored))
+    assert exact.positions == near.positions
+    assert exact.faces == near.faces
+    for a, b in zip(exact.normals, near.normals, strict=True):
+        for shift in (22, 12, 2):
+            difference = abs(((a >> shift & 1023) ^ 512) - ((b >> shift & 1023) ^ 512))
+            assert difference <= 1 << (9 - normal_bits) if normal_bits < 10 else difference == 0
+
+
+@pytest.mark.parametrize("name", ["icons/crown", "teapot", "torus-knot"])
+def test_surfaces_become_small(name: str) -> None:
+    for o in fit(load(name)).objects:
+        packed = pack(o.mesh, o.material.shading == "smooth")
+        stored = compact(packed)
+        assert content(expand(stored)) == content(packed)
+        assert opened(stored) == expand(stored)
+        assert len(stored) < 0.6 * len(packed)
+
+
+def test_what_is_packed_is_given_as_it_is() -> None:
+    packed = pack(Mesh([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]]))
+    assert opened(packed) == packed
+
+
+def test_meshes_without_faces_or_with_lonely_vertices() -> None:
+    lonely = pack(Mesh([[0, 0, 0], [9, 0, 0], [5, 5, 5], [0, 9, 0]], [[0, 1, 3]]))
+    for packed in (lonely, b"\0\0\0\0\0", b"\0\0\1\0\0" + bytes(9)):
+        assert content(expand(compact(packed))) == content(packed)
+        assert opened(compact(packed)) == expand(compact(packed))
+
+
+CUBE = compact(pack(Mesh(np.array(np.meshgrid([0, 9], [0, 9], [0, 9])).reshape(3, 8).T, [[0, 1, 3], [0, 3, 2]])))
+
+
+@pytest.mark.parametrize(
+    ("broken", "error"),
+    [
+        (CUBE[:-1], "CompactMeshLength"),
+        (CUBE + b"\0", "CompactMeshLength"),
+        (CUBE[:20], "CompactMeshLength"),
+        (CUBE[:1] + b"\4" + CUBE[2:], "CompactMeshHeader"),
+        (CUBE[:8] + b"\x11" + CUBE[9:], "CompactMeshHeader"),
+        (CUBE[:22] + b"\x19" + CUBE[23:], "CompactMeshHeader"),
+        (CUBE[:23] + b"\1" + CUBE[24:], "CompactMeshHeader"),
+        (CUBE[:27] + b"\xff\xff" + CUBE[29:], "CompactMeshFaces"),
+        (b"\x21" + CUBE[1:], "UnknownMesh"),
+    ],
+)
+def test_what_is_broken_is_refused(broken: bytes, error: str) -> None:
+    with pytest.raises(RenderError, match=error):
+        opened(broken)
+
+
+@settings(max_examples=40, deadline=None)
+@given(data=st.data())
+def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
+    """Whatever it is given it ends, in little gas, with a mesh of the size that it tells or an error of its own."""
+    broken = bytearray(CUBE)
+    for _ in range(data.draw(st.integers(1, 6))):
+        broken[data.draw(st.integers(1, len(broken) - 1))] = data.draw(st.integers(0, 255))
+    try:
+        mesh = opened(bytes(broken))
+    except RenderError as error:
+        mesh, said = b"", str(error)
+        assert "CompactMesh" in said
+    if mesh:
+        size = 5 + int.from_bytes(mesh[1:3], "big") * (9, 13, 12, 16)[mesh[0]] + 6 * int.from_bytes(mesh[3:5], "big")
+        assert len(mesh) == size
+
+
+@pytest.mark.parametrize("bits", [3, 11])
+def test_bits_of_normals(bits: int) -> None:
+    with pytest.raises(InputError, match="4 to 10 bits"):
+        compact(b"\0\0\0\0\0", bits)
+
+
+@pytest.mark.parametrize("data", [b"", b"\4\0\0\0\0", b"\0\0\1\0\0", bytes.fromhex("0000000001") + bytes(6)])
+def test_what_is_no_packed_mesh(data: bytes) -> None:
+    with pytest.raises(InputError):
+        compact(data)
+
+
+@pytest.mark.parametrize("data", [b"", bytes([COMPACT]), CUBE[:-1]])
+def test_what_is_no_compact_mesh(data: bytes) -> None:
+    with pytest.raises(InputError):
+        expand(data)

@@ -1,0 +1,138 @@
+"""What Python says of storing is what happens."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+from ledger import World
+from shackled import InputError, Mesh, Object, Scene, load, render
+from shackled.chain.embedded import intrinsic_gas
+from shackled.datasets.teapot import teapot
+from shackled.scene.packed_mesh import pack
+from shackled.scene.rotation import from_euler, rotate
+from shackled.studio.compact_mesh import expand
+from shackled.studio.keeping import (
+    Storing,
+    compress_zeros,
+    kept_at,
+    on_grid,
+    read_mesh,
+    read_picture,
+    store_mesh,
+    store_scene,
+)
+
+STUDIO = b"\x11" * 20
+
+
+@pytest.fixture(scope="module")
+def world() -> World:
+    return World()
+
+
+def happens(world: World, storings: list[Storing]) -> None:
+    for storing in storings:
+        output = world.run(world.address("Studio"), storing.data, created=True)
+        assert output[12:32] == storing.pointer
+        assert len(world.codes[storing.pointer]) == storing.size + 1
+        gas = world.gas + intrinsic_gas(storing.data)
+        if "joined" in storing.what:
+            assert gas <= storing.gas <= 1.1 * gas
+        else:
+            assert gas == storing.gas
+
+
+def test_pointers_and_gas_of_a_scene(world: World) -> None:
+    scene = load("icons/skull")
+    storings = store_scene(scene, world.address("Studio"), chain=world.chain)
+    assert [storing.what for storing in storings] == ["mesh 1", "mesh 2", "scene"]
+    happens(world, storings)
+    world.chain._codes.update(world.codes)
+    small = render(scene)
+    png = read_picture(storings[-1].pointer, 1, world.chain)
+    with PillowImage.open(io.BytesIO(png)) as picture:
+        assert np.array_equal(np.asarray(picture), small.pixels)
+
+
+def test_a_mesh_that_objects_share_is_stored_once() -> None:
+    mesh = Mesh([[0, 0, 0], [9, 0, 0], [0, 9, 0]], [[0, 1, 2]])
+    scene = Scene([Object(mesh), Object(mesh, (0, 0, -20))])
+    assert [storing.what for storing in store_scene(scene, STUDIO)] == ["mesh 1", "scene"]
+
+
+def test_a_large_mesh(world: World) -> None:
+    random = np.random.default_rng(2)
+    n = 5000
+    faces = random.integers(0, n, (2000, 3))
+    packed = pack(Mesh(random.integers(-32768, 32768, (n, 3)), faces, random.integers(0, 256, (n, 3))))
+    storings = store_mesh(packed, world.address("Studio"), chain=world.chain)
+    assert [s.what for s in storings] == ["mesh, part 1 of 3", "mesh, part 2 of 3", "mesh, part 3 of 3", "mesh, joined"]
+    happens(world, storings)
+    world.chain._codes.update(world.codes)
+    kept = b"".join(world.codes[storing.pointer][1:] for storing in storings[:3])
+    assert storings[-1].pointer == kept_at(kept, world.address("Studio"))
+    assert read_mesh(storings[-1].pointer, world.chain) == expand(kept)
+
+
+def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:
+    """Without loss where faces have one shade each; where it is smooth, on a grid of 2^11, with normals of 6 bits."""
+    pot = teapot(4)
+    flat = store_scene(Scene([Object(pot)]), STUDIO)[0]
+    assert len(np.asarray(pot.faces)) == 992
+    assert flat.gas < 1_100_000
+    scene = load("teapot")
+    assert scene.objects[0].material.shading == "smooth"
+    assert store_scene(scene, STUDIO, 11, 6)[0].gas < 1_100_000
+
+
+@given(st.lists(st.tuples(st.sampled_from([0, 255, 1, 7]), st.integers(1, 300)), max_size=6))
+def test_zeros_are_compressed_as_they_are_decompressed(runs: list[tuple[int, int]]) -> None:
+    data = b"".join(bytes([value]) * times for value, times in runs)
+    packed = compress_zeros(data)
+    packed = bytes(value ^ 255 for value in packed[:4]) + packed[4:]
+    result, at = b"", 0
+    while at < len(packed):
+        if packed[at]:
+            result, at = result + packed[at : at + 1], at + 1
+        else:
+            control = packed[at + 1]
+            result, at = result + bytes([255 if control > 127 else 0]) * (control % 128 + 1), at + 2
+    assert result == data
+
+
+@pytest.mark.parametrize("bits", [4, 8, 16])
+def test_a_grid_leaves_objects_where_they_are(bits: int) -> None:
+    o = Object(teapot(2), (3, -4, 5), from_euler((20, 30, 40)), 2.5)
+    gridded = on_grid(o, bits)
+    positions = np.asarray(gridded.mesh.positions)
+    assert (positions % 1 == 0).all()
+    assert np.ptp(positions, axis=0).max() <= 2**bits - 1
+
+    def placed(each: Object) -> NDArray[np.float64]:
+        return np.asarray(each.position) + rotate(each.rotation, np.asarray(each.mesh.positions) * each.scale)
+
+    step = 2.5 * np.ptp(np.asarray(o.mesh.positions), axis=0).max() / (2**bits - 2)
+    assert np.abs(placed(gridded) - placed(o)).max() <= 0.87 * step
+
+
+def test_a_grid_keeps_a_point() -> None:
+    o = Object(Mesh([[1, 2, 3]] * 3, [[0, 1, 2]]))
+    assert np.array_equal(on_grid(o, 8).position, (1, 2, 3))
+
+
+def test_bad_input() -> None:
+    scene = Scene([Object(teapot(1))])
+    with pytest.raises(InputError, match="20 bytes, not 3"):
+        store_scene(scene, b"abc")
+    with pytest.raises(InputError, match="4 to 16 bits a side, not 17"):
+        store_scene(scene, STUDIO, position_bits=17)
+    with pytest.raises(InputError, match="4 to 10 bits, not 2"):
+        store_scene(replace(scene), STUDIO, normal_bits=2)

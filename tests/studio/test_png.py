@@ -1,0 +1,139 @@
+"""PNG files: the contract against its model, byte for byte, and both against Pillow."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+from ledger import call_data
+from pictures import chain
+from shackled import RenderError
+from shackled.reference.bmp import encode_bmp
+from shackled.reference.png import CODE_LENGTHS, code_header, codes, encode_png, short_run
+
+ROOT = Path(__file__).resolve().parents[2]
+
+Pixels = NDArray[np.uint8]
+
+
+def contract_answer(pixels: Pixels | bytes, scale: int, function: str = "encode") -> bytes:
+    bmp = pixels if isinstance(pixels, bytes) else encode_bmp(pixels)
+    output = chain().call("PngEncoder", call_data(f"{function}(bytes,uint256)", bmp, scale)).output
+    return output[64 : 64 + int.from_bytes(output[32:64], "big")]
+
+
+def opened(png: bytes) -> Pixels:
+    with PillowImage.open(io.BytesIO(png)) as picture:
+        picture.verify()  # the checksums of the chunks
+    with PillowImage.open(io.BytesIO(png)) as picture:
+        assert picture.mode == "RGB"
+        return np.asarray(picture)
+
+
+def enlarged(pixels: Pixels, scale: int) -> Pixels:
+    return pixels.repeat(scale, 0).repeat(scale, 1)
+
+
+@st.composite
+def pictures(draw: st.DrawFn) -> Pixels:
+    """Of one colour, of few, of many, smooth, or stripes; any size."""
+    height, width = draw(st.integers(1, 40)), draw(st.integers(1, 90))
+    random = np.random.default_rng(draw(st.integers(0, 2**32)))
+    kind = draw(st.sampled_from(["one", "few", "noise", "smooth", "columns"]))
+    if kind == "one":
+        return np.full((height, width, 3), random.integers(0, 256, 3), np.uint8)
+    if kind == "few":
+        few: Pixels = random.integers(0, 256, (4, 3), np.uint8)[random.integers(0, 4, (height, width))]
+        return few
+    if kind == "smooth":
+        slopes = random.normal(0, 3, (2, 3))
+        plane = np.arange(height)[:, None, None] * slopes[0] + np.arange(width)[:, None] * slopes[1]
+        smooth: Pixels = (plane.astype(int) & 255).astype(np.uint8)
+        return smooth
+    if kind == "columns":
+        return np.tile(random.integers(0, 256, (1, width, 3), np.uint8), (height, 1, 1))
+    return random.integers(0, 256, (height, width, 3), np.uint8)
+
+
+@settings(max_examples=60, deadline=None)
+@given(pixels=pictures(), scale=st.integers(1, 8))
+def test_any_picture(pixels: Pixels, scale: int) -> None:
+    png = encode_png(pixels, scale)
+    assert np.array_equal(opened(png), enlarged(pixels, scale))
+    assert contract_answer(pixels, scale) == png
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 1024), (300, 1), (2, 513)])
+@pytest.mark.parametrize("scale", [1, 8])
+def test_odd_sizes(shape: tuple[int, int], scale: int) -> None:
+    pixels = np.random.default_rng(3).integers(0, 3, (*shape, 3), np.uint8)
+    png = contract_answer(pixels, scale)
+    assert png == encode_png(pixels, scale)
+    assert np.array_equal(opened(png), enlarged(pixels, scale))
+
+
+def test_long_runs() -> None:
+    """Rows that are longer than the code of nine longest runs, and runs that end anywhere."""
+    pixels = np.zeros((3, 1000, 3), np.uint8)
+    pixels[0, 700] = pixels[1, 86] = pixels[1, 87] = (1, 2, 3)
+    for scale in (1, 3, 8):
+        assert contract_answer(pixels, scale) == encode_png(pixels, scale)
+
+
+def test_sums_of_large_pictures() -> None:
+    """The sums of Adler-32 pass 2^16 many times, and the checksum of the data goes over many words."""
+    pixels = np.full((128, 128, 3), 255, np.uint8)
+    pixels[:, ::2] = np.random.default_rng(5).integers(0, 256, (128, 64, 3))
+    png = contract_answer(pixels, 4)
+    assert png == encode_png(pixels, 4)
+    assert np.array_equal(opened(png), enlarged(pixels, 4))
+
+
+def test_data_uri() -> None:
+    import base64
+
+    pixels = np.random.default_rng(4).integers(0, 256, (7, 5, 3), np.uint8)
+    for scale in range(1, 9):
+        uri = contract_answer(pixels, scale, "dataURI")
+        assert uri == b"data:image/png;base64," + base64.b64encode(encode_png(pixels, scale))
+
+
+@pytest.mark.parametrize("scale", [0, 9, 2**255])
+def test_scale_out_of_range(scale: int) -> None:
+    with pytest.raises(RenderError, match=f"ScaleOutOfRange.*{scale}"):
+        contract_answer(np.zeros((1, 1, 3), np.uint8), scale)
+
+
+@pytest.mark.parametrize("change", ["nothing", "cut", "longer", "kind", "bits", "width"])
+def test_what_is_no_bitmap(change: str) -> None:
+    bmp = bytearray(encode_bmp(np.zeros((4, 4, 3), np.uint8)))
+    if change == "nothing":
+        bmp = bytearray()
+    elif change == "cut":
+        del bmp[-1]
+    elif change == "longer":
+        bmp.append(0)
+    else:
+        bmp[{"kind": 0, "bits": 28, "width": 18}[change]] += 1
+    with pytest.raises(RenderError, match="NotABitmap"):
+        contract_answer(bytes(bmp), 1)
+
+
+def test_the_code_is_complete() -> None:
+    assert sum(2.0**-length for length in CODE_LENGTHS) == 1
+    assert len(set(codes())) == len(CODE_LENGTHS) == 286
+    assert max(len(short_run(zeros)) for zeros in range(260)) + 3 * max(CODE_LENGTHS[:256]) <= 64
+    assert set(code_header()) == {"0", "1"}
+
+
+def test_the_tables_are_those_of_the_model() -> None:
+    subprocess.run([sys.executable, "tools/png_code.py", "--check"], cwd=ROOT, check=True)

@@ -1,0 +1,250 @@
+"""Meshes and scenes are kept once, for everybody, and drawn as what they were."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from eth_abi.abi import decode
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+from ledger import World, call_data
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled.chain.refusal import refusal
+from shackled.datasets.teapot import teapot
+from shackled.image import decode_bmp
+from shackled.scene.rotation import from_euler
+from shackled.studio.keeping import SCENE_STRUCT, store_scene
+
+POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
+TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
+SCENE = Scene(
+    [
+        Object(POT, (0, -100, 0), material=Material("smooth", 0.25, 0.75, 0.5, 16)),
+        Object(TENT, (50, 20, 200), from_euler((0, 30, 0)), 0.5, cull=False),
+    ],
+    Camera((200, 250, 900), (0, 40, 0)),
+    [Light("directional", (-1, 2, 3))],
+    Background("#102040", "#a0b0c0"),
+    width=48,
+    height=40,
+)
+NOTHING = (0, (0, 0, 0, 1 << 32), 0, (0, 0), 0, (0, 0))
+CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
+NOBODY = "0x" + 20 * "77"
+
+
+@pytest.fixture(scope="module")
+def world() -> World:
+    return World()
+
+
+def stored(world: World, scene: Scene) -> str:
+    for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
+        output = world.run(world.address("Studio"), storing.data, created=True)
+        assert output[12:32] == storing.pointer
+    return "0x" + storing.pointer.hex()
+
+
+def pixels(png: bytes) -> NDArray[np.uint8]:
+    with PillowImage.open(io.BytesIO(png)) as picture:
+        return np.asarray(picture)
+
+
+def changed(world: World, pointer: str, **changes: object) -> NDArray[np.uint8]:
+    """The picture with changes: fields, turn, color, background, invert, canvas."""
+    names = ("fields", "turn", "color", "background", "invert", "canvas")
+    values = tuple(changes.get(name, value) for name, value in zip(names, NOTHING, strict=True))
+    bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, values)
+    width, height = (int.from_bytes(bmp[at : at + 4], "little") for at in (18, 22))
+    return decode_bmp(bmp, width, height)
+
+
+def test_a_scene_is_drawn_as_it_was(world: World) -> None:
+    pointer = stored(world, SCENE)
+    picture = render(SCENE)
+    assert (picture.lit_pixels or 0) > 200
+    assert world.call("Studio", "render(address)", pointer) == picture.bmp
+    png = world.call("Studio", "renderPNG(address,uint256)", pointer, 3)
+    assert np.array_equal(pixels(png), picture.pixels.repeat(3, 0).repeat(3, 1))
+    uri = world.call("Studio", "renderDataURI(address,uint256)", pointer, 1)
+    assert uri.startswith("data:image/png;base64,iVBORw0KGgo")
+
+
+def test_what_is_kept_is_the_scene(world: World) -> None:
+    pointer = stored(world, SCENE)
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    assert struct[0] == (48, 40)
+    sizes = [5 + 13 * len(np.asarray(POT.positions)) + 6 * len(np.asarray(POT.faces)), 5 + 9 * 3 + 6]
+    assert [len(o[0]) for o in struct[6]] == sizes
+    # a scene that is not kept is drawn in the same way, its meshes wherever they are
+    data = call_data(f"drawPNG({SCENE_STRUCT},uint256)", struct, 1)
+    drawn = decode(["bytes"], world.run(world.address("Studio"), data))[0]
+    assert drawn == world.call("Studio", "renderPNG(address,uint256)", pointer, 1)
+
+
+def test_the_same_has_the_same_pointer_and_is_kept_once(world: World) -> None:
+    mesh = b"\0" + (7).to_bytes(2, "big") + b"\0\0" + bytes(range(63))
+    first = world.store("storeMesh(bytes)", mesh)
+    dear = world.gas
+    assert world.store("storeMesh(bytes)", mesh) == first
+    assert world.gas < dear / 4
+    assert world.store("storeMesh(bytes)", mesh[:-1] + b"\1") != first
+    assert world.call("Studio", "mesh(address)", "0x" + first.hex()) == mesh
+    assert world.codes[first] == b"\0" + mesh
+
+
+def test_turned(world: World) -> None:
+    pointer = stored(world, SCENE)
+    quaternion = from_euler((10, 70, -20))
+    turn = tuple(round(part * 2**32) for part in np.asarray(quaternion).tolist())
+    boxes = []
+    for o in SCENE.objects:
+        positions = np.asarray(o.mesh.positions)
+        center = (positions.min(axis=0) + positions.max(axis=0)) / 2
+        place = np.asarray(o.position) + spun(o.rotation, center * o.scale)
+        boxes.append((place, o.scale * np.linalg.norm(np.ptp(positions, axis=0)) / 2))
+    low, high = (
+        limit([place + sign * radius for place, radius in boxes], axis=0) for limit, sign in ((np.min, -1), (np.max, 1))
+    )
+    target = (low + high) / 2
+    # of points, and of the rotations of objects
+    objects = [
+        replace(
+            o,
+            position=target + spun(quaternion, np.asarray(o.position) - target),
+            rotation=product(quaternion, o.rotation),
+        )
+        for o in SCENE.objects
+    ]
+    expected = render(replace(SCENE, objects=objects))
+    assert (expected.lit_pixels or 0) > 200
+    difference = np.abs(changed(world, pointer, fields=1, turn=turn).astype(int) - expected.pixels).max(axis=2)
+    # the last bits of the numbers differ
+    assert (difference > 3).mean() < 0.02
+    assert (np.abs(render(SCENE).pixels.astype(int) - expected.pixels).max(axis=2) > 3).mean() > 0.1
+
+
+def spun(quaternion: object, vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    from shackled.scene.rotation import rotate
+
+    turned: NDArray[np.float64] = rotate(np.asarray(quaternion), vector[None])[0]
+    return turned
+
+
+def product(p: object, q: object) -> NDArray[np.float64]:
+    (a, b, c, d), (x, y, z, w) = np.asarray(p), np.asarray(q)
+    return np.array(
+        [
+            d * x + a * w + b * z - c * y,
+            d * y - a * z + b * w + c * x,
+            d * z + a * y - b * x + c * w,
+            d * w - a * x - b * y - c * z,
+        ]
+    )
+
+
+def test_painted_on_another_background_inverted_and_larger(world: World) -> None:
+    pointer = stored(world, SCENE)
+    painted = [
+        replace(o, mesh=replace(o.mesh, colors=np.tile((1, 2, 250), (len(np.asarray(o.mesh.positions)), 1))))
+        for o in SCENE.objects
+    ]
+    expected = render(
+        replace(SCENE, objects=painted, background=Background("#010203", "#fefdfc"), invert=True, width=64, height=30)
+    )
+    picture = changed(
+        world, pointer, fields=30, color=0x0102FA, background=(0x010203, 0xFEFDFC), invert=1, canvas=(64, 30)
+    )
+    assert np.array_equal(picture, expected.pixels)
+
+
+def test_fields_that_are_not_named_do_not_count(world: World) -> None:
+    pointer = stored(world, SCENE)
+    picture = changed(world, pointer, turn=(0, 0, 0, 0), color=2**30, background=(1, 2), invert=7, canvas=(0, 0))
+    assert np.array_equal(picture, render(SCENE).pixels)
+
+
+@pytest.mark.parametrize(
+    ("changes", "error"),
+    [
+        ({"fields": 32}, "UnknownChanges.*32"),
+        ({"fields": 1, "turn": (0, 0, 0, 0)}, "TurnOutOfRange"),
+        ({"fields": 1, "turn": (2**255 - 1, 0, 0, 0)}, "TurnOutOfRange"),
+        ({"fields": 2, "color": 1 << 24}, "ColorOutOfRange"),
+        ({"fields": 16, "canvas": (0, 4)}, "CanvasSize"),
+        ({"fields": 8, "invert": 2}, "NotAFlag"),
+    ],
+)
+def test_changes_out_of_range(world: World, changes: dict[str, object], error: str) -> None:
+    pointer = stored(world, SCENE)
+    with pytest.raises(RenderError, match=error):
+        changed(world, pointer, **changes)
+
+
+def test_large_meshes_are_kept_in_parts(world: World) -> None:
+    random = np.random.default_rng(1)
+    mesh = b"\0" + (6000).to_bytes(2, "big") + b"\0\0" + random.bytes(54000)
+    at_once = world.store("storeMesh(bytes)", mesh)
+    assert len(world.codes[at_once]) == 1 + 1 + 3 * 20
+    assert world.call("Studio", "mesh(address)", "0x" + at_once.hex()) == mesh
+    parts = ["0x" + world.store("storePart(bytes)", mesh[k : k + 24575]).hex() for k in range(0, len(mesh), 24575)]
+    assert world.store("join(address[])", parts) == at_once
+    with pytest.raises(RenderError, match="NotToBeKept"):
+        world.store("storePart(bytes)", bytes(24576))
+    with pytest.raises(RenderError, match=f"NothingKept.*{NOBODY}"):
+        world.store("join(address[])", [parts[0], NOBODY])
+
+
+@pytest.mark.parametrize("function", ["mesh", "scene", "render"])
+def test_where_nothing_is_kept(world: World, function: str) -> None:
+    with pytest.raises(RenderError, match=f"NothingKept.*{NOBODY}"):
+        world.call("Studio", f"{function}(address)", NOBODY)
+
+
+def test_what_is_neither(world: World) -> None:
+    mesh = "0x" + world.store("storeMesh(bytes)", bytes(5)).hex()
+    with pytest.raises(RenderError, match="NotAScene"):
+        world.call("Studio", "render(address)", mesh)
+    with pytest.raises(RenderError, match=r"UnknownMesh.*32"):
+        world.call("Studio", "mesh(address)", stored(world, SCENE))
+    for data, kind in ((b"", 256), (b"\4", 4), (b"\x12" + bytes(20), 0x12), (b"\x13" + bytes(20), 0x13), (b"\x20", 32)):
+        with pytest.raises(RenderError, match=f"NotAMesh.*{kind}"):
+            world.store("storeMesh(bytes)", data)
+
+
+def test_a_scene_with_a_broken_mesh_spoils_only_itself(world: World) -> None:
+    good = stored(world, SCENE)
+    broken = "0x" + world.store("storeMesh(bytes)", b"\0\0\3\0\1").hex()
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", good)))[0]
+    for o in range(2):
+        objects = list(struct[6])
+        objects[o] = (b"\x12" + bytes.fromhex(broken[2:]), *objects[o][1:])
+        pointer = world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], objects))
+        with pytest.raises(RenderError, match="MeshLength"):
+            world.call("Studio", "render(address)", "0x" + pointer.hex())
+    assert world.call("Studio", "render(address)", good) == render(SCENE).bmp
+
+
+def test_zipped(world: World) -> None:
+    """FastLZ, here without any match: runs of up to 32 bytes as they are."""
+    mesh = b"\0" + (5).to_bytes(2, "big") + b"\0\0" + bytes(range(45))
+    zipped = b"".join(bytes([len(mesh[k : k + 32]) - 1]) + mesh[k : k + 32] for k in range(0, len(mesh), 32))
+    pointer = world.store("storeMesh(bytes)", b"\x11" + zipped)
+    assert world.call("Studio", "mesh(address)", "0x" + pointer.hex()) == mesh
+
+
+def test_an_address_without_code_is_no_renderer(world: World) -> None:
+    from shackled.artifacts import artifact
+
+    with pytest.raises(RenderError, match="could not be deployed"):
+        world.deploy(artifact("Studio").creation, bytes(12) + b"\x77" * 20)
+
+
+def test_errors_are_named() -> None:
+    from ledger import call_data as data
+
+    assert "NotAScene" in str(refusal(data("NotAScene(address)", NOBODY), 1))
