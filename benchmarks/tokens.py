@@ -1,0 +1,156 @@
+"""What the collections cost: exact gas of every action, in git, so that every change shows its price.
+
+    python -m benchmarks.tokens
+
+measures everything, rewrites tokens.json and the table of docs/tokens.md, and prints it.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import sys
+from pathlib import Path
+
+from shackled.chain.embedded import intrinsic_gas
+from shackled.datasets.genesis import seed_of
+
+ROOT = Path(__file__).resolve().parent.parent
+FILE = Path(__file__).with_name("tokens.json")
+PAGE = ROOT / "docs" / "tokens.md"
+BEGIN, END = "<!-- begin gas -->\n", "<!-- end gas -->"
+
+#: Of the contracts of 2021, as their authors tell it.
+ORIGINAL = {"mint 1": 124_000, "mint 5": 712_000}
+#: Seeds of the collection over which the statistics of tokenURI are.
+SEEDS = 256
+
+Figures = dict[str, int]
+
+
+def take(seeds: int = SEEDS) -> Figures:
+    """All figures. Gas of transactions is with intrinsic gas, and that of calls without."""
+    if str(ROOT / "tests") not in sys.path:
+        sys.path.insert(0, str(ROOT / "tests"))
+    from tokens.merkle import proof_of, root_of
+    from tokens.stage import ALLOW_LIST, ICONS, PRICE, stage
+    from tokens.world import ZERO, account
+
+    s = stage()
+    contracts = {"GenesisCollection": s.genesis, "GenesisMetadata": s.metadata, "IconsCollection": s.icons}
+    figures = {f"deploy {name}": contract.gas for name, contract in contracts.items()}
+    # the first mint of all pays for slots that were never used: it is not the usual one
+    s.mint(1, s.bob)
+    for quantity in (1, 2, 5, 10):
+        with s.world.attempt():
+            receipt = s.genesis.send("mint", quantity, sender=s.alice, value=quantity * PRICE)
+            figures[f"mint {quantity}"] = receipt.gas
+    with s.world.attempt():
+        s.mint(1)
+        figures["mint 1, by an owner of some"] = s.genesis.send("mint", 1, sender=s.alice, value=PRICE).gas
+    with s.world.attempt():
+        listed = {s.alice: 2} | {account(f"listed {number}"): 2 for number in range(999)}
+        s.genesis.send("setAllowList", root_of(listed), ZERO, sender=s.owner)
+        s.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
+        proof = proof_of(listed, s.alice)
+        receipt = s.genesis.send("mintWithProof", 1, 2, proof, sender=s.alice, value=PRICE)
+        figures["mint 1, by a list of 1,000"] = receipt.gas
+    with s.world.attempt():
+        price = list(ICONS.values())[1][3]
+        s.icons.send("mint", 1, 1, sender=s.bob, value=price)
+        figures["mint 1 icon"] = s.icons.send("mint", 1, 1, sender=s.alice, value=price).gas
+    s.mint(5)
+    with s.world.attempt():
+        figures["transfer, the first of 5"] = s.genesis.send("transferFrom", s.alice, s.bob, 1, sender=s.alice).gas
+        figures["transfer, the last of 5"] = s.genesis.send("transferFrom", s.alice, s.bob, 5, sender=s.alice).gas
+        figures["transfer, again"] = s.genesis.send("transferFrom", s.bob, s.alice, 5, sender=s.bob).gas
+    with s.world.attempt():
+        figures["withdraw"] = s.genesis.send("withdraw", s.owner, sender=s.owner).gas
+    figures |= reveals(s)
+    figures["tokenURI before the reveal"] = s.genesis.gas_of("tokenURI", 1)
+    s.reveal(0)
+    figures["tokenURI, what the collection adds"] = added(s)
+    figures |= token_uris(s, seeds)
+    return figures
+
+
+def reveals(s: object) -> Figures:
+    """Of rounds, however many tokens are in them."""
+    from tokens.stage import Stage
+
+    assert isinstance(s, Stage)
+    figures = {}
+    for count in (1, 5, 20):
+        with s.world.attempt():
+            rounds = list(range(count))
+            blocks = [s.genesis.call("blockOf", each) for each in rounds]
+            s.world.mine_to(blocks[-1] + 300)
+            headers = [s.world.header(block) for block in blocks]
+            figures[f"reveal {count} round{'s' if count > 1 else ''}"] = s.genesis.send("reveal", rounds, headers).gas
+    with s.world.attempt():
+        block = s.genesis.call("blockOf", 0)
+        s.world.mine_to(block + 400)
+        headers = [s.world.header(number) for number in range(block + 100, block, -1)]
+        figures["a late reveal, for each block"] = s.genesis.send("keepHash", block + 100, headers).gas // 100
+    return figures
+
+
+def added(s: object) -> int:
+    """What looking up the round and handing on the answer take."""
+    from tokens.stage import Stage
+    from tokens.world import keccak
+
+    assert isinstance(s, Stage)
+    address = bytes.fromhex(s.genesis.address[2:]).rjust(32, b"\0")
+    drawn = keccak(s.genesis.call("randomnessOf", 0) + address + (1).to_bytes(32, "big"))
+    assert s.metadata.call("tokenURI", 1, drawn) == s.genesis.call("tokenURI", 1)
+    return s.genesis.gas_of("tokenURI", 1) - s.metadata.gas_of("tokenURI", 1, drawn)
+
+
+def token_uris(s: object, seeds: int) -> Figures:
+    """Gas and length over seeds, without what the collection adds."""
+    from tokens.stage import Stage
+    from tokens.world import GAS
+
+    assert isinstance(s, Stage)
+    gas, lengths = [], []
+    for number in range(seeds):
+        _, data = s.metadata.encode("tokenURI", (number, seed_of(number)))
+        receipt = s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, [])
+        gas.append(receipt.gas - intrinsic_gas(data))
+        lengths.append(int.from_bytes(receipt.output[32:64], "big"))
+    figures = {}
+    for name, values in (("tokenURI", gas), ("tokenURI, bytes", lengths)):
+        figures[f"{name}, mean of {seeds}"] = round(statistics.mean(values))
+        figures[f"{name}, median of {seeds}"] = round(statistics.median(values))
+        figures[f"{name}, most of {seeds}"] = max(values)
+    figures[f"tokenURI, above 10 million, of {seeds}"] = sum(value > 10_000_000 for value in gas)
+    return figures
+
+
+def recorded() -> Figures:
+    """The figures of tokens.json."""
+    figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
+    return figures
+
+
+def table(figures: Figures) -> str:
+    """The figures for people."""
+    lines = ["| what | gas | original |", "|---|---:|---:|"]
+    for name, value in figures.items():
+        lines.append(f"| {name} | {value:,} | {f'{ORIGINAL[name]:,}' if name in ORIGINAL else ''} |")
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """The command."""
+    figures = take()
+    print(table(figures))
+    FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
+    before, _, rest = PAGE.read_text("utf-8").partition(BEGIN)
+    PAGE.write_text(before + BEGIN + table(figures) + "\n" + END + rest.partition(END)[2], "utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
+import {Renderer} from "../Renderer.sol";
+import {Scene} from "../scene/Scene.sol";
+import {Genesis, Piece, Traits} from "../genesis/Genesis.sol";
+import {NoPrismToChoose} from "../genesis/Colors.sol";
+import {Png} from "../studio/Png.sol";
+import {Json} from "./Json.sol";
+import {PieceScene} from "./PieceScene.sol";
+import {Placeholder} from "./Placeholder.sol";
+
+/// @title GenesisMetadata: what the tokens of the Genesis collection show.
+/// @notice Without storage, an owner or a way to change; a contract of its own because together with the collection it would be larger than
+/// a contract may be.
+contract GenesisMetadata {
+    using Strings for uint256;
+
+    string internal constant NAME = "Shackled Genesis";
+    string internal constant SYMBOL = "SHKG";
+    string internal constant DESCRIPTION =
+        "1024 pictures of 3D scenes. Scene, colours and every pixel are computed by contracts, from a seed that nobody could choose.";
+
+    /// @dev The side of a picture in pixels, and the side of the square that each becomes.
+    uint256 internal constant SIDE = 128;
+    uint256 internal constant SCALE = 4;
+
+    /// @notice What makes pieces of seeds, and pictures of pieces.
+    Genesis public immutable genesis;
+    /// @notice What draws those pictures.
+    Renderer public immutable renderer;
+
+    error NoGenesis(address genesis);
+
+    constructor(Genesis genesis_) {
+        if (address(genesis_).code.length == 0) revert NoGenesis(address(genesis_));
+        (genesis, renderer) = (genesis_, genesis_.renderer());
+    }
+
+    /// @notice The seed that stands for what was drawn, and the traits of its piece. It is what was drawn, if that has a piece; very few seeds
+    /// (one in some 6,000) have none, and the hash of such a seed takes its place.
+    function settle(bytes32 drawn) external view returns (bytes32 seed, Traits memory traits) {
+        Piece memory piece;
+        (seed, piece) = pieceOf(drawn);
+        traits = piece.traits;
+    }
+
+    /// @notice The metadata of a token.
+    /// @param drawn What was drawn for it, as for `settle`.
+    /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
+    function tokenURI(uint256 tokenId, bytes32 drawn) external view returns (string memory) {
+        (bytes32 seed, Piece memory piece) = pieceOf(drawn);
+        return Json.uri(
+            Json.token(
+                title(tokenId),
+                string.concat(DESCRIPTION, " Seed ", uint256(seed).toHexString(32), "."),
+                list(piece.traits),
+                picture(PieceScene.make(piece, SIDE))
+            )
+        );
+    }
+
+    /// @notice The metadata of a token whose seed is not drawn or not revealed yet: a picture that all such tokens share.
+    /// @param blockNumber The block that draws it.
+    function hiddenURI(uint256 tokenId, uint256 blockNumber) external view returns (string memory) {
+        return Json.uri(
+            Json.token(
+                title(tokenId),
+                string.concat(
+                    DESCRIPTION,
+                    " This one is not revealed yet: block ",
+                    blockNumber.toString(),
+                    " draws its seed, and anyone may reveal it after that."
+                ),
+                Json.trait("Revealed", false),
+                cover()
+            )
+        );
+    }
+
+    /// @notice The metadata of the collection, as ERC-7572 has it.
+    function contractURI() external view returns (string memory) {
+        return Json.uri(Json.collection(NAME, SYMBOL, DESCRIPTION, cover()));
+    }
+
+    function pieceOf(bytes32 drawn) private view returns (bytes32 seed, Piece memory piece) {
+        seed = drawn;
+        while (true) {
+            (bool done, bytes memory answer) = address(genesis).staticcall(abi.encodeCall(Genesis.generate, (seed)));
+            if (done) return (seed, abi.decode(answer, (Piece)));
+            // no other error counts: too little gas must not lead to another picture
+            bytes4 reason = bytes4(answer);
+            if (answer.length != 4 || (reason != Genesis.NoTriangle.selector && reason != NoPrismToChoose.selector)) {
+                assembly ("memory-safe") {
+                    revert(add(answer, 0x20), mload(answer))
+                }
+            }
+            seed = keccak256(abi.encode(seed));
+        }
+    }
+
+    function title(uint256 tokenId) private pure returns (string memory) {
+        return string.concat("Genesis #", tokenId.toString());
+    }
+
+    function list(Traits memory traits) private pure returns (string memory) {
+        return string.concat(
+            Json.trait("Structure", traits.structure),
+            ",",
+            Json.trait("Chroma", traits.chroma),
+            ",",
+            Json.trait("Pseudosymmetry", traits.pseudosymmetry),
+            ",",
+            Json.trait("Prisms", traits.prisms),
+            ",",
+            Json.trait("Wireframe", traits.wireframe),
+            ",",
+            Json.trait("Inversion", traits.invert)
+        );
+    }
+
+    function cover() private view returns (string memory) {
+        return picture(Placeholder.scene(SIDE));
+    }
+
+    function picture(Scene memory scene) private view returns (string memory) {
+        return Json.dataUri("data:image/png;base64,", Png.encode(renderer.render(scene), SCALE));
+    }
+}

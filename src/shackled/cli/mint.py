@@ -1,0 +1,129 @@
+"""shackled mint"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..chain.addresses import show_address
+from ..errors import InputError
+from .payer import PASSWORD, ask, open_signer
+
+if TYPE_CHECKING:
+    from ..deploy import Receipt, Step
+
+
+def _option(name: str, text: str, kind: str | None = None, **more: Any) -> Any:
+    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False, **more)
+
+
+def mint(
+    input: Annotated[
+        str, typer.Argument(help="A piece of a dataset, or a mesh or scene file of yours.", metavar="INPUT")
+    ],
+    rpc: Annotated[str | None, _option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")] = None,
+    account: Annotated[
+        Path | None,
+        _option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
+    ] = None,
+    private_key_env: Annotated[
+        str | None, _option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
+    ] = None,
+    licence: Annotated[str | None, _option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
+    output: Annotated[
+        str | None, _option("-o --output", "The picture as the chain draws it: .png .bmp .svg or .gif.", "FILE")
+    ] = None,
+    size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
+    max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N")] = None,
+    position_bits: Annotated[
+        int | None,
+        _option("--position-bits", "Cheaper: keep positions on a grid of 2^N steps, 4 to 16; else exactly.", "N"),
+    ] = None,
+    chain_id: Annotated[int | None, _option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
+    yes: Annotated[bool, _option("--yes -y", "Do not ask.")] = False,
+    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
+) -> None:
+    """Put an object on a chain for ever, for every contract to draw. The price is told first."""
+    import numpy as np
+
+    from ..chain.connection import Connection
+    from ..datasets import Piece
+    from ..deploy import Transactor
+    from ..image import check_output
+    from ..load import load, locate
+    from ..render import resize, simplify_scene
+    from ..tokens.ether import roughly
+    from ..tokens.licence import licence_of
+    from ..tokens.storage import Wanted, plan_storage, read_back, store
+    from .parse import parse_size
+
+    path = None if output is None else check_output(output)
+    pixels = None if size is None else parse_size(size)
+    source = locate(input)
+    terms = licence_of(source, licence)
+    if rpc is None:
+        raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
+    scene = source.make() if isinstance(source, Piece) else load(source)
+    scene = scene if pixels is None else resize(scene, pixels)
+    scene = scene if max_triangles is None else simplify_scene(scene, max_triangles)
+    wanted = Wanted(input, scene, position_bits)
+    connection = Connection(rpc, attempts=4)
+    connection.expect_chain(chain_id)
+    storage = plan_storage(connection, [wanted])
+    pointer = storage.pointers[0]
+    if isinstance(source, Piece) and source.notice:
+        _say(source.notice)
+    gas = 0
+    if storage.missing or storage.parts.missing:
+        triangles = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+        _say(
+            f"{input}, {triangles:,} triangles, {sum(each.size for _, each in storage.missing):,} bytes on chain "
+            f"{connection.chain_id}; licence: {terms}"
+        )
+        if storage.parts.missing:
+            _say(f"first {', '.join(step.name for step in storage.parts.missing)}: {storage.parts.gas:,} gas")
+        _say(f"storing it: {storage.storing_gas:,} gas; together about {roughly(storage.cost)}, and nothing undoes it")
+        transactor = Transactor(connection, open_signer(account, private_key_env))
+        if not yes:
+            ask(transactor.name)
+
+        def tell(step: Step, receipts: Sequence[Receipt]) -> None:
+            _say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+
+        gas = sum(receipt.gas for receipt in store(storage, transactor, tell))
+    else:
+        _say(f"{input} is on chain {connection.chain_id} already: nothing was sent")
+    image = read_back(connection, storage.studio, pointer, wanted)
+    if path is not None:
+        image.save(path)
+    if as_json:
+        print(
+            json.dumps(
+                {
+                    "input": input,
+                    "chain_id": connection.chain_id,
+                    "studio": storage.studio,
+                    "pointer": pointer,
+                    "gas": gas,
+                    "render_gas": image.gas,
+                    "licence": terms,
+                    "output": None if path is None else str(path),
+                }
+            )
+        )
+        return
+    print(f"pointer  {pointer}")
+    print(f"studio   {storage.studio}")
+    drawing = "not told" if image.gas is None else f"{image.gas:,} gas"
+    print(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
+    print(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
+    print(f"from here:   shackled token picture {pointer} -o FILE.png")
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

@@ -1,0 +1,35 @@
+"""shackled token"""
+
+from __future__ import annotations
+
+import typer
+
+from .demo import demo
+from .guests import allow_list, permit
+from .holder import mint, reveal, transfer
+from .icons import add, seal
+from .launch import deploy
+from .look import list_, picture, show, verify
+from .owner import hand_over, phase, royalty, take_over, withdraw
+
+token = typer.Typer(no_args_is_help=True, help="Collections of tokens whose pictures are computed on chain.")
+token.command()(deploy)
+token.command()(add)
+token.command()(seal)
+token.command("allow-list")(allow_list)
+token.command()(permit)
+token.command()(phase)
+token.command()(mint)
+token.command()(reveal)
+token.command()(show)
+token.command("list")(list_)
+token.command()(verify)
+token.command()(picture)
+token.command()(transfer)
+token.command()(withdraw)
+token.command()(royalty)
+token.command("hand-over")(hand_over)
+token.command("take-over")(take_over)
+token.command()(demo)
+
+__all__ = ["token"]

@@ -1,0 +1,142 @@
+"""What the commands of `shackled token` have in common: options, the collection that is meant, transactions."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ...chain.addresses import parse_address, show_address
+from ...errors import InputError
+from ...tokens.ether import ether, roughly
+from ...tokens.kinds import KINDS
+from ...tokens.plain import plain
+from ..payer import PASSWORD, ask, open_signer
+
+if TYPE_CHECKING:
+    from ...chain.connection import Connection
+    from ...deploy import Receipt, Transactor
+    from ...tokens.collection import Collection
+
+#: What `phase` takes, in the order of the contract's numbers.
+PHASES = ("closed", "allow-list", "public")
+#: More than there will ever be of anything.
+MOST = 2**64 - 1
+
+
+def option(name: str, text: str, kind: str | None = None, **more: Any) -> Any:
+    """An option of a command: its names, its help, and what stands for its value there."""
+    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False, **more)
+
+
+Rpc = Annotated[str | None, option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")]
+Chain = Annotated[int | None, option("--chain-id", "Stop if the node belongs to another chain.", "N")]
+Which = Annotated[
+    str, option("-c --collection", "genesis or icons, as the address book has them, or an ADDRESS.", "COLLECTION")
+]
+Account = Annotated[
+    Path | None, option("--account", f"Whose it is: a keystore file; its password is asked, or in {PASSWORD}.", "FILE")
+]
+Key = Annotated[
+    str | None, option("--private-key-env", "Whose it is: the environment variable with a private key.", "NAME")
+]
+Yes = Annotated[bool, option("--yes -y", "Do not ask.")]
+Json = Annotated[bool, option("--json", "Print JSON instead of words.")]
+
+
+def connect(rpc: str | None, chain_id: int | None) -> Connection:
+    """The node that is meant. WrongChainError if it belongs to another chain than `chain_id`."""
+    from ...chain.connection import Connection
+
+    if rpc is None:
+        raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
+    connection = Connection(rpc, attempts=4)
+    connection.expect_chain(chain_id)
+    return connection
+
+
+def open_named(which: str, rpc: str | None, chain_id: int | None) -> Collection:
+    """The collection of a name in the address book, or at an address."""
+    from ...chain.address_book import AddressBook
+    from ...tokens.collection import open_collection
+
+    connection = connect(rpc, chain_id)
+    if which.startswith("0x"):
+        return open_collection(connection, address(which, "--collection"))
+    if which not in KINDS:
+        raise InputError(f"--collection must be {', '.join(KINDS)} or an address, not {which!r}")
+    kind = KINDS[which]
+    place = AddressBook().find(connection.chain_id, kind.contract)
+    if place is None:
+        raise InputError(
+            f"the address book has no {which} collection on chain {connection.chain_id}: give --collection ADDRESS, or "
+            f"run: shackled token deploy {which}"
+        )
+    try:
+        return open_collection(connection, show_address(place))
+    except InputError as error:
+        raise InputError(f"{error}, where the address book has it: deploy it, or give --collection ADDRESS") from None
+
+
+def open_icons(which: str, rpc: str | None, chain_id: int | None) -> Collection:
+    """The same, of a collection that has icons."""
+    collection = open_named(which, rpc, chain_id)
+    if collection.kind.hidden:
+        raise InputError(
+            f"{collection.name} has no icons: give --collection icons, or the address of such a collection"
+        )
+    return collection
+
+
+def do(
+    collection: Collection,
+    account: Path | None,
+    variable: str | None,
+    yes: bool,
+    title: str,
+    function: str,
+    *arguments: Any,
+) -> Receipt:
+    """As `send`, for the account of the options."""
+    return send(collection, open_signer(account, variable), yes, title, function, *arguments)
+
+
+def send(
+    collection: Collection, signer: Any, yes: bool, title: str, function: str, *arguments: Any, value: int = 0
+) -> Receipt:
+    """Plans a transaction, tells its price, asks, and sends it."""
+    from ...deploy import Transactor
+    from ...tokens.actions import plan
+
+    transactor: Transactor = Transactor(collection.connection, signer)
+    action = plan(transactor, collection.contract, function, *arguments, value=value)
+    price = f"{ether(value)} and " if value else ""
+    say(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
+    say(f"it costs {price}about {roughly(action.fee)} for {action.gas:,} gas")
+    if not yes:
+        ask(transactor.name)
+    return action.send(transactor)
+
+
+def address(text: str, name: str) -> str:
+    """What was typed as an address, with its checksum. InputError, which says `name`, if it is none."""
+    return show_address(parse_address(text, name))
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Prints columns, all but the first to the right where they hold numbers."""
+    widths = [max(len(row[column]) for row in (head, *rows)) for column in range(len(head))]
+    for row in (head, *rows):
+        cells = [
+            cell.rjust(width) if column and cell[:1].isdigit() else cell.ljust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        print(plain("  ".join(cells).rstrip()))
+
+
+def say(text: str) -> None:
+    """Prints what is no result."""
+    print(text, file=sys.stderr, flush=True)

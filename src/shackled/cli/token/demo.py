@@ -1,0 +1,29 @@
+"""shackled token demo"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from ...errors import InputError
+from .common import Rpc, connect, option, say, table
+
+
+def demo(
+    output: Annotated[Path, option("-o --output", "The folder for gallery.html and tokens.json.", "DIR")],
+    rpc: Rpc = None,
+) -> None:
+    """Play both collections through on a fresh anvil: deploy, mint as several users, reveal, read, transfer, withdraw.
+
+    It uses the keys that anvil publishes, and refuses any other chain.
+    """
+    from ...tokens.demo import run
+    from ...tokens.table import comparison
+
+    if output.exists() and not output.is_dir():
+        raise InputError(f"{output} is a file, not a folder")
+    result = run(connect(rpc, None), output, say)
+    head, *rows = comparison(result.costs)
+    table(head, rows)
+    print(f"{result.gallery}: {len(result.tokens)} tokens, read back through tokenURI")
+    print(f"{result.listing}")

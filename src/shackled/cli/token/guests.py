@@ -1,0 +1,88 @@
+"""shackled token allow-list and permit: who may mint early"""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...checks import number
+from ...errors import InputError
+from ..payer import open_signer
+from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named, option
+
+
+def allow_list(
+    file: Annotated[
+        Path, typer.Argument(help="Lines account,quantity, or OpenZeppelin's tree as JSON.", metavar="FILE")
+    ],
+    output: Annotated[
+        Path | None, option("-o --output", "The tree as OpenZeppelin's StandardMerkleTree keeps it, .json.", "FILE")
+    ] = None,
+    which: Which = "genesis",
+    rpc: Rpc = None,
+    account: Account = None,
+    private_key_env: Key = None,
+    signer: Annotated[
+        str | None, option("--signer", "Whose signatures allow others; else the one there is.", "ADDRESS")
+    ] = None,
+    chain_id: Chain = None,
+    yes: Yes = False,
+) -> None:
+    """Print the root of an allow-list; with --rpc, put it into a collection, as its owner."""
+    from ...tokens.allow_list import read_allow_list
+    from ...whole_file import write_whole
+
+    listed = read_allow_list(file)
+    print(
+        f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens"
+    )
+    if output is not None:
+        try:
+            write_whole(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
+        except OSError as error:
+            raise InputError(f"{output} cannot be written: {error.strerror}") from None
+    if rpc is None:
+        return
+    collection = open_named(which, rpc, chain_id)
+    trusted = collection.terms().allow_list_signer if signer is None else address(signer, "--signer")
+    title = "set the allow-list"
+    receipt = do(collection, account, private_key_env, yes, title, "setAllowList", listed.root, trusted)
+    print(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
+
+
+def permit(
+    who: Annotated[str, typer.Argument(help="The account that may mint.", metavar="ACCOUNT")],
+    quantity: Annotated[int, typer.Argument(help="How many tokens in all.", metavar="N", min=1, max=MOST)] = 1,
+    output: Annotated[Path | None, option("-o --output", "Where it is written; else printed.", "FILE")] = None,
+    days: Annotated[float, option("--days", "How long it holds; else 30.", "DAYS", min=0)] = 30,
+    which: Which = "genesis",
+    rpc: Rpc = None,
+    account: Account = None,
+    private_key_env: Key = None,
+    chain_id: Chain = None,
+) -> None:
+    """Sign a permission to mint early, for one account; costs nothing. For the signer of the collection."""
+    from ...tokens.allowance import sign_allowance
+    from ...whole_file import write_whole
+
+    allowed = address(who, "the account")
+    lasting = number(days, "--days", 0, 36_500)
+    collection = open_named(which, rpc, chain_id)
+    signer = open_signer(account, private_key_env)
+    trusted = collection.terms().allow_list_signer
+    if str(signer.address) != trusted:
+        raise InputError(f"permissions of this collection are signed by {trusted}, not by {signer.address}")
+    permission = sign_allowance(collection, signer, allowed, quantity, int(time.time() + 86400 * lasting))
+    text = json.dumps(permission.document(), indent=1)
+    if output is None:
+        print(text)
+        return
+    try:
+        write_whole(output, (text + "\n").encode())
+    except OSError as error:
+        raise InputError(f"{output} cannot be written: {error.strerror}") from None
+    print(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")

@@ -1,0 +1,142 @@
+"""shackled token deploy"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ...chain.addresses import show_address
+from ...checks import choice, number
+from ...errors import InputError
+from ...tokens.ether import parse_ether, roughly
+from ...tokens.kinds import KINDS
+from ..payer import ask, open_signer
+from .common import Account, Chain, Json, Key, Rpc, Yes, address, connect, option, say
+
+if TYPE_CHECKING:
+    from ...deploy import Receipt, Step
+
+#: Of an icon, in wei.
+ICON_PRICE = 2 * 10**16
+
+
+def deploy(
+    collection: Annotated[str, typer.Argument(help="genesis or icons.", metavar="COLLECTION")],
+    rpc: Rpc = None,
+    account: Account = None,
+    private_key_env: Key = None,
+    price: Annotated[
+        str | None, option("--price", "Of each token, in ether; else 0.15, of an icon 0.02.", "ETHER")
+    ] = None,
+    reserve: Annotated[
+        int | None, option("--reserve", "Tokens kept for the team; else 20, of each icon 1.", "N")
+    ] = None,
+    icons: Annotated[
+        str | None, option("--icons", "Which objects, with commas, as heart,diamond; else all icons.", "NAMES")
+    ] = None,
+    supply: Annotated[int | None, option("--supply", "Tokens of each icon; else 100.", "N")] = None,
+    per_transaction: Annotated[
+        int, option("--per-transaction", "The most tokens that one transaction mints; else 5.", "N")
+    ] = 5,
+    royalty: Annotated[float, option("--royalty", "Of resales, in percent, 0 to 10; else 5.", "PERCENT")] = 5,
+    royalty_receiver: Annotated[
+        str | None, option("--royalty-receiver", "Whose the royalties are; else the owner's.", "ADDRESS")
+    ] = None,
+    owner: Annotated[str | None, option("--owner", "Whose the sale is; else the payer's.", "ADDRESS")] = None,
+    allow_list: Annotated[
+        Path | None,
+        option("--allow-list", "Who may mint early: lines account,quantity, or OpenZeppelin's tree as JSON.", "FILE"),
+    ] = None,
+    signer: Annotated[str | None, option("--signer", "Whose signatures allow others to mint early.", "ADDRESS")] = None,
+    salt: Annotated[int, option("--salt", "Another number gives the same collection another address.", "N")] = 0,
+    chain_id: Chain = None,
+    yes: Yes = False,
+    as_json: Json = False,
+) -> None:
+    """Put a collection on a chain, after the contracts that it needs. What it costs is told first."""
+    from ...deploy import Transactor
+    from ...tokens.actions import perform
+    from ...tokens.allow_list import read_allow_list
+    from ...tokens.deploying import Offer, launch, plan_launch
+    from ...tokens.icons import ADD_GAS, SCALE, check_sale, chosen_pieces
+    from ...tokens.storage import Wanted, plan_storage, store
+
+    kind = KINDS[choice(collection, "the collection", tuple(KINDS))]
+    listed = None if allow_list is None else read_allow_list(allow_list)
+    trusted = None if signer is None else address(signer, "--signer")
+    wei = None if price is None else parse_ether(price, "--price")
+    percent = number(royalty, "--royalty", 0, 10)
+    if kind.hidden and (icons is not None or supply is not None):
+        raise InputError("--icons and --supply are for icons")
+    of_each = (ICON_PRICE if wei is None else wei, supply or 100, 1 if reserve is None else reserve)
+    chosen = [] if kind.hidden else chosen_pieces(icons)
+    if not kind.hidden:
+        check_sale(chosen, *of_each)
+    connection = connect(rpc, chain_id)
+    payer = open_signer(account, private_key_env)
+    mine = str(payer.address)
+    whose = mine if owner is None else address(owner, "--owner")
+    if whose != mine and (listed is not None or trusted is not None):
+        raise InputError(f"only the owner can set the allow-list: leave out --owner, or let {whose} set it later")
+    if whose != mine and chosen:
+        raise InputError("only the owner can add icons: leave out --owner")
+    defaults = Offer(whose, whose)
+    offer = Offer(
+        owner=whose,
+        royalty_receiver=whose if royalty_receiver is None else address(royalty_receiver, "--royalty-receiver"),
+        price=defaults.price if wei is None else wei,
+        reserve=defaults.reserve if reserve is None or chosen else reserve,
+        per_transaction=per_transaction,
+        royalty=round(100 * percent),
+        salt=salt,
+    )
+    transactor = Transactor(connection, payer)
+    transactor.settle()
+    plan = plan_launch(connection, kind, offer)
+    missing = [step.name for step in plan.parts.missing]
+    before = f", after {', '.join(missing)}" if missing else ""
+    say(f"{kind.title} on chain {connection.chain_id}, at {plan.address}{before}")
+    storage = plan_storage(connection, [Wanted(piece.name, piece.make()) for piece in chosen]) if chosen else None
+    gas = plan.whole_gas
+    if storage is not None:
+        gas += storage.storing_gas + len(chosen) * ADD_GAS
+        say(f"with {len(chosen)} icons: {', '.join(piece.title for piece in chosen)}")
+    say(f"together {gas:,} gas, about {roughly(gas * plan.parts.fees.likely)}")
+    if not yes:
+        ask(transactor.name)
+
+    spent: list[int] = []
+
+    def tell(step: Step, receipts: Sequence[Receipt]) -> None:
+        spent.extend(each.gas for each in receipts)
+        say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+
+    made, receipt = launch(plan, transactor, tell)
+    if listed is not None or trusted is not None:
+        root = bytes(32) if listed is None else listed.root
+        spent.append(perform(transactor, made.contract, "setAllowList", root, trusted or "0x" + "00" * 20).gas)
+        say("the allow-list is set")
+    if storage is not None:
+        store(storage, transactor, tell)
+    for piece, pointer in zip(chosen, () if storage is None else storage.pointers, strict=True):
+        done = perform(transactor, made.contract, "add", piece.title, pointer, SCALE, *of_each)
+        spent.append(done.gas)
+        say(f"{piece.title}: added, {done.gas:,} gas")
+    if as_json:
+        document = {
+            "collection": kind.name,
+            "address": made.address,
+            "chain_id": connection.chain_id,
+            "transaction": receipt.hash,
+            "gas": sum(spent),
+        }
+        print(json.dumps(document))
+        return
+    print(f"{kind.title}: {made.address}, transaction {receipt.hash}")
+    if chosen:
+        print("look at the icons, then fix them for ever: shackled token seal -c icons")
+    print(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")

@@ -1,0 +1,1 @@
+"""Collections of tokens whose pictures are computed on chain."""

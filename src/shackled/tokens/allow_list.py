@@ -1,0 +1,152 @@
+"""Allow-lists: who may mint early, and how many, as one hash that a contract keeps.
+
+The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"]: what its JavaScript package writes can
+be read here, and the other way round. Leaves are hashed twice, so that no inner node can be taken for one.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from ..chain.addresses import keccak256, parse_address, show_address
+from ..errors import InputError
+
+FORMAT = "standard-v1"
+ENCODING = ["address", "uint256"]
+MAX_QUANTITY = 2**256 - 1
+
+
+@dataclass(frozen=True)
+class AllowList:
+    """allowances: of each account, by its checksummed address, how many tokens it may mint in all."""
+
+    allowances: Mapping[str, int]
+
+    @property
+    def root(self) -> bytes:
+        """What the contract keeps."""
+        return self._tree[0]
+
+    def allowance(self, account: str) -> int:
+        """How many tokens an account may mint in all. InputError if it is not on the list."""
+        address = show_address(parse_address(account, "the account"))
+        if address not in self.allowances:
+            raise InputError(f"the account {address} is not among the {len(self.allowances):,} of the allow-list")
+        return self.allowances[address]
+
+    def proof(self, account: str) -> list[bytes]:
+        """The hashes that lead from an account to the root. InputError if the account is not on the list."""
+        place = self._place(leaf_of(account, self.allowance(account)))
+        proof = []
+        while place > 0:
+            proof.append(self._tree[place + 1 if place % 2 else place - 1])
+            place = (place - 1) // 2
+        return proof
+
+    def document(self) -> dict[str, Any]:
+        """The list as OpenZeppelin's package keeps it in JSON; quantities in decimal digits."""
+        values = [
+            {"value": [account, str(quantity)], "treeIndex": self._place(leaf_of(account, quantity))}
+            for account, quantity in self.allowances.items()
+        ]
+        tree = ["0x" + node.hex() for node in self._tree]
+        return {"format": FORMAT, "leafEncoding": ENCODING, "tree": tree, "values": values}
+
+    @cached_property
+    def _leaves(self) -> list[bytes]:
+        return sorted(leaf_of(account, quantity) for account, quantity in self.allowances.items())
+
+    def _place(self, leaf: bytes) -> int:
+        return len(self._tree) - 1 - bisect_left(self._leaves, leaf)
+
+    @cached_property
+    def _tree(self) -> list[bytes]:
+        """The nodes from the root on, those below node k at 2k + 1 and 2k + 2; the leaves last, in falling order."""
+        leaves = self._leaves
+        nodes = [b""] * (len(leaves) - 1) + leaves[::-1]
+        for place in reversed(range(len(leaves) - 1)):
+            nodes[place] = hash_pair(nodes[2 * place + 1], nodes[2 * place + 2])
+        return nodes
+
+
+def leaf_of(account: str, quantity: int) -> bytes:
+    """The hash of an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
+    return keccak256(keccak256(bytes(12) + bytes.fromhex(account.removeprefix("0x")) + quantity.to_bytes(32, "big")))
+
+
+def hash_pair(one: bytes, other: bytes) -> bytes:
+    """The node above two others, in whichever order."""
+    return keccak256(min(one, other) + max(one, other))
+
+
+def verify(root: bytes, account: str, quantity: int, proof: Sequence[bytes]) -> bool:
+    """Whether a proof leads from an entry to the root."""
+    node = leaf_of(account, quantity)
+    for sibling in proof:
+        node = hash_pair(node, sibling)
+    return node == root
+
+
+def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow-list") -> AllowList:
+    """The list of (account, quantity) entries. InputError where one is wrong, or an account stands there twice."""
+    allowances: dict[str, int] = {}
+    for number, (account, quantity) in enumerate(entries, 1):
+        address = show_address(parse_address(str(account), f"{where}, entry {number}: the account"))
+        text = str(quantity).strip()
+        if not re.fullmatch("[0-9]{1,78}", text) or not 0 < int(text) <= MAX_QUANTITY:
+            raise InputError(f"{where}, entry {number}: the quantity must be a whole number from 1, not {text!r:.60}")
+        if address in allowances:
+            raise InputError(f"{where}, entry {number}: the account {address} stands there twice")
+        allowances[address] = int(text)
+    if not allowances:
+        raise InputError(f"{where} is empty: it needs lines such as 0x70997970C51812dc3A010C7d01b50e0d17dc79C8,2")
+    return AllowList(allowances)
+
+
+def read_allow_list(path: str | Path) -> AllowList:
+    """The list of a file: .json as OpenZeppelin's StandardMerkleTree dumps it, else lines of `account,quantity`.
+
+    Empty lines, those that begin with #, and a first line of headings are passed over. InputError if anything is wrong.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text("utf-8-sig")
+    except OSError as error:
+        raise InputError(f"the allow-list {path} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"the allow-list {path} is no text") from None
+    if path.suffix.lower() == ".json":
+        return _from_json(text, f"the allow-list {path}")
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    rows = [[cell.strip() for cell in row] for row in csv.reader(lines)]
+    if rows and not rows[0][0].lower().startswith("0x"):
+        del rows[0]
+    for number, row in enumerate(rows, 1):
+        if len(row) != 2:
+            shown = ",".join(row)
+            raise InputError(f"the allow-list {path}, entry {number}: it must be account,quantity, not {shown!r:.80}")
+    return make_allow_list(((row[0], row[1]) for row in rows), f"the allow-list {path}")
+
+
+def _from_json(text: str, where: str) -> AllowList:
+    try:
+        document = json.loads(text)
+        kind, encoding, values = document["format"], document["leafEncoding"], document["values"]
+        entries = [tuple(entry["value"]) for entry in values]
+        tree = document["tree"]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise InputError(f"{where} is no dump of OpenZeppelin's StandardMerkleTree") from None
+    if kind != FORMAT or encoding != ENCODING or any(len(entry) != 2 for entry in entries):
+        raise InputError(f"{where} must be a tree of the format {FORMAT} over {ENCODING}")
+    found = make_allow_list(entries, where)
+    if not isinstance(tree, list) or not tree or tree[0] != "0x" + found.root.hex():
+        raise InputError(f"{where}: the root of its tree is not that of its entries, which is 0x{found.root.hex()}")
+    return found

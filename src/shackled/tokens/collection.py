@@ -1,0 +1,156 @@
+"""A collection on a chain, as anyone can read it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ..chain.addresses import show_address
+from ..chain.connection import Connection
+from ..errors import InputError, NodeError, RevertError
+from .contract import Contract
+from .kinds import KINDS, Kind
+from .metadata import Metadata, read_contract_uri, read_token_uri
+from .refusals import PHASES
+
+#: Requests under way at once.
+AT_ONCE = 6
+
+
+@dataclass(frozen=True)
+class Terms:
+    """How a collection stands.
+
+    allow_list_root: zeros if there is none. royalty: in hundredths of a percent. balance: in wei, not withdrawn yet.
+    """
+
+    name: str
+    symbol: str
+    owner: str
+    phase: int
+    minted: int
+    per_transaction: int
+    allow_list_root: bytes
+    allow_list_signer: str
+    royalty_receiver: str
+    royalty: int
+    balance: int
+
+    @property
+    def phase_words(self) -> str:
+        """The phase, for people."""
+        return PHASES[self.phase]
+
+
+@dataclass(frozen=True)
+class Token:
+    """A token that was minted."""
+
+    number: int
+    owner: str
+    revealed: bool
+
+
+class Collection:
+    """A collection at an address."""
+
+    def __init__(self, connection: Connection, kind: Kind, address: str) -> None:
+        """Nothing is asked yet; `open_collection` asks what it is."""
+        self.connection, self.kind, self.address = connection, kind, address
+        self.contract = Contract(connection, kind.contract, address)
+
+    @cached_property
+    def name(self) -> str:
+        """As the contract says it."""
+        return str(self.contract.call("name"))
+
+    def minted(self) -> int:
+        """How many tokens there are; they are numbered from 0."""
+        return int(self.contract.call("totalSupply"))
+
+    def owner_of(self, token: int) -> str:
+        """Whose a token is. InputError if there is none of that number."""
+        return self._address(self._of_token("ownerOf", token))
+
+    def token(self, number: int) -> Token:
+        """A token. InputError if there is none of that number."""
+        return Token(number, self.owner_of(number), self.is_revealed(number))
+
+    def tokens(self, numbers: Iterable[int] | None = None) -> Iterator[Token]:
+        """Tokens in the order of their numbers; all of them if none are named."""
+        wanted = range(self.minted()) if numbers is None else numbers
+        with ThreadPoolExecutor(AT_ONCE) as pool:
+            yield from pool.map(self.token, wanted)
+
+    def is_revealed(self, token: int) -> bool:
+        """Whether a token has its picture."""
+        return not self.kind.hidden or any(self.contract.call("randomnessOf", self.round_of(token)))
+
+    def round_of(self, token: int) -> int:
+        """The round in which a token was minted."""
+        return int(self._of_token("roundOf", token))
+
+    def token_uri(self, token: int) -> str:
+        """The whole `tokenURI`, in one call that names no gas: the limit of the node holds."""
+        return str(self._of_token("tokenURI", token))
+
+    def metadata(self, token: int) -> Metadata:
+        """What a token says of itself."""
+        return read_token_uri(self.token_uri(token))
+
+    def contract_metadata(self) -> dict[str, Any]:
+        """What the collection says of itself."""
+        return read_contract_uri(str(self.contract.call("contractURI")))
+
+    def terms(self) -> Terms:
+        """How the collection stands now."""
+        call = self.contract.call
+        receiver, royalty = call("royaltyInfo", 0, 10_000)
+        return Terms(
+            name=self.name,
+            symbol=call("symbol"),
+            owner=self._address(call("owner")),
+            phase=call("phase"),
+            minted=self.minted(),
+            per_transaction=call("perTransaction"),
+            allow_list_root=call("allowListRoot"),
+            allow_list_signer=self._address(call("allowListSigner")),
+            royalty_receiver=self._address(receiver),
+            royalty=royalty,
+            balance=self.connection.number("eth_getBalance", self.address, "latest"),
+        )
+
+    def _of_token(self, function: str, token: int) -> Any:
+        try:
+            return self.contract.call(function, token)
+        except RevertError as error:
+            if str(error) == "there is no such token":
+                raise InputError(self._unknown(token)) from None
+            raise
+
+    def _unknown(self, token: int) -> str:
+        minted = self.minted()
+        there = f"they are numbered 0 to {minted - 1}" if minted else "none was minted yet"
+        return f"there is no token {token} of {self.name}: {there}"
+
+    @staticmethod
+    def _address(value: Any) -> str:
+        return show_address(bytes.fromhex(value[2:]))
+
+
+def open_collection(connection: Connection, address: str) -> Collection:
+    """The collection at an address, of whichever kind it is. InputError if there is none."""
+    for kind in KINDS.values():
+        try:
+            if Contract(connection, kind.contract, address).call("name") == kind.title:
+                return Collection(connection, kind, address)
+        except RevertError:
+            continue
+        except NodeError as error:
+            if "is no " in str(error):
+                continue
+            raise
+    raise InputError(f"there is no collection of ours at {address} on chain {connection.chain_id}")

@@ -1,0 +1,167 @@
+"""Putting a collection on a chain, and before it the contracts that it uses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..artifacts import artifact
+from ..chain.addresses import PROXY, create2_address, show_address
+from ..chain.connection import Connection
+from ..deploy import Deployer, Deployment, Plan, Receipt, Step, Transactor
+from ..deploy.contract import deployment, local_chain
+from ..errors import InputError, TransactionError
+from .collection import Collection
+from .contract import constructor_arguments
+from .ether import ether
+from .immutables import immutable_values
+from .kinds import Kind
+
+MAX_PER_TRANSACTION = 100
+#: In hundredths of a percent.
+MAX_ROYALTY = 1000
+GENESIS_SUPPLY = 1024
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What a collection is deployed with; what of it cannot be changed afterwards is checked before anything is sent.
+
+    owner, royalty_receiver: addresses. price: in wei, of each token. reserve: tokens for the team.
+    royalty: in hundredths of a percent. salt: another number gives the same offer another address.
+    """
+
+    owner: str
+    royalty_receiver: str
+    price: int = 15 * 10**16
+    reserve: int = 20
+    per_transaction: int = 5
+    royalty: int = 500
+    salt: int = 0
+
+    def __post_init__(self) -> None:
+        """InputError where the contract would refuse."""
+        checks = (
+            (0 <= self.reserve <= GENESIS_SUPPLY, f"the reserve must be 0 to {GENESIS_SUPPLY:,}, not {self.reserve}"),
+            (
+                1 <= self.per_transaction <= MAX_PER_TRANSACTION,
+                f"a transaction may mint 1 to {MAX_PER_TRANSACTION} tokens, not {self.per_transaction}",
+            ),
+            (
+                0 <= self.royalty <= MAX_ROYALTY,
+                f"royalties can be 0 to {MAX_ROYALTY / 100:g} %, not {self.royalty / 100:g} %",
+            ),
+            (0 <= self.price < 2**128, f"the price cannot be {ether(self.price)}"),
+            (0 <= self.salt < 2**256, f"the salt must be a number of 256 bits, not {self.salt}"),
+            (int(self.royalty_receiver, 16) != 0 or not self.royalty, "royalties need a receiver other than address 0"),
+            (int(self.owner, 16) != 0, "the owner cannot be the address 0"),
+        )
+        for holds, message in checks:
+            if not holds:
+                raise InputError(message)
+
+    @property
+    def struct(self) -> tuple[str, int, str, int]:
+        """The struct Terms of contracts/src/tokens/Collection.sol."""
+        return self.owner, self.per_transaction, self.royalty_receiver, self.royalty
+
+
+def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
+    """The contracts that one needs, in the order in which they are deployed; the same on every chain.
+
+    itself: that one too, which needs nothing but these.
+    """
+    chosen: list[str] = []
+
+    def add(name: str) -> None:
+        for part in artifact(name).parts:
+            add(part)
+            if part not in chosen:
+                chosen.append(part)
+
+    add(contract)
+    if itself:
+        chosen.append(contract)
+    local = local_chain()
+    return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]
+
+
+def address_of(deployments: Sequence[Deployment], name: str) -> str:
+    """Where one of some contracts stands."""
+    return show_address(next(each.address for each in deployments if each.name == name))
+
+
+@dataclass(frozen=True)
+class Launch:
+    """A collection that is to be deployed. parts: what is missing before. gas: of its own transaction."""
+
+    kind: Kind
+    parts: Plan
+    creation: bytes
+    salt: bytes
+    gas: int
+
+    @property
+    def address(self) -> str:
+        """Where it will stand."""
+        return show_address(create2_address(self.creation, self.salt))
+
+    @property
+    def whole_gas(self) -> int:
+        """Of all transactions."""
+        return self.parts.gas + self.gas
+
+    @property
+    def cost(self) -> int:
+        """What is probably paid for all of it, in wei."""
+        return self.parts.cost + self.gas * self.parts.fees.likely
+
+
+def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> bytes:
+    """What deploys a collection, its terms included."""
+    arguments: list[Any] = [address_of(parts, part) for part in artifact(kind.contract).parts]
+    arguments += [getattr(offer, term) for term in kind.terms]
+    return artifact(kind.contract).creation + constructor_arguments(kind.contract, *arguments, offer.struct)
+
+
+def plan_launch(connection: Connection, kind: Kind, offer: Offer) -> Launch:
+    """What is to be deployed. InputError if the same collection is there already."""
+    parts = parts_of(kind.contract)
+    creation = creation_code(kind, parts, offer)
+    salt = offer.salt.to_bytes(32, "big")
+    address = create2_address(creation, salt)
+    if connection.data("eth_getCode", "0x" + address.hex(), "latest"):
+        raise InputError(
+            f"this very collection stands at {show_address(address)} on chain {connection.chain_id} already: "
+            "another --salt makes another one"
+        )
+    plan = Deployer(connection).plan(parts)
+    # the constructor is run here; on the chain other numbers of blocks may change it by a few hundred gas
+    gas = deployment(kind.contract, creation, [each.name for each in parts]).gas
+    return Launch(kind, plan, creation, salt, gas)
+
+
+def launch(
+    launch: Launch,
+    transactor: Transactor,
+    report: Callable[[Step, Sequence[Receipt]], None] | None = None,
+) -> tuple[Collection, Receipt]:
+    """Deploys what is missing, then the collection, and compares its code; the collection, and the receipt of its own.
+
+    TransactionError if anything fails; what was done before stays, and the next time goes on from there.
+    """
+    connection = transactor.connection
+    deployer = Deployer(connection)
+    deployer.carry_out(launch.parts, transactor, report)
+    receipt = transactor.send(PROXY, launch.salt + launch.creation)
+    collection = Collection(connection, launch.kind, launch.address)
+    code = connection.data("eth_getCode", launch.address, "latest")
+    if not code:
+        raise TransactionError(f"{launch.kind.title} is not at {launch.address}, though its transaction succeeded")
+    immutable_values(code, artifact(launch.kind.contract).runtime)
+    deployer.book.write(connection.chain_id, {launch.kind.contract: bytes.fromhex(launch.address[2:])})
+    if report is not None:
+        step = Step(launch.kind.contract, bytes.fromhex(launch.address[2:]), False, receipt.gas, receipt.fee)
+        report(step, [receipt])
+    return collection, receipt

@@ -1,0 +1,8 @@
+"""What strangers have put on a chain, made safe for a terminal."""
+
+from __future__ import annotations
+
+
+def plain(text: str) -> str:
+    """The text with a question mark for every character that a terminal could take for a command."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)

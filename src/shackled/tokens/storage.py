@@ -1,0 +1,123 @@
+"""Scenes put on a chain through the Studio: what is missing there, what it costs, and doing it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from ..chain.addresses import show_address
+from ..chain.connection import Connection
+from ..deploy import Deployer, Plan, Receipt, Step, Transactor
+from ..errors import RenderError, TransactionError
+from ..image import Image, decode_bmp
+from ..render import render
+from ..scene.scene import Scene
+from ..studio.keeping import STUDIO, Storing, store_scene
+from .contract import Contract
+from .deploying import address_of, parts_of
+
+#: The Studio has two functions of this name.
+RENDER = "render(address)"
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A scene that is to be on a chain. position_bits: None keeps it exactly; fewer, 4 to 16, are cheaper."""
+
+    name: str
+    scene: Scene
+    position_bits: int | None = None
+    normal_bits: int = 10
+
+
+@dataclass(frozen=True)
+class Storage:
+    """What is to be done. parts: contracts that are missing. missing: what is to be stored, in this order, with
+    the name of its scene. pointers: of the scenes, in the order in which they were wanted.
+    """
+
+    parts: Plan
+    studio: str
+    missing: tuple[tuple[str, Storing], ...]
+    pointers: tuple[str, ...]
+
+    @property
+    def gas(self) -> int:
+        """Of all transactions."""
+        return self.parts.gas + self.storing_gas
+
+    @property
+    def storing_gas(self) -> int:
+        """Of those that store."""
+        return sum(each.gas for _, each in self.missing)
+
+    @property
+    def cost(self) -> int:
+        """What is probably paid, in wei."""
+        return self.parts.cost + self.storing_gas * self.parts.fees.likely
+
+
+def plan_storage(connection: Connection, wanted: Iterable[Wanted]) -> Storage:
+    """What of some scenes a chain does not have yet. Each scene is drawn here first, since none that cannot be drawn is
+    worth the price.
+    """
+    parts = parts_of(STUDIO, itself=True)
+    studio = address_of(parts, STUDIO)
+    missing: dict[bytes, tuple[str, Storing]] = {}
+    pointers = []
+    for each in wanted:
+        render(each.scene)
+        storings = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
+        pointers.append(show_address(storings[-1].pointer))
+        for storing in storings:
+            if storing.pointer not in missing and not _stands(connection, storing):
+                missing[storing.pointer] = each.name, storing
+    return Storage(Deployer(connection).plan(parts), studio, tuple(missing.values()), tuple(pointers))
+
+
+def store(
+    storage: Storage,
+    transactor: Transactor,
+    report: Callable[[Step, Sequence[Receipt]], None] | None = None,
+) -> list[Receipt]:
+    """Deploys what is missing and stores what is missing; the receipts of the latter.
+
+    What was done before a failure stays, and the next time goes on from there.
+    """
+    deployer = Deployer(transactor.connection)
+    # planned anew: some of the contracts may have come there meanwhile
+    deployer.carry_out(deployer.plan(parts_of(STUDIO, itself=True)), transactor, report)
+    receipts = []
+    for name, each in storage.missing:
+        receipt = transactor.send(bytes.fromhex(storage.studio[2:]), each.data)
+        # the address is made of the bytes that are kept: if anything is there, it is these
+        if not _stands(transactor.connection, each):
+            raise TransactionError(
+                f"the {each.what} is not at {show_address(each.pointer)}, though its transaction {receipt.hash} "
+                "succeeded: is the node in step?"
+            )
+        receipts.append(receipt)
+        if report is not None:
+            what = f"{name}, {each.what}, {each.size:,} bytes"
+            report(Step(what, each.pointer, False, receipt.gas, receipt.fee), [receipt])
+    return receipts
+
+
+def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted) -> Image:
+    """The picture that the Studio of a chain draws of a scene that it keeps.
+
+    RenderError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
+    """
+    contract = Contract(connection, STUDIO, studio)
+    started = time.perf_counter()
+    bmp: bytes = contract.call(RENDER, pointer)
+    seconds = time.perf_counter() - started
+    pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
+    if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
+        raise RenderError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
+    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, None, None, connection.name, seconds)
+
+
+def _stands(connection: Connection, storing: Storing) -> bool:
+    return bool(connection.data("eth_getCode", "0x" + storing.pointer.hex(), "latest"))

@@ -1,0 +1,53 @@
+"""The contracts of tests/tokens/contracts, compiled."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tokens.world import Built
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = Path(__file__).with_name("contracts")
+SOLC = ROOT / "contracts" / "node_modules" / "solc"
+
+
+@cache
+def build_tool() -> ModuleType:
+    """tools/build_contracts.py."""
+    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
+    assert spec is not None
+    assert spec.loader is not None
+    tool = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tool)
+    return tool
+
+
+@cache
+def adversary(name: str) -> Built:
+    """One of them; the test is skipped where there is no compiler."""
+    if name not in _compiled():
+        pytest.skip("the compiler is not installed: npm ci in contracts/")
+    return _compiled()[name]
+
+
+@cache
+def _compiled() -> dict[str, Built]:
+    if not SOLC.is_dir():
+        return {}
+    tool = build_tool()
+    sources = {path.name: {"content": path.read_text("utf-8")} for path in sorted(FOLDER.glob("*.sol"))}
+    settings = tool.SETTINGS | {"outputSelection": {"*": {"*": ["abi", "evm.bytecode.object"]}}}
+    # selfdestruct is outdated, and just what is needed here
+    tool.HARMLESS.add("5159")
+    answer = tool.run_compiler(json.dumps({"language": "Solidity", "sources": sources, "settings": settings}))
+    return {
+        name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
+        for contracts in answer["contracts"].values()
+        for name, output in contracts.items()
+    }

@@ -1,0 +1,37 @@
+"""Reading what a token shows, as a marketplace does."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+
+def document(uri: str) -> dict[str, Any]:
+    """The JSON of a `data:` URI."""
+    head, _, text = uri.partition(",")
+    assert head == "data:application/json;base64"
+    found = json.loads(base64.b64decode(text, validate=True).decode("utf-8"))
+    assert isinstance(found, dict)
+    return found
+
+
+def pixels(uri: str) -> NDArray[np.uint8]:
+    """The pixels of the PNG of a `data:` URI."""
+    head, _, text = uri.partition(",")
+    assert head == "data:image/png;base64"
+    with PillowImage.open(io.BytesIO(base64.b64decode(text, validate=True))) as picture:
+        picture.load()
+        assert picture.format == "PNG"
+        return np.asarray(picture.convert("RGB"))
+
+
+def traits(found: dict[str, Any]) -> dict[str, Any]:
+    """The attributes by their names; each is a name with a value."""
+    assert all(set(each) == {"trait_type", "value"} for each in found["attributes"])
+    return {each["trait_type"]: each["value"] for each in found["attributes"]}

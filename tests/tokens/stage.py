@@ -1,0 +1,90 @@
+"""A world with the collections deployed, one for each test."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, replace
+from functools import cache
+
+from eth_utils.abi import collapse_if_tuple
+
+from shackled import Scene
+from shackled.datasets import icons
+from shackled.scene.codec import encode
+from tokens.world import ETHER, GAS, Contract, World, account, keccak
+
+PRICE = ETHER // 20
+RESERVE = 24
+LIMIT = 10
+CLOSED, ALLOW_LIST, PUBLIC = range(3)
+
+#: Two small ones: name, supply, reserve, price.
+ICONS = {"icons/lightning": ("Lightning", 12, 2, ETHER // 10), "icons/ethereum": ("Ether", 1000, 0, ETHER // 100)}
+
+
+@dataclass
+class Stage:
+    """The sales are open for all; round 0 of Genesis begins with its first block. Everybody has 1000 ether."""
+
+    world: World
+    renderer: Contract
+    generator: Contract
+    metadata: Contract
+    genesis: Contract
+    studio: Contract
+    icons: Contract
+    owner: str
+    alice: str
+    bob: str
+
+    def mint(self, quantity: int = 1, sender: str | None = None) -> list[int]:
+        """Mints tokens of Genesis; their numbers."""
+        first = int(self.genesis.call("totalSupply"))
+        self.genesis.send("mint", quantity, sender=sender or self.alice, value=quantity * PRICE)
+        return list(range(first, first + quantity))
+
+    def reveal(self, *rounds: int) -> None:
+        """Reveals rounds, as early as the world's hashes of blocks can be read."""
+        blocks = [self.genesis.call("blockOf", each) for each in rounds]
+        self.world.mine_to(max(*blocks, self.world.number - 257) + 257)
+        self.genesis.send("reveal", list(rounds), [self.world.header(block) for block in blocks], sender=self.bob)
+
+
+@cache
+def _deployed(chain_id: int) -> Stage:
+    world = World(chain_id)
+    owner, alice, bob = (world.fund(account(name)) for name in ("owner", "alice", "bob"))
+    renderer = world.deploy("Renderer", world.deploy("Engine"))
+    generator = world.deploy("Genesis", renderer)
+    metadata = world.deploy("GenesisMetadata", generator)
+    genesis = world.deploy("GenesisCollection", metadata, PRICE, RESERVE, (owner, LIMIT, owner, 500), sender=owner)
+    genesis.send("setPhase", PUBLIC, sender=owner)
+    studio = world.deploy("Studio", renderer)
+    collection = world.deploy("IconsCollection", studio, (owner, LIMIT, owner, 500), sender=owner)
+    for name, (title, supply, reserve, price) in ICONS.items():
+        pointer = store_scene(studio, icon_scene(name))
+        collection.send("add", title, pointer, 4, price, supply, reserve, sender=owner)
+    collection.send("seal", sender=owner)
+    collection.send("setPhase", PUBLIC, sender=owner)
+    return Stage(world, renderer, generator, metadata, genesis, studio, collection, owner, alice, bob)
+
+
+def icon_scene(name: str) -> Scene:
+    """The scene of a piece of the dataset, 128 x 128 pixels."""
+    (piece,) = (each for each in icons.pieces() if each.name == name)
+    return replace(piece.make(), width=128, height=128)
+
+
+def store_scene(studio: Contract, scene: Scene) -> str:
+    """Has the studio keep a scene; its pointer."""
+    (entry,) = (each for each in studio.abi if each.get("name") == "storeScene")
+    selector = keccak(f"storeScene({collapse_if_tuple(entry['inputs'][0])})".encode())[:4]
+    output = studio.world.run(
+        account("owner"), studio.address, encode(selector, scene), 0, GAS, True, studio.abi
+    ).output
+    return "0x" + output[12:32].hex()
+
+
+def stage(chain_id: int = 1) -> Stage:
+    """A new one."""
+    return copy.deepcopy(_deployed(chain_id))

@@ -1,0 +1,207 @@
+"""A Genesis collection with one token: what its owner says, what goes wrong, and what is found out."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from eth_account import Account
+from PIL import Image as PillowImage
+from web3 import Web3
+
+from shackled.artifacts import artifact
+from shackled.chain.address_book import AddressBook
+from shackled.chain.addresses import show_address
+from shackled.chain.connection import Connection
+from shackled.cli.app import run
+from shackled.errors import RenderError, RevertError
+from shackled.tokens.collection import open_collection
+from shackled.tokens.development import development_accounts
+from shackled.tokens.immutables import immutable_places
+from shackled.tokens.verify import check_collection_code
+from tokens.on_a_node import Node, Shackled
+
+OWNER, ALICE, BOB, CAROL = range(4)
+PRICE = 2 * 10**17
+
+
+@pytest.fixture(scope="module")
+def allow_list(node: Node, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("list") / "friends.csv"
+    path.write_text(f"account,quantity\n{node.accounts[ALICE]},2\n{node.accounts[9]},7\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def address(node: Node, allow_list: Path) -> str:
+    """The collection, closed, with one token."""
+    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
+    sale += ["--signer", node.accounts[OWNER], "--yes", "--rpc", node.url, "--private-key-env", node.keys[OWNER]]
+    assert run(["token", "deploy", "genesis", *sale]) == 0
+    found = AddressBook().find(31337, "GenesisCollection")
+    assert found is not None
+    contract = node.contract("GenesisCollection", show_address(found))
+    contract.functions.mintReserve(node.accounts[ALICE], 1).transact({"from": node.accounts[OWNER]})
+    return show_address(found)
+
+
+def test_nothing_is_deployed_that_is_not_needed(node: Node, address: str) -> None:
+    book = AddressBook().entries(31337)
+    assert sorted(book) == ["Engine", "Genesis", "GenesisCollection", "GenesisMetadata", "Renderer"]
+
+
+def test_terms_are_those_of_the_command(node: Node, address: str, allow_list: Path) -> None:
+    contract = node.contract("GenesisCollection", address)
+    assert contract.functions.price().call() == PRICE
+    assert contract.functions.reserve().call() == 1012
+    assert contract.functions.owner().call() == node.accounts[OWNER]
+    assert contract.functions.royaltyInfo(0, 1000).call() == [node.accounts[OWNER], 75]
+    assert contract.functions.allowListSigner().call() == node.accounts[OWNER]
+    assert any(contract.functions.allowListRoot().call())
+
+
+def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, shackled: Shackled) -> None:
+    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--yes"]
+    said = shackled("token", "deploy", "genesis", *sale, user=OWNER, expect=2)
+    assert f"this very collection stands at {address} on chain 31337 already" in said.error
+    assert "--salt" in said.error
+
+
+def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
+    before = node.web3.eth.block_number
+    said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
+    assert "gas, about" in said.err
+    assert "nothing was sent" in said.error
+    assert node.web3.eth.block_number == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("show", 999), 2, "there is no token 999 of Shackled Genesis: they are numbered 0 to"),
+        (("transfer", 999, "0x" + "12" * 20, "--yes"), 2, "there is no token 999"),
+        (("show", 0, "--chain-id", 1), 1, "belongs to chain 31337, not to chain 1"),
+        (("show", 0, "--collection", "0x" + "12" * 20), 2, "there is no collection of ours at 0x1212"),
+        (("show", 0, "--collection", "0x12"), 2, "--collection must be an address"),
+        (("show", 0, "--collection", "punks"), 2, "--collection must be genesis, icons or an address, not 'punks'"),
+        (("show", 0, "-o", "picture.gif"), 2, "must end in one of .png .bmp"),
+        (("mint", "--yes"), 2, "nothing was sent; say whose account it is"),
+        (("mint", "--private-key-env", "NO_SUCH", "--yes"), 2, "NO_SUCH"),
+        (("phase", "open"), 2, "the phase must be one of closed, allow-list, public"),
+        (("deploy", "punks"), 2, "the collection must be one of genesis, icons"),
+        (("deploy", "genesis", "--price", "much"), 2, "--price must be an amount of ether"),
+        (("deploy", "genesis", "--royalty", "11"), 2, "--royalty must be a finite number from 0 to 10, not 11"),
+        (("deploy", "genesis", "--royalty", "nan"), 2, "--royalty must be a finite number from 0 to 10, not nan"),
+        (("mint", "1" + 40 * "0"), 2, "less than or equal to"),
+        (("deploy", "genesis", "--reserve", "1025", "--private-key-env", "KEY_0"), 2, "the reserve must be 0 to 1,024"),
+        (("deploy", "genesis", "--allow-list", "none.csv"), 2, "the allow-list none.csv cannot be read"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(
+    address: str, shackled: Shackled, arguments: tuple[object, ...], code: int, said: str
+) -> None:
+    result = shackled("token", *arguments, expect=code)
+    assert said in result.error
+    assert len(result.err.strip().splitlines()) == 1
+
+
+def test_the_owner_changes_in_two_steps(node: Node, address: str, shackled: Shackled) -> None:
+    contract = node.contract("GenesisCollection", address)
+    assert "is offered to nobody" in shackled("token", "take-over", "--yes", user=ALICE, expect=2).error
+    shackled("token", "hand-over", node.accounts[ALICE], "--yes", user=OWNER)
+    assert contract.functions.owner().call() == node.accounts[OWNER]
+    said = shackled("token", "take-over", "--yes", user=BOB, expect=2)
+    assert f"is offered to {node.accounts[ALICE]}, not to {node.accounts[BOB]}" in said.error
+    shackled("token", "take-over", "--yes", user=ALICE)
+    assert contract.functions.owner().call() == node.accounts[ALICE]
+    shackled("token", "hand-over", node.accounts[OWNER], "--yes", user=ALICE)
+    shackled("token", "take-over", "--yes", user=OWNER)
+
+
+def test_royalties_are_changed_by_the_owner(node: Node, address: str, shackled: Shackled) -> None:
+    contract = node.contract("GenesisCollection", address)
+    assert "only the owner" in shackled("token", "royalty", 2, "--yes", user=BOB, expect=1).error
+    shackled("token", "royalty", 2.5, "--receiver", node.accounts[6], "--yes", user=OWNER)
+    assert contract.functions.royaltyInfo(0, 1000).call() == [node.accounts[6], 25]
+    shackled("token", "royalty", 7.5, "--receiver", node.accounts[OWNER], "--yes", user=OWNER)
+    assert contract.functions.royaltyInfo(0, 1000).call() == [node.accounts[OWNER], 75]
+
+
+def test_a_keystore_signs_too(
+    node: Node, address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, shackled: Shackled
+) -> None:
+    keystore = tmp_path / "keystore.json"
+    key = development_accounts()[OWNER].key
+    keystore.write_text(json.dumps(Account.encrypt(key, "a password", kdf="pbkdf2", iterations=1000)))
+    monkeypatch.setenv("SHACKLED_PASSWORD", "another")
+    said = shackled("token", "phase", "public", "--account", keystore, "--yes", expect=2)
+    assert "the password is wrong" in said.error
+    assert "another" not in said.error
+    monkeypatch.setenv("SHACKLED_PASSWORD", "a password")
+    assert "open for all" in shackled("token", "phase", "public", "--account", keystore, "--yes").out
+
+
+def test_a_wrong_price_is_told_in_words(node: Node, address: str) -> None:
+    collection = open_collection(Connection(node.url), address)
+    node.contract("GenesisCollection", address).functions.setPhase(2).transact({"from": node.accounts[OWNER]})
+    with pytest.raises(RevertError, match=r"^the price is 0.2 ether, and 0.15 ether were sent$"):
+        collection.contract.call("mint", 1, sender=node.accounts[BOB], value=15 * 10**16)
+
+
+def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> None:
+    """Anywhere, and in every place of an immutable value."""
+    collection = open_collection(Connection(node.url), address)
+    code = bytes(node.web3.eth.get_code(Web3.to_checksum_address(address)))
+    places = immutable_places(artifact("GenesisCollection").runtime)
+    elsewhere = next(at for at in range(1000, len(code)) if all(not p <= at < p + 32 for p in places))
+    changes = {at + 31: "of its code stands 0x" for at in places}
+    changes[elsewhere] = f"differs from the compiled contract at byte {elsewhere:,}"
+    check_collection_code(collection)
+    try:
+        for at, complaint in changes.items():
+            changed = code[:at] + bytes([code[at] ^ 1]) + code[at + 1 :]
+            node.rpc("anvil_setCode", address, "0x" + changed.hex())
+            with pytest.raises(RenderError, match=complaint):
+                check_collection_code(collection)
+        said = shackled("token", "verify", 0, expect=1)
+    finally:
+        node.rpc("anvil_setCode", address, "0x" + code.hex())
+    assert f"WRONG  GenesisCollection at {address}" in said.out
+    assert said.error == "shackled: 1 of the checks failed"
+
+
+def test_another_randomness_than_that_of_the_block_is_found(node: Node, address: str, shackled: Shackled) -> None:
+    contract = node.contract("GenesisCollection", address)
+    contract.functions.setPhase(2).transact({"from": node.accounts[OWNER]})
+    node.mine(40)
+    contract.functions.mint(1).transact({"from": node.accounts[BOB], "value": PRICE})
+    token = contract.functions.totalSupply().call() - 1
+    node.mine(200)
+    shackled("token", "reveal", "--yes", user=BOB)
+    assert "WRONG" not in shackled("token", "verify", token).out
+    number = contract.functions.roundOf(token).call()
+    randomness = contract.functions.randomnessOf(number).call()
+    # where the mapping keeps it: the slot of the mapping is one of the first
+    places = [Web3.keccak(number.to_bytes(32, "big") + slot.to_bytes(32, "big")) for slot in range(40)]
+    (place,) = (
+        each for each in places if node.web3.eth.get_storage_at(contract.address, int.from_bytes(each)) == randomness
+    )
+    node.rpc("anvil_setStorageAt", address, "0x" + place.hex(), "0x" + Web3.keccak(b"chosen").hex())
+    try:
+        said = shackled("token", "verify", token, expect=1)
+    finally:
+        node.rpc("anvil_setStorageAt", address, "0x" + place.hex(), "0x" + randomness.hex())
+    assert f"WRONG  Shackled Genesis #{token}: the randomness of its round is not that of block" in said.out
+
+
+def test_a_picture_file_may_be_of_the_other_kind(address: str, tmp_path: Path, shackled: Shackled) -> None:
+    for name in ("a.png", "a.bmp"):
+        shackled("token", "show", 0, "-o", tmp_path / name)
+    one, other = (
+        np.asarray(PillowImage.open(io.BytesIO((tmp_path / name).read_bytes())).convert("RGB"))
+        for name in ("a.png", "a.bmp")
+    )
+    np.testing.assert_array_equal(one, other)

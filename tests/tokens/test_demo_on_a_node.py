@@ -1,0 +1,70 @@
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from pathlib import Path
+
+import pytest
+
+from nodes import anvil, needs_anvil
+from shackled.chain.address_book import VARIABLE
+from shackled.cli.app import run
+from tokens.on_a_node import Node, Shackled
+
+
+def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, shackled: Shackled) -> None:
+    said = shackled("token", "demo", "-o", tmp_path / "out")
+    listed = json.loads((tmp_path / "out" / "tokens.json").read_text())
+    page = (tmp_path / "out" / "gallery.html").read_text()
+    assert {each["collection"] for each in listed} == {"Shackled Genesis", "Shackled Icons"}
+    genesis = [each["gas"] for each in listed if each["collection"] == "Shackled Genesis"]
+    assert sum(genesis) / len(genesis) <= 8_000_000
+    assert max(genesis) <= 13_000_000
+    assert all(each["bytes"] <= 100_000 and each["revealed"] and each["traits"] for each in listed)
+    names = {"Shackled Genesis": "GenesisCollection", "Shackled Icons": "IconsCollection"}
+    for each in listed[::7]:
+        # web3.py reads the same, with no word about gas
+        contract = node.contract(names[each["collection"]], each["address"])
+        document = json.loads(base64.b64decode(contract.functions.tokenURI(each["token"]).call().partition(",")[2]))
+        picture = document["image"].partition(",")[2]
+        assert hashlib.sha256(base64.b64decode(picture)).hexdigest() == each["picture"]["sha256"]
+        assert {trait["trait_type"]: trait["value"] for trait in document["attributes"]} == each["traits"]
+        assert contract.functions.ownerOf(each["token"]).call() == each["owner"]
+        assert f'src="data:image/png;base64,{picture}"' in page
+    rows = {line.split("  ")[0]: line.split() for line in said.out.splitlines()}
+    assert rows["Genesis: mint 1"][-2:] == ["k", "1.6"]
+    assert rows["Genesis: mint 5"][-3:] == ["712", "k", "8.2"]
+    # nothing is fetched from elsewhere
+    assert "http" not in page.replace("http-equiv", "")
+
+
+@needs_anvil
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--chain-id", "1"), "belongs to chain 1, where the keys that everyone knows must not be used"),
+        (("--balance", "5"), "has 5 ether"),
+        (("--mnemonic-random",), "has 0 ether"),
+    ],
+)
+def test_the_demo_refuses_other_chains(
+    options: tuple[str, ...],
+    said: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
+    with anvil(*options) as started:
+        assert run(["token", "demo", "--rpc", started.url, "-o", str(tmp_path / "out")]) == 2
+        error = capsys.readouterr().err
+        assert said in error
+        assert len(error.strip().splitlines()) == 1
+        assert started.rpc("eth_blockNumber") == "0x0"
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_folder_must_not_be_a_file(node: Node, tmp_path: Path, shackled: Shackled) -> None:
+    (tmp_path / "out").write_text("")
+    assert "is a file, not a folder" in shackled("token", "demo", "-o", tmp_path / "out", expect=2).error

@@ -1,0 +1,142 @@
+"""The Genesis collection from its deployment to its last token, by the command line, seen by web3.py."""
+
+from __future__ import annotations
+
+import base64
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+from web3.exceptions import ContractCustomError
+
+from shackled.chain.address_book import AddressBook
+from shackled.chain.addresses import show_address
+from shackled.cli.app import run
+from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
+from tokens.on_a_node import Node, Shackled
+
+OWNER, ALICE, BOB, CAROL = range(4)
+PRICE = 2 * 10**17
+
+
+@pytest.fixture(scope="module")
+def allow_list(node: Node, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("list") / "friends.csv"
+    path.write_text(f"account,quantity\n{node.accounts[ALICE]},2\n{node.accounts[9]},7\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def address(node: Node, allow_list: Path) -> str:
+    """The collection: 12 tokens are for sale, the other 1,012 kept."""
+    sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]
+    sale += ["--signer", node.accounts[OWNER], "--yes", "--rpc", node.url, "--private-key-env", node.keys[OWNER]]
+    assert run(["token", "deploy", "genesis", *sale]) == 0
+    found = AddressBook().find(31337, "GenesisCollection")
+    assert found is not None
+    return show_address(found)
+
+
+def test_the_whole_way_of_tokens(
+    node: Node, address: str, allow_list: Path, tmp_path: Path, shackled: Shackled
+) -> None:
+    """One test, since each step needs those before."""
+    contract = node.contract("GenesisCollection", address)
+
+    said = shackled("token", "mint", "--yes", user=CAROL, expect=1)
+    assert said.error == "shackled: the sale is closed; for this it must be open for all"
+
+    # the allow-list
+    assert "open for the allow-list" in shackled("token", "phase", "allow-list", "--yes", user=OWNER).out
+    assert "only the owner may do this" in shackled("token", "phase", "public", "--yes", user=BOB, expect=1).error
+    said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=BOB, expect=2)
+    assert f"the account {node.accounts[BOB]} is not among the 2 of the allow-list" in said.error
+    said = shackled("token", "mint", 2, "--allow-list", allow_list, "--yes", user=ALICE)
+    assert "it costs 0.4 ether and about" in said.err
+    assert "minted #0, #1" in said.out
+    said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=ALICE, expect=1)
+    assert said.error == "shackled: the allow-list allows the account 2 in all: 2 minted, 1 more wanted"
+
+    # a permission
+    file = tmp_path / "bob.json"
+    shackled("token", "permit", node.accounts[BOB], 1, "-o", file, user=OWNER)
+    assert "signed by" in shackled("token", "permit", node.accounts[BOB], 1, user=BOB, expect=2).error
+    said = shackled("token", "mint", 1, "--permission", file, "--yes", user=CAROL, expect=2)
+    assert "the permission is one for" in said.error
+    assert "minted #2" in shackled("token", "mint", 1, "--permission", file, "--yes", user=BOB).out
+    assert "1 minted, 1 more" in shackled("token", "mint", 1, "--permission", file, "--yes", user=BOB, expect=1).error
+
+    # for all, and from the reserve
+    shackled("token", "phase", "public", "--yes", user=OWNER)
+    said = shackled("token", "mint", 6, "--yes", user=CAROL, expect=1)
+    assert said.error == "shackled: a transaction mints 1 to 5 tokens, not 6"
+    numbers = json.loads(shackled("token", "mint", 5, "--yes", "--json", user=CAROL).out)["tokens"]
+    assert numbers == [3, 4, 5, 6, 7]
+    said = shackled("token", "mint", 5, "--yes", user=CAROL, expect=1)
+    assert said.error == "shackled: sold out: 5 wanted, 4 left"
+    shackled("token", "mint", 2, "--reserve-to", node.accounts[8], "--yes", user=OWNER)
+    owners = [contract.functions.ownerOf(number).call() for number in range(10)]
+    assert owners == [node.accounts[user] for user in (1, 1, 2, 3, 3, 3, 3, 3, 8, 8)]
+    assert node.balance(contract.address) == 8 * PRICE
+
+    # nothing is known before the reveal
+    with pytest.raises(ContractCustomError):
+        contract.functions.seedOf(0).call()
+    assert "not revealed yet" in shackled("token", "show", 0).out
+    said = shackled("token", "reveal", "--yes", user=BOB, expect=2)
+    assert "draws the next seeds, and the chain is at" in said.error
+    assert "--wait" in said.error
+
+    # anyone reveals
+    node.mine(200)
+    assert "revealed; " in shackled("token", "reveal", "--yes", user=9).out
+    assert shackled("token", "reveal", "--yes", user=9).out == "nothing is to be revealed\n"
+
+    # what is shown is the picture of the seed, as others compute it too
+    picture = tmp_path / "4.png"
+    said = shackled("token", "show", 4, "-o", picture)
+    seed = contract.functions.seedOf(4).call()
+    piece, _ = generate_on_chain(seed)
+    assert f"structure       {piece.structure}" in said.out
+    shown = np.asarray(PillowImage.open(picture).convert("RGB"))
+    assert shown.shape == (512, 512, 3)
+    np.testing.assert_array_equal(shown[::4, ::4], picture_on_chain(piece).pixels)
+    uri = contract.functions.tokenURI(4).call()
+    document = json.loads(base64.b64decode(uri.partition(",")[2]))
+    assert base64.b64decode(document["image"].partition(",")[2]) == picture.read_bytes()
+    as_json = json.loads(shackled("token", "show", 4, "--json").out)
+    assert as_json["document"] == document
+    assert as_json["owner"] == node.accounts[CAROL]
+
+    # the gas that is told is that of a transaction
+    sent = contract.functions.tokenURI(4).transact({"from": node.accounts[OWNER]})
+    used = node.web3.eth.wait_for_transaction_receipt(sent)["gasUsed"]
+    data = bytes.fromhex(contract.encode_abi("tokenURI", [4])[2:])
+    assert as_json["gas"] == used - 21000 - sum(16 if byte else 4 for byte in data)
+    assert as_json["gas"] <= 13_000_000
+
+    listed = json.loads(shackled("token", "list", "--json").out)
+    assert [each["owner"] for each in listed["tokens"]] == owners
+    assert all(each["revealed"] for each in listed["tokens"])
+    assert len(shackled("token", "list").out.splitlines()) == 2 + 1 + 10
+
+    # everything is what it should be
+    said = shackled("token", "verify")
+    assert "WRONG" not in said.out
+    assert said.out.count("ok ") == 5 + 10
+
+    # a token changes hands and keeps its picture
+    shackled("token", "transfer", 4, node.accounts[BOB], "--yes", user=CAROL)
+    assert contract.functions.ownerOf(4).call() == node.accounts[BOB]
+    assert contract.functions.tokenURI(4).call() == uri
+    said = shackled("token", "transfer", 4, node.accounts[BOB], "--yes", user=CAROL, expect=2)
+    assert f"token 4 belongs to {node.accounts[BOB]}" in said.error
+
+    # the ether
+    assert "only the owner" in shackled("token", "withdraw", "--yes", user=BOB, expect=1).error
+    before = node.balance(node.accounts[7])
+    assert "1.6 ether sent" in shackled("token", "withdraw", "--to", node.accounts[7], "--yes", user=OWNER).out
+    assert node.balance(node.accounts[7]) == before + 8 * PRICE
+    assert shackled("token", "withdraw", "--yes", user=OWNER).out == "there is nothing to withdraw\n"

@@ -1,0 +1,64 @@
+"""Headers of blocks, in the form in which they are hashed."""
+
+from __future__ import annotations
+
+import pytest
+
+from shackled.errors import InputError
+from shackled.tokens.header import encode_header, encode_values
+
+#: The first block of Ethereum (2015), as every node tells it.
+GENESIS = {
+    "hash": "0xd4e56740f876aef8c010b86a40d5f56745a118d0906a34e69aec8c0db1cb8fa3",
+    "parentHash": "0x" + "00" * 32,
+    "sha3Uncles": "0x1dcc4de8dec75d7aab85b567b6ccd41ad312451b948a7413f0a142fd40d49347",
+    "miner": "0x" + "00" * 20,
+    "stateRoot": "0xd7f8974fb5ac78d9ac099b9ad5018bedc2ce0a72dad1827a1709da30580f0544",
+    "transactionsRoot": "0x56e81f171bcc55a6ff8345e692c0f86e5b48e01b996cadc001622fb5e363b421",
+    "receiptsRoot": "0x56e81f171bcc55a6ff8345e692c0f86e5b48e01b996cadc001622fb5e363b421",
+    "logsBloom": "0x" + "00" * 256,
+    "difficulty": "0x400000000",
+    "number": "0x0",
+    "gasLimit": "0x1388",
+    "gasUsed": "0x0",
+    "timestamp": "0x0",
+    "extraData": "0x11bbe8db4e347b4e8c937c1c8370e4b5ed33adb3db69cbdb7a38e1e50b1b82fa",
+    "mixHash": "0x" + "00" * 32,
+    "nonce": "0x0000000000000042",
+}
+
+
+def test_the_first_block_has_its_hash() -> None:
+    assert len(encode_header(GENESIS)) == 535
+
+
+def test_values_may_be_bytes_and_numbers() -> None:
+    values = {name: bytes.fromhex(value[2:]) for name, value in GENESIS.items() if len(value) % 2 == 0}
+    numbers = {"difficulty": 0x400000000, "number": 0, "gasLimit": 5000, "gasUsed": 0, "timestamp": 0}
+    assert encode_header(values | numbers) == encode_header(GENESIS)
+
+
+def test_a_field_that_is_missing_is_named() -> None:
+    for name in ("mixHash", "nonce", "parentHash"):
+        block = {key: value for key, value in GENESIS.items() if key != name}
+        with pytest.raises(
+            InputError, match=f"^the node does not tell the {name} of block 0: its header cannot be made$"
+        ):
+            encode_header(block)
+
+
+def test_a_header_with_another_hash_is_refused() -> None:
+    for change in ({"gasUsed": "0x1"}, {"baseFeePerGas": "0x7"}, {"hash": "0x" + "12" * 32}, {"hash": None}):
+        with pytest.raises(
+            InputError, match=r"^the header of block 0 has the hash 0x\w+, not 0x\w+: its chain has other"
+        ):
+            encode_header({**GENESIS, **change})
+
+
+def test_lists_in_rlp() -> None:
+    # the examples of the Yellow Paper and of Ethereum's wiki
+    assert encode_values([b"cat", b"dog"]) == b"\xc8\x83cat\x83dog"
+    assert encode_values([]) == b"\xc0"
+    assert encode_values([0, 15, 1024, 127, 128]) == bytes.fromhex("c8800f8204007f8180")
+    long = b"Lorem ipsum dolor sit amet, consectetur adipisicing elit"
+    assert encode_values([long]) == b"\xf8\x3a\xb8\x38" + long

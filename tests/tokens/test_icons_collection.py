@@ -1,0 +1,271 @@
+"""The collection of scenes that are kept on chain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+pytest.importorskip("pyrevm", reason="a chain with state needs it")
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shackled import render
+from shackled.image import decode_bmp
+from tokens.adversaries import adversary
+from tokens.merkle import leaf
+from tokens.show import document, pixels, traits
+from tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
+from tokens.world import ETHER, ZERO, Contract, Refused
+
+PRICES = [price for _, _, _, price in ICONS.values()]
+
+
+@pytest.fixture
+def s() -> Stage:
+    return stage()
+
+
+@contextmanager
+def refused(name: str, *values: Any) -> Iterator[None]:
+    with pytest.raises(Refused) as caught:
+        yield
+    assert caught.value.name == name, caught.value
+    if values:
+        assert caught.value.values == values
+
+
+def fresh(s: Stage) -> Contract:
+    """A collection without icons."""
+    return s.world.deploy("IconsCollection", s.studio, (s.owner, LIMIT, s.owner, 500), sender=s.owner)
+
+
+def pointer(s: Stage) -> str:
+    return str(s.icons.call("iconAt", 0)[1])
+
+
+def test_each_token_is_one_of_an_icon(s: Stage) -> None:
+    for icon, quantity in ((0, 2), (1, 3), (0, 1)):
+        s.icons.send("mint", icon, quantity, sender=s.alice, value=quantity * PRICES[icon])
+    kinds = [0, 0, 1, 1, 1, 0]
+    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
+    for token in (1, 3, 5):
+        s.icons.send("transferFrom", s.alice, s.bob, token, sender=s.alice)
+    assert [s.icons.call("iconOf", token) for token in range(6)] == kinds
+    sold = [s.icons.call("iconAt", icon)[6] for icon in range(2)]
+    assert sold == [3, 3]
+    assert s.world.balance(s.icons.address) == 3 * sum(PRICES)
+
+
+def test_each_icon_has_its_own_supply(s: Stage) -> None:
+    s.icons.send("mint", 0, 10, sender=s.alice, value=10 * PRICES[0])
+    assert s.icons.call("left", 0) == 0
+    with refused("NothingLeft", 1, 0):
+        s.icons.send("mint", 0, 1, sender=s.alice, value=PRICES[0])
+    s.icons.send("mint", 1, 10, sender=s.alice, value=10 * PRICES[1])
+    s.icons.send("mintReserve", 0, s.bob, 2, sender=s.owner)
+    with refused("NothingLeft", 1, 0):
+        s.icons.send("mintReserve", 0, s.bob, 1, sender=s.owner)
+    with refused("NothingLeft", 1, 0):
+        s.icons.send("mintReserve", 1, s.bob, 1, sender=s.owner)
+    assert [s.icons.call("iconOf", token) for token in (9, 10, 20, 21)] == [0, 1, 0, 0]
+
+
+def test_payments_and_quantities(s: Stage) -> None:
+    for sent in (0, PRICES[1], 2 * PRICES[0] + 1, 3 * PRICES[0]):
+        with refused("Payment", sent, 2 * PRICES[0]):
+            s.icons.send("mint", 0, 2, sender=s.alice, value=sent)
+    for quantity in (0, LIMIT + 1, 2**256 - 1):
+        with refused("Quantity", quantity, LIMIT):
+            s.icons.send("mint", 0, quantity, sender=s.alice)
+        with refused("Quantity", quantity, LIMIT):
+            s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
+    for icon in (2, 2**24, 2**256 - 1):
+        for function, arguments in (("mint", (icon, 1)), ("left", (icon,)), ("iconAt", (icon,)), ("render", (icon,))):
+            with refused("UnknownIcon", icon, 2):
+                s.icons.send(function, *arguments, sender=s.alice)
+
+
+def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
+    s.icons.send("setPhase", ALLOW_LIST, sender=s.owner)
+    s.icons.send("setAllowList", leaf(s.alice, 3), ZERO, sender=s.owner)
+    s.icons.send("mintWithProof", 0, 2, 3, [], sender=s.alice, value=2 * PRICES[0])
+    with refused("AllowanceExceeded", 2, 2, 3):
+        s.icons.send("mintWithProof", 1, 2, 3, [], sender=s.alice, value=2 * PRICES[1])
+    s.icons.send("mintWithProof", 1, 1, 3, [], sender=s.alice, value=PRICES[1])
+    with refused("WrongPhase", ALLOW_LIST, PUBLIC):
+        s.icons.send("mint", 1, 1, sender=s.alice, value=PRICES[1])
+
+
+def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
+    c, scene = fresh(s), pointer(s)
+    with refused("NoIcons"):
+        c.send("seal", sender=s.owner)
+    receipt = c.send("add", "One", scene, 4, ETHER, 5, 1, sender=s.owner)
+    expected = {"icon": 0, "name": "One", "scene": scene, "price": ETHER, "supply": 5, "reserve": 1}
+    assert receipt.events == [("IconAdded", expected), ("ContractURIUpdated", {})]
+    for phase in (ALLOW_LIST, PUBLIC):
+        with refused("NotSealed"):
+            c.send("setPhase", phase, sender=s.owner)
+    c.send("setPhase", CLOSED, sender=s.owner)
+    with refused("NotSealed"):
+        c.send("mintReserve", 0, s.bob, 1, sender=s.owner)
+    for sender in (s.alice, s.bob):
+        with refused("OwnableUnauthorizedAccount", sender):
+            c.send("add", "Two", scene, 4, ETHER, 5, 1, sender=sender)
+        with refused("OwnableUnauthorizedAccount", sender):
+            c.send("seal", sender=sender)
+    assert c.send("seal", sender=s.owner).events == [("Sealed", {"icons": 1})]
+    with refused("AlreadySealed"):
+        c.send("add", "Two", scene, 4, ETHER, 5, 1, sender=s.owner)
+    with refused("AlreadySealed"):
+        c.send("seal", sender=s.owner)
+    assert (c.call("isSealed"), c.call("iconCount")) == (True, 1)
+    assert c.call("iconAt", 0) == ("One", scene, 4, ETHER, 5, 1, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({0: ""}, ("NameLength", 0, 64)),
+        ({0: "x" * 65}, ("NameLength", 65, 64)),
+        ({1: "0x" + "12" * 20}, ("NothingKept", "0x" + "12" * 20)),
+        ({2: 0}, ("ScaleOutOfRange", 0, 8)),
+        ({2: 9}, ("ScaleOutOfRange", 9, 8)),
+        ({4: 0, 5: 0}, ("Supply", 0, 0)),
+        ({4: 5, 5: 6}, ("Supply", 5, 6)),
+    ],
+)
+def test_icons_that_make_no_sense_are_refused(s: Stage, change: dict[int, Any], error: tuple[Any, ...]) -> None:
+    arguments: list[Any] = ["One", pointer(s), 4, ETHER, 5, 1]
+    for place, value in change.items():
+        arguments[place] = value
+    c = fresh(s)
+    with refused(error[0], *error[1:]):
+        c.send("add", *arguments, sender=s.owner)
+
+
+def test_no_price_times_quantity_overflows(s: Stage) -> None:
+    c = fresh(s)
+    c.send("add", "Dear", pointer(s), 4, 2**96 - 1, 2**32 - 1, 0, sender=s.owner)
+    c.send("seal", sender=s.owner)
+    c.send("setPhase", PUBLIC, sender=s.owner)
+    with refused("Payment", 0, 10 * (2**96 - 1)):
+        c.send("mint", 0, 10, sender=s.alice)
+    s.world.fund(s.alice, 2**100)
+    c.send("mint", 0, 10, sender=s.alice, value=10 * (2**96 - 1))
+    assert c.call("left", 0) == 2**32 - 1 - 10
+
+
+def test_tokens_show_their_icon(s: Stage) -> None:
+    for icon, name in enumerate(ICONS):
+        s.icons.send("mint", icon, 1, sender=s.alice, value=PRICES[icon])
+        found = document(s.icons.call("tokenURI", icon))
+        title, supply, _, _ = ICONS[name]
+        assert found["name"] == f"{title} #{icon}"
+        assert traits(found) == {"Icon": title, "Supply": supply}
+        expected = np.asarray(render(icon_scene(name), chain="reference").pixels)
+        assert np.array_equal(pixels(found["image"]), expected.repeat(4, 0).repeat(4, 1))
+        assert np.array_equal(decode_bmp(s.icons.call("render", icon), 128, 128), expected)
+        assert len(s.icons.call("tokenURI", icon)) < 100_000
+    with refused("URIQueryForNonexistentToken"):
+        s.icons.call("tokenURI", 2)
+
+
+def test_the_collection_speaks_of_itself(s: Stage) -> None:
+    found = document(s.icons.call("contractURI"))
+    assert (found["name"], found["symbol"]) == ("Shackled Icons", "SHKI")
+    assert pixels(found["image"]).shape == (512, 512, 3)
+    assert "image" not in document(fresh(s).call("contractURI"))
+
+
+@pytest.fixture(scope="module")
+def small() -> tuple[Stage, Contract]:
+    """A collection with an icon of 8 x 8 pixels."""
+    s = stage()
+    c = fresh(s)
+    tiny = store_scene(s.studio, replace(icon_scene("icons/lightning"), width=8, height=8))
+    c.send("add", "Tiny", tiny, 1, 0, 1, 1, sender=s.owner)
+    return s, c
+
+
+names = st.text(st.characters(codec="utf-8"), min_size=1, max_size=64).filter(lambda name: len(name.encode()) <= 64)
+
+
+@settings(max_examples=40, deadline=None)
+@given(names)
+def test_every_name_is_valid_json(small: tuple[Stage, Contract], name: str) -> None:
+    s, c = small
+    with s.world.attempt():
+        c.send("add", name, c.call("iconAt", 0)[1], 1, 0, 1, 1, sender=s.owner)
+        c.send("seal", sender=s.owner)
+        c.send("mintReserve", 1, s.bob, 1, sender=s.owner)
+        found = document(c.call("tokenURI", 0))
+    assert found["name"] == f"{name} #0"
+    assert traits(found) == {"Icon": name, "Supply": 1}
+
+
+def test_documents_of_every_length(small: tuple[Stage, Contract]) -> None:
+    """Base64 works on 24 bytes, memory on 32: no remainder may lose anything."""
+    s, c = small
+    for length in range(1, 65):
+        with s.world.attempt():
+            c.send("add", "n" * length, c.call("iconAt", 0)[1], 1, 0, 1, 1, sender=s.owner)
+            c.send("seal", sender=s.owner)
+            c.send("mintReserve", 1, s.bob, 1, sender=s.owner)
+            assert document(c.call("tokenURI", 0))["name"] == "n" * length + " #0"
+
+
+@pytest.mark.parametrize("name", ['"', "\\", '","image":"x', "\n\r\t\x00\x1f\x7f", "é 😀", "</script>", "%22#"])
+def test_names_that_try_to_be_more(s: Stage, name: str) -> None:
+    c = fresh(s)
+    c.send("add", name, pointer(s), 1, 0, 1, 1, sender=s.owner)
+    c.send("seal", sender=s.owner)
+    c.send("mintReserve", 0, s.bob, 1, sender=s.owner)
+    found = document(c.call("tokenURI", 0))
+    assert list(found) == ["name", "description", "attributes", "image"]
+    assert found["name"] == f"{name} #0"
+
+
+def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
+    """While tokens of one icon arrive, it mints another."""
+    receiver = s.world.deploy(adversary("Receiver"))
+    s.world.fund(receiver.address, ETHER)
+    for swallow in (False, True):
+        receiver.send("prepare", s.icons, s.icons.encode("mint", (1, 1))[1], PRICES[1], swallow)
+        with pytest.raises(Refused):
+            receiver.send("execute", s.icons, s.icons.encode("mint", (0, 1))[1], PRICES[0])
+    assert s.icons.call("totalSupply") == 0
+    assert s.icons.call("left", 0) == 10
+    receiver.send("prepare", ZERO, b"", 0, False)
+    receiver.send("execute", s.icons, s.icons.encode("mint", (0, 1))[1], PRICES[0])
+    assert s.icons.call("iconOf", 0) == 0
+
+
+def test_only_the_owner_may(s: Stage) -> None:
+    for function, arguments in (
+        ("mintReserve", (0, s.bob, 1)),
+        ("setPhase", (1,)),
+        ("withdraw", (s.bob,)),
+        ("seal", ()),
+    ):
+        with refused("OwnableUnauthorizedAccount", s.bob):
+            s.icons.send(function, *arguments, sender=s.bob)
+
+
+def test_a_collection_needs_a_studio(s: Stage) -> None:
+    with refused("NoStudio", s.alice):
+        s.world.deploy("IconsCollection", s.alice, (s.owner, LIMIT, s.owner, 500))
+
+
+def test_the_scenes_cannot_be_changed(s: Stage) -> None:
+    """What is kept is code that begins with an instruction that ends every call; the same scene has the same place."""
+    for icon, name in enumerate(ICONS):
+        place = s.icons.call("iconAt", icon)[1]
+        assert s.world.of(place).code[0] == 0
+        assert store_scene(s.studio, icon_scene(name)) == place

@@ -1,0 +1,301 @@
+"""Whatever people do, in whatever order: what must always hold."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("pyrevm", reason="a chain with state needs it")
+
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+
+from tokens.merkle import proof_of, root_of
+from tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, stage
+from tokens.world import ETHER, ZERO, Contract, Refused, account
+
+NAMES = ("alice", "bob", "carol", "dave")
+PEOPLE = [account(name) for name in NAMES]
+LISTED = {account("alice"): 3, account("bob"): 7, account("carol"): 2**256 - 1}
+START = 1000 * ETHER
+
+people = st.sampled_from(PEOPLE)
+quantities = st.sampled_from([1, 1, 2, 3, 5, LIMIT, 0, LIMIT + 1, 2**64, 2**256 - 1])
+#: What is sent, beside what is due.
+errors = st.sampled_from([0, 0, 0, 0, 0, 0, 0, 1, -1, PRICE])
+
+
+class Sales(RuleBasedStateMachine):
+    """Both collections at once, beside a model of who has which token and where the ether is."""
+
+    @initialize()
+    def begin(self) -> None:
+        self.s = stage()
+        self.world = self.s.world
+        for person in PEOPLE:
+            self.world.of(person).balance = START
+        self.world.of(self.s.owner).balance = 0
+        self.owner = self.s.owner
+        self.phases = {"genesis": PUBLIC, "icons": PUBLIC}
+        self.tokens: dict[str, list[str]] = {"genesis": [], "icons": []}
+        self.rounds: list[int] = []
+        self.kinds: list[int] = []
+        self.spent: dict[tuple[str, str], int] = {}
+        self.paid = dict.fromkeys(PEOPLE, 0)
+        self.taken = {"genesis": 0, "icons": 0}
+        self.fetched = 0
+        self.reserve_minted = 0
+        self.icons = [[0, 0] for _ in ICONS]
+        self.seeds: dict[int, bytes] = {}
+        self.revealed: set[int] = set()
+        for contract in (self.s.genesis, self.s.icons):
+            contract.send("setAllowList", root_of(LISTED), ZERO, sender=self.owner)
+
+    # ---- what people do ----
+
+    @rule(person=people, quantity=quantities, error=errors, listed=st.booleans())
+    def mint_genesis(self, person: str, quantity: int, error: int, listed: bool) -> None:
+        left = 1024 - (RESERVE - self.reserve_minted) - len(self.tokens["genesis"])
+        self._mint("genesis", person, quantity, PRICE, error, listed, left, ())
+
+    @rule(person=people, icon=st.integers(0, 2), quantity=quantities, error=errors, listed=st.booleans())
+    def mint_icon(self, person: str, icon: int, quantity: int, error: int, listed: bool) -> None:
+        if icon == len(ICONS):
+            with pytest.raises(Refused):
+                self.s.icons.send("mint", icon, quantity, sender=person)
+            return
+        _, supply, reserve, price = list(ICONS.values())[icon]
+        left = supply - reserve - self.icons[icon][0]
+        if self._mint("icons", person, quantity, price, error, listed, left, (icon,)):
+            self.icons[icon][0] += quantity
+            self.kinds += [icon] * quantity
+
+    @rule(person=people, quantity=st.integers(1, LIMIT), icon=st.integers(0, 1), genesis=st.booleans())
+    def buy(self, person: str, quantity: int, icon: int, genesis: bool) -> None:
+        """As somebody does who reads what is possible before."""
+        name = "genesis" if genesis else "icons"
+        listed = self.phases[name] == ALLOW_LIST
+        if genesis:
+            self.mint_genesis(person, quantity, 0, listed)
+        else:
+            self.mint_icon(person, icon, quantity, 0, listed)
+
+    @precondition(lambda self: set(self.rounds) - self.revealed)
+    @rule(data=st.data(), by=people)
+    def reveal_tokens(self, data: st.DataObject, by: str) -> None:
+        """A round that has tokens, as soon as the world's hashes can be read."""
+        round_ = data.draw(st.sampled_from(sorted(set(self.rounds) - self.revealed)))
+        block = self.s.genesis.call("blockOf", round_)
+        self.world.mine(max(block + 257 - self.world.number, 0))
+        self.s.genesis.send("reveal", [round_], [self.world.header(block)], sender=by)
+        self.revealed.add(round_)
+
+    def _mint(
+        self,
+        name: str,
+        person: str,
+        quantity: int,
+        price: int,
+        error: int,
+        listed: bool,
+        left: int,
+        first: tuple[int, ...],
+    ) -> bool:
+        contract = self._contract(name)
+        value = max(min(quantity, 100) * price + error, 0)
+        allowed = LISTED.get(person, 1)
+        possible = (
+            0 < quantity <= LIMIT
+            and quantity <= left
+            and value == quantity * price
+            and self.phases[name] == (ALLOW_LIST if listed else PUBLIC)
+            and (not listed or (person in LISTED and self.spent.get((name, person), 0) + quantity <= allowed))
+            and self.world.balance(person) >= value
+        )
+        try:
+            if listed:
+                proof = proof_of(LISTED, person) if person in LISTED else proof_of(LISTED, PEOPLE[0])
+                contract.send("mintWithProof", *first, quantity, allowed, proof, sender=person, value=value)
+            else:
+                contract.send("mint", *first, quantity, sender=person, value=value)
+        except Refused:
+            assert not possible
+            return False
+        assert possible
+        if listed:
+            self.spent[name, person] = self.spent.get((name, person), 0) + quantity
+        self.paid[person] += value
+        self.taken[name] += value
+        self._add(name, person, quantity)
+        return True
+
+    def _add(self, name: str, person: str, quantity: int) -> None:
+        self.tokens[name] += [person] * quantity
+        if name == "genesis":
+            self.rounds += [(self.world.number - self.s.genesis.call("firstBlock")) // 32] * quantity
+
+    @rule(name=st.sampled_from(["genesis", "icons"]), start=people, end=people, by=people, token=st.integers(0, 30))
+    def transfer(self, name: str, start: str, end: str, by: str, token: int) -> None:
+        tokens = self.tokens[name]
+        possible = token < len(tokens) and tokens[token] == start == by
+        try:
+            self._contract(name).send("safeTransferFrom", start, end, token, sender=by)
+        except Refused:
+            assert not possible
+        else:
+            assert possible
+            tokens[token] = end
+
+    @precondition(lambda self: self.tokens["genesis"])
+    @rule(data=st.data())
+    def give(self, data: st.DataObject) -> None:
+        """A transfer that succeeds."""
+        token = data.draw(st.integers(0, len(self.tokens["genesis"]) - 1))
+        end = data.draw(people)
+        self.s.genesis.send(
+            "transferFrom", self.tokens["genesis"][token], end, token, sender=self.tokens["genesis"][token]
+        )
+        self.tokens["genesis"][token] = end
+
+    @rule(blocks=st.sampled_from([1, 5, 40, 200, 600]))
+    def wait(self, blocks: int) -> None:
+        self.world.mine(blocks)
+
+    @rule(round_=st.integers(0, 40), by=people, other=st.booleans())
+    def reveal(self, round_: int, by: str, other: bool) -> None:
+        """With the header of the block, or that of another."""
+        block = self.s.genesis.call("blockOf", round_)
+        # older blocks than 256, since the world's EVM has hashes of its own for the younger ones
+        possible = block + 256 < self.world.number
+        if not possible and block < self.world.number:
+            return
+        header = self.world.header(block + 1 if other else block) if possible else b""
+        try:
+            self.s.genesis.send("reveal", [round_], [header], sender=by)
+        except Refused:
+            assert not possible or (other and round_ not in self.revealed)
+        else:
+            assert possible
+            assert not other or round_ in self.revealed
+            self.revealed.add(round_)
+
+    # ---- what the owner does ----
+
+    @rule(name=st.sampled_from(["genesis", "icons"]), phase=st.sampled_from([PUBLIC, PUBLIC, ALLOW_LIST, 0, 3]))
+    def set_phase(self, name: str, phase: int) -> None:
+        try:
+            self._contract(name).send("setPhase", phase, sender=self.owner)
+        except Refused:
+            assert phase == 3
+        else:
+            self.phases[name] = phase
+
+    @rule(to=people, quantity=quantities)
+    def mint_reserve(self, to: str, quantity: int) -> None:
+        possible = 0 < quantity <= min(LIMIT, RESERVE - self.reserve_minted)
+        try:
+            self.s.genesis.send("mintReserve", to, quantity, sender=self.owner)
+        except Refused:
+            assert not possible
+        else:
+            assert possible
+            self.reserve_minted += quantity
+            self._add("genesis", to, quantity)
+
+    @rule(to=people, quantity=st.integers(0, 3), icon=st.integers(0, 1))
+    def mint_icon_reserve(self, to: str, quantity: int, icon: int) -> None:
+        reserve = list(ICONS.values())[icon][2]
+        possible = 0 < quantity <= reserve - self.icons[icon][1]
+        try:
+            self.s.icons.send("mintReserve", icon, to, quantity, sender=self.owner)
+        except Refused:
+            assert not possible
+        else:
+            assert possible
+            self.icons[icon][1] += quantity
+            self._add("icons", to, quantity)
+            self.kinds += [icon] * quantity
+
+    @rule(name=st.sampled_from(["genesis", "icons"]), by=st.sampled_from([*PEOPLE, account("owner")]))
+    def withdraw(self, name: str, by: str) -> None:
+        try:
+            self._contract(name).send("withdraw", account("treasury"), sender=by)
+        except Refused:
+            assert by != self.owner
+        else:
+            assert by == self.owner
+            self.fetched += self.taken[name]
+            self.taken[name] = 0
+
+    @rule(person=people, function=st.sampled_from(["setPhase", "mintReserve", "transferOwnership", "acceptOwnership"]))
+    def pretend(self, person: str, function: str) -> None:
+        """Somebody who is not the owner."""
+        arguments = {"setPhase": (PUBLIC,), "mintReserve": (person, 1), "transferOwnership": (person,)}
+        with pytest.raises(Refused):
+            self.s.genesis.send(function, *arguments.get(function, ()), sender=person)
+
+    # ---- what always holds ----
+
+    @invariant()
+    def supply(self) -> None:
+        for name, tokens in self.tokens.items():
+            assert self._contract(name).call("totalSupply") == len(tokens)
+        assert len(self.tokens["genesis"]) <= 1024
+        assert self.s.genesis.call("reserveMinted") == self.reserve_minted <= RESERVE
+        left = 1024 - (RESERVE - self.reserve_minted) - len(self.tokens["genesis"])
+        assert self.s.genesis.call("left") == left >= 0
+        for icon, (sold, reserved) in enumerate(self.icons):
+            found = self.s.icons.call("iconAt", icon)
+            assert tuple(found[6:]) == (sold, reserved)
+            assert sold + reserved <= found[4]
+
+    @invariant()
+    def owners(self) -> None:
+        for name, tokens in self.tokens.items():
+            contract = self._contract(name)
+            for person in PEOPLE:
+                assert contract.call("balanceOf", person) == tokens.count(person)
+            for token in {0, len(tokens) // 2, len(tokens) - 1} & set(range(len(tokens))):
+                assert contract.call("ownerOf", token) == tokens[token]
+
+    @invariant()
+    def ether(self) -> None:
+        for name, taken in self.taken.items():
+            assert self.world.balance(self._contract(name).address) == taken
+        assert self.world.balance(account("treasury")) == self.fetched
+        assert all(self.world.balance(person) == START - self.paid[person] for person in PEOPLE)
+        assert sum(self.paid.values()) == sum(self.taken.values()) + self.fetched
+
+    @invariant()
+    def rounds_and_kinds(self) -> None:
+        """They stay with the token."""
+        for token in {0, len(self.rounds) // 3, len(self.rounds) - 1} & set(range(len(self.rounds))):
+            assert self.s.genesis.call("roundOf", token) == self.rounds[token]
+        for token in {0, len(self.kinds) // 3, len(self.kinds) - 1} & set(range(len(self.kinds))):
+            assert self.s.icons.call("iconOf", token) == self.kinds[token]
+
+    @invariant()
+    def one_seed(self) -> None:
+        """Each token has none, or one that never changes and that no other has."""
+        for token, round_ in enumerate(self.rounds):
+            if round_ in self.revealed and token not in self.seeds and len(self.seeds) < 6:
+                self.seeds[token] = self.s.genesis.call("seedOf", token)
+        for token, seed in self.seeds.items():
+            assert self.s.genesis.call("seedOf", token) == seed
+        assert len(set(self.seeds.values())) == len(self.seeds)
+        hidden = [token for token, round_ in enumerate(self.rounds) if round_ not in self.revealed]
+        for token in hidden[:1] + hidden[-1:]:
+            with pytest.raises(Refused, match="NotRevealed"):
+                self.s.genesis.call("seedOf", token)
+
+    @invariant()
+    def phases_are(self) -> None:
+        for name, phase in self.phases.items():
+            assert self._contract(name).call("phase") == phase
+
+    def _contract(self, name: str) -> Contract:
+        return self.s.genesis if name == "genesis" else self.s.icons
+
+
+TestSales = Sales.TestCase
+TestSales.settings = settings(max_examples=15, stateful_step_count=40, deadline=None)

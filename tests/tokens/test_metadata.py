@@ -1,0 +1,141 @@
+from __future__ import annotations
+
+import base64
+import io
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled.errors import RenderError
+from shackled.tokens.metadata import MAX_LENGTH, read_contract_uri, read_data_uri, read_token_uri, shrink
+
+PIXELS = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
+
+
+def picture(kind: str = "png", pixels: np.ndarray[Any, Any] = PIXELS) -> bytes:
+    stream = io.BytesIO()
+    PillowImage.fromarray(pixels).save(stream, kind)
+    return stream.getvalue()
+
+
+def data_uri(media_type: str, content: bytes) -> str:
+    return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
+
+
+def token(**changes: Any) -> str:
+    document = {
+        "name": "Genesis #7",
+        "description": "A picture.",
+        "attributes": [
+            {"trait_type": "Structure", "value": "Ring"},
+            {"display_type": "number", "trait_type": "Prisms", "value": 12},
+        ],
+        "image": data_uri("image/png", picture()),
+    }
+    document |= changes
+    return data_uri("application/json", json.dumps({k: v for k, v in document.items() if v is not None}).encode())
+
+
+def test_all_of_a_token_is_read() -> None:
+    metadata = read_token_uri(token())
+    assert (metadata.name, metadata.description) == ("Genesis #7", "A picture.")
+    assert metadata.traits == {"Structure": "Ring", "Prisms": 12}
+    assert (metadata.media_type, metadata.extension) == ("image/png", ".png")
+    assert metadata.picture == picture()
+    np.testing.assert_array_equal(metadata.pixels, PIXELS)
+    assert metadata.length == len(token())
+
+
+def test_a_bitmap_is_read() -> None:
+    metadata = read_token_uri(token(image=data_uri("image/bmp", picture("bmp"))))
+    assert metadata.extension == ".bmp"
+    np.testing.assert_array_equal(metadata.pixels, PIXELS)
+
+
+def test_json_without_base64_is_read() -> None:
+    document = json.dumps({"name": "a % b", "description": "é", "image": data_uri("image/png", picture())})
+    uri = "data:application/json;utf8," + document.replace("%", "%25")
+    metadata = read_token_uri(uri)
+    assert (metadata.name, metadata.description, metadata.traits) == ("a % b", "é", {})
+    assert metadata.length == len(uri.encode())
+
+
+TWICE = b'{"name": "a", "name": "b"}'
+BROKEN = data_uri("image/png", picture()[:-20])
+CLEAR = PillowImage.new("RGBA", (2, 2))
+
+
+@pytest.mark.parametrize(
+    ("uri", "said"),
+    [
+        ("https://example.org/7", "not kept on the chain"),
+        ("ipfs://abc", "not kept on the chain"),
+        ("data:application/json;base64,e30", "is said to be Base64, and is not"),
+        (data_uri("text/plain", b"{}"), "text/plain, not application/json"),
+        (data_uri("application/json", b"{"), "no JSON"),
+        (data_uri("application/json", b"\xff"), "no JSON"),
+        (data_uri("application/json", b"[" * 60_000), "no JSON"),
+        (data_uri("application/json", b'{"a": NaN}'), "NaN is no number"),
+        (data_uri("application/json", TWICE), "'name' stands there twice"),
+        (data_uri("application/json", b"[]"), "no object"),
+        (token(name=None), "has no name"),
+        (token(name=7), "has no name"),
+        (token(image=None), "has no image"),
+        (token(image="https://example.org/7.png"), "not kept on the chain"),
+        (token(image=data_uri("image/svg+xml", b"<svg/>")), "image/svg+xml, not one of image/png, image/bmp"),
+        (token(image=data_uri("image/png", picture("bmp"))), "no whole image/png"),
+        (token(image=BROKEN), "no whole image/png"),
+        (token(image=data_uri("image/png", picture("png", np.zeros((1, 2049, 3), np.uint8)))), "2049 x 1 pixels"),
+        (token(attributes={"Structure": "Ring"}), "no list"),
+        (token(attributes=["Ring"]), "no trait_type and value: Ring"),
+        (token(attributes=[{"trait_type": "Structure"}]), "no trait_type and value"),
+        (token(attributes=[{"trait_type": "A", "value": 1}] * 2), "the attribute A twice"),
+        (token(description="x" * MAX_LENGTH), f"no more than {MAX_LENGTH:,}"),
+    ],
+)
+def test_what_marketplaces_do_not_understand_is_refused_in_one_line(uri: str, said: str) -> None:
+    with pytest.raises(RenderError, match=r"^[^\n]*$") as caught:
+        read_token_uri(uri)
+    assert said in str(caught.value)
+
+
+def test_what_a_terminal_could_obey_is_not_repeated() -> None:
+    with pytest.raises(RenderError) as caught:
+        read_token_uri(token(name="\x1b[2J\r\nGenesis", attributes={}))
+    assert str(caught.value).isprintable()
+
+
+def test_transparent_pictures_are_refused() -> None:
+    stream = io.BytesIO()
+    CLEAR.save(stream, "png")
+    with pytest.raises(RenderError, match="transparent"):
+        read_token_uri(token(image=data_uri("image/png", stream.getvalue())))
+
+
+def test_a_collection_has_a_name() -> None:
+    assert read_contract_uri(data_uri("application/json", b'{"name": "G"}')) == {"name": "G"}
+    with pytest.raises(RenderError, match="the contractURI has no name"):
+        read_contract_uri(data_uri("application/json", b"{}"))
+
+
+def test_parameters_of_a_data_uri_are_passed_over() -> None:
+    assert read_data_uri("data:text/plain;charset=utf-8;base64,YWI=", "it") == ("text/plain", b"ab")
+
+
+@pytest.mark.parametrize("factor", [1, 4])
+def test_squares_become_pixels_again(factor: int) -> None:
+    large = PIXELS.repeat(factor, axis=0).repeat(factor, axis=1)
+    small = shrink(large, 4, 4)
+    assert small is not None
+    np.testing.assert_array_equal(small, PIXELS)
+
+
+def test_a_smoothed_picture_is_not_made_of_squares() -> None:
+    large = PIXELS.repeat(4, axis=0).repeat(4, axis=1)
+    large[5, 5, 0] ^= 1
+    assert shrink(large, 4, 4) is None
+    assert shrink(large, 3, 4) is None
+    assert shrink(PIXELS, 8, 8) is None

@@ -1,0 +1,106 @@
+"""Objects that are put on chain, by the command line, seen by web3.py."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import load, render
+from tokens.on_a_node import Node, Shackled
+
+OWNER, ALICE, BOB = range(3)
+PRICE = 10**16
+
+TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
+
+
+def pixels(picture: bytes) -> np.ndarray:
+    return np.asarray(PillowImage.open(io.BytesIO(picture)).convert("RGB"))
+
+
+def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Shackled) -> None:
+    picture = tmp_path / "bell.png"
+    said = shackled("mint", "icons/bell", "-o", picture, "--json", "--yes", user=ALICE)
+    minted = json.loads(said.out)
+    assert "storing it:" in said.err
+    assert 0 < minted["gas"] <= 1_700_000
+    np.testing.assert_array_equal(pixels(picture.read_bytes()), render("icons/bell").pixels)
+    # web3.py finds the same there
+    studio = node.contract("Studio", minted["studio"])
+    (draw,) = (f for f in studio.all_functions() if f.abi_element_identifier == "render(address)")
+    assert draw(minted["pointer"]).call() == render("icons/bell").bmp
+    # the same again costs nothing, and needs no account
+    said = shackled("mint", "icons/bell", "--json")
+    assert json.loads(said.out) | {"output": None} == minted | {"gas": 0, "output": None}
+    assert "nothing was sent" in said.err
+    large = tmp_path / "large.png"
+    assert "bytes" in shackled("token", "picture", minted["pointer"], "-o", large, "--scale", 2).out
+    assert pixels(large.read_bytes()).shape == (256, 256, 3)
+    said = shackled("token", "picture", "0x" + "12" * 20, "-o", large, expect=1)
+    assert "no scene is kept at 0x1212" in said.error
+
+
+def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shackled) -> None:
+    mesh, picture = tmp_path / "own.obj", tmp_path / "own.png"
+    mesh.write_text(TRIANGLE)
+    assert "is for you to know" in shackled("mint", mesh, "--yes", user=ALICE, expect=2).error
+    said = shackled("mint", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
+    assert "does not allow commercial use" in said.error
+    shackled("mint", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)
+    np.testing.assert_array_equal(pixels(picture.read_bytes()), render(load(mesh), (40, 20)).pixels)
+
+
+def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled: Shackled) -> None:
+    side = 60
+    heights = np.random.default_rng(1).random((side, side))
+    lines = [f"v {x} {heights[y, x]:.4f} {-y}" for y in range(side) for x in range(side)]
+    for y in range(side - 1):
+        for x in range(side - 1):
+            a = y * side + x + 1
+            lines += [f"f {a} {a + 1} {a + side + 1}", f"f {a} {a + side + 1} {a + side}"]
+    mesh, picture = tmp_path / "rocks.obj", tmp_path / "rocks.png"
+    mesh.write_text("\n".join(lines))
+    said = shackled("mint", mesh, "--licence", "MIT", "--size", 48, "-o", picture, "--yes", user=ALICE)
+    assert "mesh 1, part 2 of" in said.err
+    assert "mesh 1, joined" in said.err
+    np.testing.assert_array_equal(pixels(picture.read_bytes()), render(load(mesh), 48).pixels)
+
+
+def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
+    def price(*options: object) -> int:
+        said = shackled("mint", "icons/trophy", *options, user=ALICE, expect=2)
+        assert "nobody can be asked here" in said.error
+        return int(said.err.partition("storing it: ")[2].partition(" gas")[0].replace(",", ""))
+
+    assert price("--position-bits", 8) < price("--position-bits", 11) < price()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("mint", "bunny", "--yes"), 2, "bunny must not be minted: its licence (Stanford 3D Scanning Repository"),
+        (("mint", "suzanne", "--yes"), 2, "suzanne must not be minted"),
+        (("mint", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
+        (("mint", "icons/rocket"), 2, "nothing was sent; say whose account it is"),
+        (("mint", "icons/none"), 2, "there is no piece 'icons/none'"),
+        (("mint", "icons/rocket", "--chain-id", 5), 1, "belongs to chain 31337, not to chain 5"),
+        (("mint", "icons/rocket", "--position-bits", 3), 2, "4 to 16 bits"),
+        (("mint", "icons/rocket", "-o", "a.txt"), 2, "must end in one of"),
+        (("token", "picture", "0x" + "12" * 20, "-o", "a.gif"), 2, "must end in .png"),
+        (("token", "deploy", "icons", "--icons", "nothing"), 2, "there is no piece 'nothing'"),
+        (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
+        (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be minted"),
+        (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "no more in the reserve"),
+        (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for icons"),
+        (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(shackled: Shackled, arguments: tuple[object, ...], code: int, said: str) -> None:
+    result = shackled(*arguments, expect=code)
+    assert said in result.error
+    assert len(result.err.strip().splitlines()) <= 4

@@ -1,0 +1,33 @@
+"""The contract of docs/tokens.md compiles."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pyrevm", reason="the tests of tokens need it")
+
+from tokens.adversaries import SOLC, build_tool
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "tokens.md"
+HEAD = """// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+import {Collection, Terms} from "./Collection.sol";
+import {Rounds} from "./Rounds.sol";
+"""
+LEFT_OUT = 'function contractURI() external pure override returns (string memory) { return ""; }'
+
+
+@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+def test_the_contract_of_the_documentation_compiles() -> None:
+    tool = build_tool()
+    code = PAGE.read_text("utf-8").split("```solidity\n")[1].split("```")[0]
+    comment = next(line for line in code.splitlines() if "contractURI likewise" in line)
+    sources = tool.read_sources(tool.SOURCES, "tokens") | {"tokens/Mine.sol": HEAD + code.replace(comment, LEFT_OUT)}
+    request = tool.standard_input(sources, "tokens")
+    request["settings"]["outputSelection"] = {"tokens/Mine.sol": {"*": ["abi", "evm.deployedBytecode.object"]}}
+    built = tool.run_compiler(json.dumps(request))["contracts"]["tokens/Mine.sol"]["MyCollection"]
+    assert 0 < len(built["evm"]["deployedBytecode"]["object"]) // 2 <= tool.MAX_RUNTIME_SIZE
+    assert {"mint", "reveal", "seedOf"} <= {entry.get("name") for entry in built["abi"]}

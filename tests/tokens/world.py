@@ -1,0 +1,292 @@
+"""A chain with state in this process: accounts, blocks with headers, contracts by name, exact gas.
+
+pyrevm keeps addresses and slots warm from call to call. So each transaction runs in an EVM of its own, set up from what
+is kept here: its gas is that of a real chain, and going back to an earlier state is a copy.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import pyrevm
+from Crypto.Hash import keccak as _keccak
+from eth_abi.abi import decode, encode
+from eth_abi.exceptions import DecodingError
+from eth_utils.abi import collapse_if_tuple
+
+from shackled.artifacts import artifact
+from shackled.chain.embedded import intrinsic_gas
+from shackled.tokens.header import encode_values
+
+#: EIP-2935: the contract that knows the hashes of blocks, and its code.
+HISTORY = "0x0000f90827f1c53a10cb7a02335b175320002935"
+HISTORY_CODE = bytes.fromhex(
+    "3373fffffffffffffffffffffffffffffffffffffffe14604657602036036042575f35600143038111604257611fff"
+    "81430311604257611fff9006545f5260205ff35b5f5ffd5b5f35611fff60014303065500"
+)
+HISTORY_LENGTH = 8191
+GAS = 30_000_000_000
+ETHER = 10**18
+ZERO = "0x" + "00" * 20
+
+
+def keccak(data: bytes) -> bytes:
+    return _keccak.new(digest_bits=256, data=data).digest()
+
+
+def account(name: str) -> str:
+    """An address that nothing else has."""
+    return "0x" + keccak(name.encode())[12:].hex()
+
+
+class Refused(Exception):
+    """A call that was reverted: the name of the error and its values."""
+
+    def __init__(self, name: str, values: tuple[Any, ...] = ()) -> None:
+        super().__init__(f"{name}{values}")
+        self.name, self.values = name, values
+
+
+@dataclass
+class Account:
+    balance: int = 0
+    nonce: int = 0
+    code: bytes = b""
+    storage: dict[int, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Receipt:
+    """What a transaction did. gas: of all of it, intrinsic gas too. events: name and values of each that is known."""
+
+    gas: int
+    output: bytes
+    events: list[tuple[str, dict[str, Any]]]
+
+
+@dataclass(frozen=True)
+class Built:
+    """A contract before it stands anywhere."""
+
+    abi: list[dict[str, Any]]
+    creation: bytes
+
+
+class World:
+    """The chain. Its first block is far enough from 0 that there are older ones."""
+
+    def __init__(self, chain_id: int = 1, salt: str = "") -> None:
+        self.chain_id, self.salt = chain_id, salt
+        self.accounts: dict[str, Account] = {HISTORY: Account(nonce=1, code=HISTORY_CODE)}
+        self.number, self.time = 20_000_000, 1_800_000_000
+        self._headers: dict[int, bytes] = {}
+        self.mine(1)
+
+    # ---- blocks ----
+
+    def mine(self, count: int = 1) -> None:
+        """Makes blocks. Transactions are part of the block after the last one that was made."""
+        for _ in range(count):
+            header = self._header(self.number)
+            self._headers[self.number] = header
+            self.accounts[HISTORY].storage[self.number % HISTORY_LENGTH] = int.from_bytes(keccak(header), "big")
+            self.number += 1
+            self.time += 12
+
+    def mine_to(self, number: int) -> None:
+        """Makes blocks until transactions are part of block `number`."""
+        self.mine(number - self.number)
+
+    def header(self, number: int) -> bytes:
+        """The header of a block that was made."""
+        return self._headers[number]
+
+    def randomness(self, number: int) -> bytes:
+        """PREVRANDAO of a block, of those to come too."""
+        return keccak(f"{self.salt} randomness {number}".encode())
+
+    def _header(self, number: int) -> bytes:
+        parent = keccak(self._headers[number - 1]) if number - 1 in self._headers else keccak(b"before")
+        digest = keccak(f"{self.salt} {number}".encode())
+        values: list[bytes | int] = [parent, digest, digest[:20], digest, digest, digest, digest * 8, 0, number]
+        values += [
+            36_000_000,
+            number % 36_000_000,
+            self.time,
+            b"made by a test"[: number % 15],
+            self.randomness(number),
+        ]
+        return encode_values([*values, bytes(8), 7, digest, 0, 0, digest, digest])
+
+    # ---- accounts ----
+
+    def of(self, address: str) -> Account:
+        return self.accounts.setdefault(address.lower(), Account())
+
+    def balance(self, address: str) -> int:
+        return self.of(address).balance
+
+    def fund(self, address: str, amount: int = 1000 * ETHER) -> str:
+        self.of(address).balance += amount
+        return address
+
+    @contextmanager
+    def attempt(self) -> Iterator[None]:
+        """What is done in it is undone afterwards."""
+        kept = copy.deepcopy((self.accounts, self.number, self.time))
+        try:
+            yield
+        finally:
+            self.accounts, self.number, self.time = kept
+
+    # ---- contracts ----
+
+    def deploy(self, contract: str | Built, *arguments: Any, sender: str = ZERO) -> Contract:
+        """Deploys a contract of ours by its name, or one that a test has compiled."""
+        built = Built(artifact(contract).abi, artifact(contract).creation) if isinstance(contract, str) else contract
+        inputs: list[dict[str, Any]] = next(
+            (entry["inputs"] for entry in built.abi if entry["type"] == "constructor"), []
+        )
+        data = built.creation + encode([collapse_if_tuple(each) for each in inputs], _plain(arguments))
+        evm = self._evm()
+        try:
+            address = evm.deploy(sender, data, None, GAS)
+        except RuntimeError as error:
+            raise _refusal(str(error), built.abi) from None
+        self._keep(evm)
+        return Contract(self, address.lower(), built.abi, evm.result.gas_used)
+
+    def run(
+        self, sender: str, to: str, data: bytes, value: int, gas: int, keep: bool, abi: list[dict[str, Any]]
+    ) -> Receipt:
+        evm = self._evm()
+        limit = gas + intrinsic_gas(data)
+        try:
+            output = bytes(evm.message_call(sender, to, data, value, limit))
+        except RuntimeError as error:
+            raise _refusal(str(error), abi) from None
+        if keep:
+            self._keep(evm)
+        return Receipt(evm.result.gas_used, output, _events(evm.result.logs, abi))
+
+    def _evm(self) -> Any:
+        evm = pyrevm.EVM(spec_id="Cancun", env=pyrevm.Env(cfg=pyrevm.CfgEnv(chain_id=self.chain_id)))
+        evm.set_block_env(
+            pyrevm.BlockEnv(
+                number=self.number, timestamp=self.time, prevrandao=self.randomness(self.number), gas_limit=2 * GAS
+            )
+        )
+        for address, each in self.accounts.items():
+            evm.insert_account_info(address, pyrevm.AccountInfo(nonce=each.nonce, code=each.code or None))
+            if each.balance:
+                evm.set_balance(address, each.balance)
+            for slot, value in each.storage.items():
+                evm.insert_account_storage(address, slot, value)
+        return evm
+
+    def _keep(self, evm: Any) -> None:
+        """Takes over what a transaction has left. Storage is told only in the text that pyrevm makes for people."""
+        state = evm.journal_str.partition(", transient_storage: {")[0]
+        for part in re.split(r"(?=0x[0-9a-f]{40}: Account \{)", state)[1:]:
+            here = self.of(part[:42])
+            info = evm.basic(part[:42])
+            here.balance, here.nonce = info.balance, info.nonce
+            code = bytes(evm.get_code(part[:42]) or b"")
+            if code.strip(b"\0") and not here.code:
+                # pyrevm adds 33 bytes of zeros to what was created
+                here.code = code[:-33]
+            for slot, value in re.findall(r"(\d+): StorageSlot \{[^}]*present_value: (\d+) \}", part):
+                here.storage[int(slot)] = int(value)
+
+
+class Contract:
+    """A contract at an address."""
+
+    def __init__(self, world: World, address: str, abi: list[dict[str, Any]], gas: int = 0) -> None:
+        """`gas`: what its deployment took."""
+        self.world, self.address, self.abi, self.gas = world, address, abi, gas
+
+    def call(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Any:
+        """What a function answers; nothing is kept."""
+        entry, data = self.encode(function, arguments)
+        output = self.world.run(sender, self.address, data, value, gas, False, self.abi).output
+        values = decode([collapse_if_tuple(each) for each in entry["outputs"]], output)
+        return values[0] if len(values) == 1 else values
+
+    def gas_of(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0) -> int:
+        """The gas of the execution of a call, without intrinsic gas."""
+        _, data = self.encode(function, arguments)
+        return self.world.run(sender, self.address, data, value, GAS, False, self.abi).gas - intrinsic_gas(data)
+
+    def send(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Receipt:
+        """A transaction."""
+        _, data = self.encode(function, arguments)
+        return self.world.run(sender, self.address, data, value, gas, True, self.abi)
+
+    def encode(self, function: str, arguments: tuple[Any, ...]) -> tuple[dict[str, Any], bytes]:
+        """A function by its name, or by its signature if there are several of that name, and the data of a call."""
+        for entry in self.abi:
+            if entry["type"] == "function":
+                kinds = [collapse_if_tuple(each) for each in entry["inputs"]]
+                signature = f"{entry['name']}({','.join(kinds)})"
+                if function in (entry["name"], signature) and len(kinds) == len(arguments):
+                    return entry, keccak(signature.encode())[:4] + encode(kinds, _plain(arguments))
+        raise AssertionError(f"there is no {function} of {len(arguments)} arguments")
+
+
+def _plain(value: Any) -> Any:
+    """Contracts as their addresses."""
+    if isinstance(value, Contract):
+        return value.address
+    return type(value)(map(_plain, value)) if isinstance(value, list | tuple) else value
+
+
+def _entries(abi: list[dict[str, Any]], kind: str) -> dict[bytes, dict[str, Any]]:
+    found = {}
+    for entry in abi:
+        if entry["type"] == kind:
+            signature = f"{entry['name']}({','.join(collapse_if_tuple(each) for each in entry['inputs'])})"
+            found[keccak(signature.encode())] = entry
+    return found
+
+
+def _refusal(message: str, abi: list[dict[str, Any]]) -> Refused:
+    if not message.startswith("Revert"):
+        return Refused(re.search(r"reason: (\w+)", message)[1] if "reason" in message else message)  # type: ignore[index]
+    output = bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }"))
+    if output[:4] == keccak(b"Panic(uint256)")[:4]:
+        return Refused("Panic", (output[-1],))
+    if output[:4] == keccak(b"Error(string)")[:4]:
+        return Refused("Error", tuple(decode(["string"], output[4:])))
+    for selector, entry in _entries(abi, "error").items():
+        if selector[:4] == output[:4]:
+            try:
+                return Refused(
+                    entry["name"], tuple(decode([collapse_if_tuple(each) for each in entry["inputs"]], output[4:]))
+                )
+            except DecodingError:
+                break
+    return Refused("0x" + output.hex())
+
+
+def _events(logs: Any, abi: list[dict[str, Any]]) -> list[tuple[str, dict[str, Any]]]:
+    known = _entries(abi, "event")
+    found = []
+    for log in logs:
+        topics, data = log.data
+        if topics and bytes(topics[0]) in known:
+            entry = known[bytes(topics[0])]
+            values = {}
+            indexed = [each for each in entry["inputs"] if each["indexed"]]
+            for each, topic in zip(indexed, topics[1:], strict=True):
+                values[each["name"]] = decode([each["type"]], bytes(topic))[0]
+            others = [each for each in entry["inputs"] if not each["indexed"]]
+            plain = decode([collapse_if_tuple(each) for each in others], bytes(data))
+            values |= dict(zip((each["name"] for each in others), plain, strict=True))
+            found.append((entry["name"], values))
+    return found
