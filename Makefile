@@ -4,12 +4,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
+CREATOR := $(VENV)/.creator
 DEV := $(VENV)/.dev
 NODE := contracts/node_modules/.package-lock.json
 
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint types contracts docs unit build gas bench paper fuzz pictures clean
+.PHONY: help browser demo creator test lint types contracts docs unit build gas bench paper fuzz pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -19,11 +20,17 @@ help: ## this list
 $(PACKAGE): pyproject.toml tools/prepare.py
 	@$(PYTHON) tools/prepare.py package
 
+$(CREATOR): pyproject.toml tools/prepare.py
+	@$(PYTHON) tools/prepare.py creator
+
 $(DEV): pyproject.toml tools/prepare.py
 	@$(PYTHON) tools/prepare.py dev
 
 $(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
 	@$(PYTHON) tools/prepare.py node
+
+browser:
+	@$(PYTHON) tools/prepare.py browser
 
 # ---- a picture ----
 
@@ -32,6 +39,9 @@ demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --rotate 0,12,0 --color '#c8553d' \
 		--cull --light 'directional:-0.2,0.8,0.9' --ambient 0.25 --diffuse 0.85 --specular 0.6 --shininess 30 \
 		--background '#f3e9dc,#c7b8a6'
+
+creator: $(CREATOR) ## the page on which pictures are made without code, in the browser
+	$(BIN)/shackled creator
 
 # ---- everything that must hold, the quick checks first ----
 
@@ -51,7 +61,7 @@ contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sou
 docs: $(DEV) ## the documentation, in site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 
-unit: $(DEV) $(NODE) ## the tests, the gas snapshot among them
+unit: $(DEV) $(NODE) browser ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
@@ -59,11 +69,14 @@ unit: $(DEV) $(NODE) ## the tests, the gas snapshot among them
 build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts
 	$(BIN)/python tools/build_contracts.py
 
-gas: $(DEV) ## write the gas snapshot, benchmarks/gas.json
+gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json
 	$(BIN)/python -m benchmarks.snapshot
+	$(BIN)/python -m benchmarks.studio
+	$(BIN)/python -m benchmarks.tokens
 
 bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python tools/readme.py
 
 paper: $(DEV) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
@@ -72,6 +85,7 @@ paper: $(DEV) ## make the experiments of the paper again: benchmarks/results, be
 
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python docs/draw_pictures.py
+	$(BIN)/python docs/draw_studio.py
 	$(BIN)/python tools/readme.py
 
 # ---- long runs ----

@@ -1,8 +1,10 @@
 """Set up what the Makefile needs; runs on a bare Python.
 
     python3 tools/prepare.py package    .venv with the package in it
+    python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py node       contracts/node_modules: the compiler, and a node for the tests
+    python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
 
 Packages of the system that are missing are installed by apt-get, if that is there and we are root.
 """
@@ -21,6 +23,9 @@ VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
 
+#: Names of the browser that the tests of the page drive.
+BROWSERS = ("chromium", "chromium-browser")
+
 OLDEST_PYTHON = (3, 11)
 #: The first pip that installs dependency groups.
 PIP = "pip>=25.1"
@@ -28,7 +33,13 @@ PIP = "pip>=25.1"
 
 def main() -> int:
     """The command."""
-    targets = {"package": prepare_package, "dev": prepare_dev, "node": prepare_node}
+    targets = {
+        "package": prepare_package,
+        "creator": prepare_creator,
+        "dev": prepare_dev,
+        "node": prepare_node,
+        "browser": prepare_browser,
+    }
     if len(sys.argv) != 2 or sys.argv[1] not in targets:
         print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
         return 2
@@ -48,13 +59,22 @@ def prepare_package() -> None:
     (VENV / ".package").touch()
 
 
+def prepare_creator() -> None:
+    """The package with the extra "creator"."""
+    make_venv()
+    say("installing the package and the page")
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", f"{ROOT}[creator]")
+    for stamp in (".package", ".creator"):
+        (VENV / stamp).touch()
+
+
 def prepare_dev() -> None:
     """The package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
     run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", PIP)
     run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
-    for stamp in (".package", ".dev"):
+    for stamp in (".package", ".creator", ".dev"):
         (VENV / stamp).touch()
 
 
@@ -67,6 +87,16 @@ def prepare_node() -> None:
     if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
         say("there is no anvil for this machine, tests of a real node look for one on the path")
     (CONTRACTS / "node_modules" / ".package-lock.json").touch()
+
+
+def prepare_browser() -> None:
+    """Chromium, as a package of the system. Without it, all tests but those of the page can be run."""
+    if any(map(shutil.which, BROWSERS)):
+        return
+    try:
+        apt_install("a browser for the tests of the page", "chromium")
+    except (SystemExit, subprocess.CalledProcessError) as error:
+        say(f"the tests of the page are skipped: {error}")
 
 
 def make_venv() -> None:

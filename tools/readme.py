@@ -1,4 +1,4 @@
-"""Bring the figures of README.md up to date: those of benchmarks/results.json and docs/images/pictures.json.
+"""Bring the figures of README.md up to date: those of benchmarks/ and of docs/images/pictures.json.
 
 python tools/readme.py            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
 python tools/readme.py --check    writes nothing; fails if they are not up to date
@@ -15,6 +15,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
 RESULTS = ROOT / "benchmarks" / "results.json"
+TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = ROOT / "docs" / "images" / "pictures.json"
 
 #: What of the cost table a newcomer wants to know: a part of the name of its row, and what to call it.
@@ -40,6 +41,20 @@ def costs() -> str:
     return "\n".join(lines)
 
 
+def tokens() -> str:
+    """What tokens cost, beside what the authors of the original tell."""
+    data: dict[str, int] = json.loads(TOKENS.read_text("utf-8"))
+    mean = next(value for name, value in data.items() if name.startswith("tokenURI, mean"))
+    most = next(value for name, value in data.items() if name.startswith("tokenURI, most"))
+    return (
+        "| Genesis | original, gas | Shackled, gas |\n|---|---:|---:|\n"
+        f"| mint 1 | 124 thousand | {data['mint 1'] / 1e3:.0f} thousand |\n"
+        f"| mint 5 | 712 thousand | {data['mint 5'] / 1e3:.0f} thousand |\n"
+        "| `tokenURI`, metadata and picture | 5,700 to 14,400 million |"
+        f" {millions(mean)} on average, {millions(most)} at most |"
+    )
+
+
 def pictures() -> str:
     """What the pictures of the documentation cost."""
     data = json.loads(PICTURES.read_text("utf-8"))
@@ -60,7 +75,7 @@ def millions(gas: float) -> str:
 
 def filled(text: str) -> str:
     """The README with the figures in it."""
-    for name, content in {"costs": costs(), "pictures": pictures()}.items():
+    for name, content in {"costs": costs(), "pictures": pictures(), "tokens": tokens()}.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
         before, found, rest = text.partition(begin)
         _, closed, after = rest.partition(end)

@@ -10,12 +10,17 @@ import typer
 
 from .. import __version__
 from ..errors import FetchError, InputError, RenderError
+from .arguments import with_cluster
 from .bench import bench
+from .creator import creator
 from .datasets import datasets
+from .deploy import deploy
 from .gas import gas
 from .genesis import genesis
+from .mint import mint
 from .render import render
 from .stages import stages
+from .token import token
 
 #: What typer makes of a keyboard interrupt.
 INTERRUPTED = 130
@@ -26,7 +31,11 @@ app.command()(gas)
 app.command()(bench)
 app.command()(genesis)
 app.command()(stages)
+app.command()(deploy)
+app.command()(mint)
+app.command()(creator)
 app.add_typer(datasets, name="datasets")
+app.add_typer(token, name="token")
 
 
 @app.callback(invoke_without_command=True)
@@ -44,7 +53,8 @@ def shackled(
 def run(arguments: Sequence[str] | None = None) -> int:
     """Runs the command; the exit code. What went wrong is said in one line on stderr."""
     try:
-        code = app(args=None if arguments is None else list(arguments), standalone_mode=False, prog_name="shackled")
+        given = with_cluster(sys.argv[1:] if arguments is None else arguments)
+        code = app(args=given, standalone_mode=False, prog_name="shackled")
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)

@@ -1,0 +1,132 @@
+"""How the Creator's page does with many visitors at once: pictures a second, and how late they are.
+
+    python -m benchmarks.creator [--visitors 20] [--seconds 10] [--piece NAME] [--write]
+
+Each visitor opens the page and its wire as a browser does, and turns the object all the time: 30 movements a second.
+The delay of a movement is the time from when it is sent until the first picture that shows it has arrived. Server,
+workers and visitors share this machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from websockets.asyncio.client import connect
+
+PAGE = Path(__file__).parent.parent / "docs" / "creator.md"
+BEGIN, END = "<!-- begin load -->", "<!-- end load -->"
+
+#: Seconds between two movements.
+PACE = 1 / 30
+#: Movements of the first seconds do not count: the sizes of the moving pictures have to settle.
+WARM_UP = 2.0
+
+
+@dataclass
+class Orbiting:
+    """What a visitor saw. sides: of the moving pictures, in pixels."""
+
+    pictures: int = 0
+    delays: list[float] = field(default_factory=list)
+    sides: list[int] = field(default_factory=list)
+
+
+async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
+    """One visitor."""
+    html = await asyncio.to_thread(lambda: urllib.request.urlopen(address).read().decode())
+    found = re.search(r'"visitor":"([\w-]+)"', html)
+    assert found, "the page names no visitor"
+    wire = f"{address.replace('http', 'ws', 1)}live/{found[1]}"
+    async with connect(wire, max_size=2**24, compression=None) as socket:
+        begun = time.perf_counter()
+        sent: list[float] = []
+
+        async def look() -> None:
+            shown = 0
+            async for message in socket:
+                if isinstance(message, str):
+                    continue
+                now, length = time.perf_counter(), int.from_bytes(message[:4], "big")
+                head = json.loads(message[4 : 4 + length])
+                if now - begun > WARM_UP:
+                    seen.pictures += 1
+                    seen.delays += [now - at for at in sent[shown : head["moves"]] if at - begun > WARM_UP]
+                    seen.sides.append(int.from_bytes(message[22 + length : 26 + length], "little"))
+                shown = head["moves"]
+
+        watching = asyncio.create_task(look())
+        while time.perf_counter() - begun < WARM_UP + seconds:
+            sent.append(time.perf_counter())
+            await socket.send(json.dumps({"do": "orbit", "x": 0.01, "y": 0.002 if len(sent) % 60 < 30 else -0.002}))
+            await asyncio.sleep(PACE)
+        watching.cancel()
+
+
+async def measure(address: str, visitors: int, seconds: float) -> list[Orbiting]:
+    """All visitors at once."""
+    seen = [Orbiting() for _ in range(visitors)]
+    await asyncio.gather(*(orbit(address, seconds, each) for each in seen))
+    return seen
+
+
+def report(seen: Sequence[Orbiting], seconds: float) -> str:
+    """The figures, as a table in Markdown."""
+    each = np.array([one.pictures / seconds for one in seen])
+    delays = 1000 * np.concatenate([one.delays for one in seen])
+    sides = np.concatenate([one.sides for one in seen])
+    rows = {
+        "visitors, cores": f"{len(seen)}, {os.cpu_count()}",
+        "pictures a second, all together": f"{each.sum():.0f}",
+        "pictures a second of a visitor": f"{np.median(each):.1f} ({each.min():.1f} to {each.max():.1f})",
+        "delay, median": f"{np.median(delays):.0f} ms",
+        "delay, 95th percentile": f"{np.percentile(delays, 95):.0f} ms",
+        "side of the moving pictures, median": f"{np.median(sides):.0f} pixels",
+    }
+    return "\n".join(["| | |", "|---|---:|", *(f"| {name} | {value} |" for name, value in rows.items())])
+
+
+def write(table: str) -> None:
+    """Puts the figures into the documentation."""
+    page = PAGE.read_text("utf-8")
+    parts = re.split(f"({BEGIN}).*?({END})", page, flags=re.DOTALL)
+    assert len(parts) == 4, f"{PAGE} has no place for them"
+    PAGE.write_text(f"{parts[0]}{parts[1]}\n{table}\n{parts[2]}{parts[3]}", "utf-8")
+
+
+def main() -> None:
+    """The command."""
+    parser = argparse.ArgumentParser(description="The Creator with many visitors at once.")
+    parser.add_argument("--visitors", type=int, default=20)
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--piece", default="icons/shackle")
+    parser.add_argument("--write", action="store_true", help="put the figures into docs/creator.md")
+    options = parser.parse_args()
+    command = [sys.executable, "-m", "shackled", "creator", "--no-browser", "--port", "0", options.piece]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            assert server.stdout is not None
+            found = re.search(r"http://\S+", server.stdout.readline())
+            assert found, "the Creator did not start"
+            seen = asyncio.run(measure(found[0], options.visitors, options.seconds))
+        finally:
+            server.terminate()
+    table = report(seen, options.seconds)
+    print(table)
+    if options.write:
+        write(table)
+
+
+if __name__ == "__main__":
+    main()

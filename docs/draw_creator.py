@@ -1,0 +1,141 @@
+"""Draws the pictures of creator.md: the page of the Creator in a real browser, and a film of how it is used.
+
+    python docs/draw_creator.py
+
+Needs chromium. The page is started by its command, and used by its buttons.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Literal
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+FOLDER = Path(__file__).parent
+IMAGES = FOLDER / "images"
+sys.path.append(str(FOLDER.parent / "tests"))
+
+from page_server import ARGUMENTS, browser_path, creator  # noqa: E402
+
+#: Colours of a picture, which is enough for a page and keeps files small.
+COLORS = 256
+#: Of the film: pictures a second, and pixels of the screen for one of its own.
+PACE, SHRINK = 10, 1.25
+
+
+def main() -> None:
+    """All of them."""
+    with creator() as server, sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+
+        def visit(width: int, height: int, scheme: Literal["light", "dark"], **options: Any) -> Any:
+            context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, **options)
+            page = context.new_page()
+            page.goto(server.address)
+            page.wait_for_selector("#picture[data-draft=false]")
+            page.wait_for_function("() => [...document.querySelectorAll('.look img')].every(e => e.src.length > 500)")
+            page.wait_for_timeout(1500)
+            return page
+
+        page = visit(1360, 850, "light")
+        save(page, "creator")
+        show(page, "[data-name='piece-icons/crown']", "[data-name=look-gold]")
+        page.click("[data-name=figures]")
+        page.wait_for_function("() => document.querySelectorAll('#stages td.bar').length > 5")
+        save(page, "creator-stages")
+        page.keyboard.press("Escape")
+        page.click("text=Download")
+        page.wait_for_function("() => document.querySelector('[data-text=snippet-solidity]').textContent.length > 20")
+        save(page, "creator-download")
+
+        page = visit(1360, 850, "dark")
+        page.click("[data-tab=common]")
+        show(page, "[data-name='piece-torus-knot']", "[data-name=look-neon]")
+        page.wait_for_timeout(1500)
+        save(page, "creator-dark")
+
+        page = visit(390, 780, "dark", has_touch=True, is_mobile=True, device_scale_factor=1.5)
+        save(page, "creator-phone")
+
+        film(visit(1100, 700, "light"))
+        browser.close()
+
+
+def show(page: Any, *buttons: str) -> None:
+    """Pushes buttons, and waits for the picture that follows each."""
+    for button in buttons:
+        before = page.get_attribute("#picture", "data-number")
+        page.click(button)
+        page.wait_for_function("before => document.getElementById('picture').dataset.number > before", arg=before)
+        page.wait_for_timeout(700)
+
+
+def save(page: Any, name: str) -> None:
+    """The page as a PNG file."""
+    with Image.open(io.BytesIO(page.screenshot())) as picture:
+        whole = picture.convert("RGB")
+    reduced = whole.quantize(palette=whole.quantize(COLORS), dither=Image.Dither.FLOYDSTEINBERG)
+    path = IMAGES / f"{name}.png"
+    reduced.save(path, optimize=True)
+    print(f"{path.relative_to(FOLDER.parent)}: {path.stat().st_size:,} bytes")
+
+
+def film(page: Any) -> None:
+    """A GIF of the page in use."""
+    frames: list[Image.Image] = []
+
+    def take(count: int = 1) -> None:
+        for _ in range(count):
+            with Image.open(io.BytesIO(page.screenshot())) as picture:
+                small = picture.convert("RGB").resize(
+                    (round(picture.width / SHRINK), round(picture.height / SHRINK)), Image.Resampling.LANCZOS
+                )
+            frames.append(small)
+            page.wait_for_timeout(1000 / PACE / 2)
+
+    def drag(x: float, y: float, steps: int) -> None:
+        box = page.locator("#view").bounding_box()
+        from_x, from_y = box["x"] + box["width"] / 2 - x / 2, box["y"] + box["height"] / 2 - y / 2
+        page.mouse.move(from_x, from_y)
+        page.mouse.down()
+        for step in range(1, steps + 1):
+            page.mouse.move(from_x + x * step / steps, from_y + y * step / steps)
+            page.wait_for_timeout(60)
+            take()
+        page.mouse.up()
+        page.wait_for_timeout(400)
+        take(2)
+
+    def push(button: str, act: Callable[[], None] = lambda: None) -> None:
+        page.hover(button)
+        take(2)
+        page.click(button)
+        page.wait_for_timeout(700)
+        take(4)
+        act()
+
+    take(4)
+    drag(200, 30, 12)
+    push("[data-name='piece-icons/crown']", lambda: drag(-190, 40, 10))
+    push("[data-name=look-gold]")
+    push("[data-name=look-neon]", lambda: drag(180, -20, 10))
+    push("[data-name=look-facets]")
+    take(4)
+    # one palette for all, of all, so that what stays is not stored again
+    sheet = Image.new("RGB", (frames[0].width, frames[0].height * 8))
+    for place, frame in enumerate(frames[:: max(1, len(frames) // 8)][:8]):
+        sheet.paste(frame, (0, place * frame.height))
+    palette = sheet.quantize(COLORS)
+    reduced = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
+    path = IMAGES / "creator.gif"
+    reduced[0].save(path, save_all=True, append_images=reduced[1:], duration=1000 // PACE, loop=0, optimize=True)
+    print(f"{path.relative_to(FOLDER.parent)}: {len(frames)} pictures, {path.stat().st_size:,} bytes")
+
+
+if __name__ == "__main__":
+    main()

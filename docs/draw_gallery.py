@@ -1,0 +1,49 @@
+"""Draws the picture of token-commands.md: the gallery that `shackled token demo` leaves, in a real browser.
+
+    python docs/draw_gallery.py
+
+Needs anvil and chromium. The pieces are others each time, as the chain draws their seeds.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import sync_playwright
+
+from shackled.bench.anvil import Anvil, find_anvil
+from shackled.chain.address_book import VARIABLE
+from shackled.tokens.demo import run
+
+FOLDER = Path(__file__).parent
+sys.path.append(str(FOLDER.parent / "tests"))
+
+from page_server import ARGUMENTS, browser_path  # noqa: E402
+
+#: Of a palette, which is enough for a page and keeps the file small.
+COLORS = 256
+
+
+def main() -> None:
+    """The picture."""
+    binary = find_anvil()
+    if binary is None:
+        raise SystemExit("anvil is not installed: npm ci in contracts/")
+    with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, sync_playwright() as driver:
+        os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
+        demo = run(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
+        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        page = browser.new_page(viewport={"width": 1280, "height": 1060}, color_scheme="light")
+        page.goto(demo.gallery.resolve().as_uri())
+        with Image.open(io.BytesIO(page.screenshot())) as picture:
+            picture.convert("RGB").quantize(COLORS).save(FOLDER / "images" / "gallery.png", optimize=True)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

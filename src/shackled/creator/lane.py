@@ -1,0 +1,307 @@
+"""Workers of one kind, and the visitors who wait for them, who share their time alike."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..errors import InputError, RenderError
+from .limits import Limits
+from .seat import GONE, LATE, Seat
+from .tasks import Desk
+from .worker import DONE, FAULT, INPUT, MEMORY, MISSING, RENDER, MakeDesk, Request
+
+log = logging.getLogger(__name__)
+
+Supply = Callable[[], dict[str, Any]]
+Progress = Callable[[int, int], None]
+
+
+#: Seconds that a visitor can be behind the others, at most; so nobody waits for long, whatever was asked for before.
+BEHIND = 1.0
+
+
+class PoolError(RenderError):
+    """The work could not be done here: it took too long, or too much, or too many are waiting. One line."""
+
+
+@dataclass(eq=False)
+class Job:
+    """Something that a visitor waits for.
+
+    newest: a later job of the same visitor and channel takes its place. supply: gives the files that a worker may lack.
+    seat: where it is worked at. stopped: whether nobody waits for it any more.
+    """
+
+    visitor: str
+    channel: str
+    request: Request
+    newest: bool
+    supply: Supply | None
+    progress: Progress | None
+    answer: asyncio.Future[Any]
+    seat: Seat | None = None
+    stopped: bool = False
+    timer: asyncio.TimerHandle | None = field(default=None)
+
+
+class Lane:
+    """Of each channel of a visitor, one job is worked at and others wait.
+
+    Of the visitors who wait, it is the turn of the one on whom the least time was spent; where all ask for pictures of
+    the same cost, it goes round. Who comes, or comes back, begins with what those who are served have had by then.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        workers: int,
+        limits: Limits,
+        seconds: float,
+        waiting: int,
+        grace: float = 0.0,
+        niceness: int = 0,
+        guarded: bool = False,
+        make_desk: MakeDesk = Desk,
+    ) -> None:
+        """what: is worked at here, for messages. seconds: for one job. waiting: jobs in line, at most.
+
+        grace: seconds that a job that nobody waits for may still take before its worker is ended. niceness, guarded,
+        make_desk: of the workers.
+        """
+        self._what = what
+        self._seconds = seconds
+        self._most = waiting
+        self._grace = grace
+        self._seats = [Seat(make_desk, limits, niceness, guarded) for _ in range(workers)]
+        self._idle = list(self._seats)
+        self._waiting: dict[str, list[Job]] = {}
+        self._spent: dict[str, float] = {}
+        self._served = 0.0
+        self._running: set[Job] = set()
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._closed = False
+
+    async def warm(self) -> None:
+        """Starts all workers. PoolError if one does not start."""
+        loop = asyncio.get_running_loop()
+        answers = await asyncio.gather(
+            *(
+                loop.run_in_executor(seat.thread, seat.ask, Request("hello", ()), self._seconds, _silent)
+                for seat in self._seats
+            )
+        )
+        for answer in answers:
+            if answer[0] != DONE:
+                raise self._error(answer)
+
+    async def ask(
+        self,
+        visitor: str,
+        channel: str,
+        task: str,
+        arguments: tuple[Any, ...],
+        newest: bool = False,
+        supply: Supply | None = None,
+        progress: Progress | None = None,
+    ) -> Any:
+        """The result of a task; None if a newer job took its place or the visitor left."""
+        if self._closed:
+            raise PoolError("the Creator is being closed")
+        if sum(map(len, self._waiting.values())) >= self._most:
+            raise PoolError("too many visitors are waiting; try again in a moment")
+        loop = asyncio.get_running_loop()
+        job = Job(visitor, channel, Request(task, arguments), newest, supply, progress, loop.create_future())
+        if newest:
+            self.supersede(visitor, channel)
+        self._arrive(visitor)
+        self._waiting.setdefault(visitor, []).append(job)
+        self._dispatch()
+        try:
+            return await job.answer
+        except asyncio.CancelledError:
+            self._stop(job)
+            raise
+
+    def leave(self, visitor: str) -> None:
+        """Gives up all that a visitor waits for; who waits is handed None."""
+        for job in [*self._waiting.get(visitor, ()), *(job for job in self._running if job.visitor == visitor)]:
+            self._stop(job)
+            _settle(job, None)
+        self._spent.pop(visitor, None)
+
+    def supersede(self, visitor: str, channel: str) -> None:
+        """Something newer takes the place of a visitor's job; who waits is handed None, if it is not done soon."""
+        for job in [job for job in self._waiting.get(visitor, ()) if job.channel == channel]:
+            self._stop(job)
+            _settle(job, None)
+        for job in self._running:
+            if job.visitor == visitor and job.channel == channel:
+                self._end_later(job)
+
+    async def close(self) -> None:
+        """Ends the workers; who waits is handed None."""
+        self._closed = True
+        for job in [*self._running, *(job for jobs in self._waiting.values() for job in jobs)]:
+            job.stopped = True
+            if job.timer is not None:
+                job.timer.cancel()
+            _settle(job, None)
+        self._waiting.clear()
+        loop = asyncio.get_running_loop()
+        await asyncio.gather(*(loop.run_in_executor(None, seat.close) for seat in self._seats))
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    @property
+    def processes(self) -> list[int]:
+        """The process ids of the workers that have been started."""
+        return [seat.pid for seat in self._seats if seat.pid is not None]
+
+    # ---- the line ----
+
+    def _arrive(self, visitor: str) -> None:
+        """Nobody saves up time by staying away."""
+        if visitor in self._waiting or any(job.visitor == visitor for job in self._running):
+            return
+        if len(self._spent) > 4 * self._most:
+            active = {*self._waiting, *(job.visitor for job in self._running)}
+            self._spent = {each: spent for each, spent in self._spent.items() if each in active}
+        self._spent[visitor] = max(self._spent.get(visitor, 0.0), self._served)
+
+    def _stop(self, job: Job) -> None:
+        """Nobody waits for a job any more."""
+        job.stopped = True
+        if job in self._running:
+            self._end_later(job)
+            return
+        jobs = self._waiting.get(job.visitor, [])
+        if job in jobs:
+            jobs.remove(job)
+        if not jobs:
+            self._waiting.pop(job.visitor, None)
+
+    def _end_later(self, job: Job) -> None:
+        if job.timer is None and not self._closed:
+            job.timer = asyncio.get_running_loop().call_later(self._grace, self._end, job)
+
+    def _end(self, job: Job) -> None:
+        if job in self._running and job.seat is not None:
+            job.stopped = True
+            job.seat.kill()
+
+    def _dispatch(self) -> None:
+        while self._idle and not self._closed:
+            job = self._next()
+            if job is None:
+                return
+            job.seat = self._idle.pop()
+            self._running.add(job)
+            task = asyncio.get_running_loop().create_task(self._work(job, job.seat))
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+    def _next(self) -> Job | None:
+        """The job whose turn it is."""
+        busy = {(job.visitor, job.channel) for job in self._running}
+        for visitor in sorted(self._waiting, key=lambda each: self._spent.get(each, 0.0)):
+            jobs = self._waiting[visitor]
+            free = [job for job in jobs if (visitor, job.channel) not in busy]
+            if free:
+                job = next((job for job in free if job.newest), free[0])
+                jobs.remove(job)
+                # behind the others, if they have had as much
+                del self._waiting[visitor]
+                if jobs:
+                    self._waiting[visitor] = jobs
+                self._served = max(self._served, self._spent.get(visitor, 0.0))
+                return job
+        return None
+
+    async def _work(self, job: Job, seat: Seat) -> None:
+        loop = asyncio.get_running_loop()
+
+        def progress(done: int, total: int) -> None:
+            if job.progress is not None:
+                loop.call_soon_threadsafe(_tell, job, done, total)
+
+        begun, seconds = time.monotonic(), None
+        try:
+            answer = await self._call(job, seat, job.request, progress)
+            if answer[0] == MISSING and job.supply is not None:
+                request = Request(job.request.task, job.request.arguments, job.supply())
+                answer = await self._call(job, seat, request, progress)
+            if answer[0] == MEMORY:  # what it could not hold may still be in its way
+                await loop.run_in_executor(seat.thread, seat.end)
+            if answer[0] == DONE:
+                seconds = answer[2]
+                _settle(job, answer[1])
+            elif job.stopped:
+                _settle(job, None)
+            else:
+                _fail(job, self._error(answer))
+        except InputError as error:  # the file that it needs has gone meanwhile
+            _fail(job, error)
+        except Exception:
+            log.exception("a worker could not be asked")
+            _fail(job, PoolError(f"the {self._what} could not be made"))
+        finally:
+            if job.timer is not None:
+                job.timer.cancel()
+            self._running.discard(job)
+            self._idle.append(seat)
+            if job.visitor in self._spent:
+                # what came to nothing took its time as well
+                spent = time.monotonic() - begun if seconds is None else seconds
+                self._spent[job.visitor] = min(self._spent[job.visitor] + spent, self._served + BEHIND)
+            self._dispatch()
+
+    async def _call(self, job: Job, seat: Seat, request: Request, progress: Progress) -> tuple[Any, ...]:
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(
+            seat.thread, seat.ask, request, self._seconds, progress, lambda: job.stopped or self._closed
+        )
+
+    def _error(self, answer: tuple[Any, ...]) -> Exception:
+        kind = answer[0]
+        if kind == INPUT:
+            return InputError(answer[1])
+        if kind == RENDER:
+            return RenderError(answer[1])
+        if kind == LATE:
+            return PoolError(
+                f"the {self._what} took longer than the {self._seconds:g} seconds that there are; take a smaller size"
+                " or fewer triangles"
+            )
+        if kind == MEMORY:
+            return PoolError(
+                f"the {self._what} needs more memory than there is; take a smaller size or fewer triangles"
+            )
+        if kind == GONE:
+            return PoolError(f"the process at work on the {self._what} ended, perhaps for want of memory; try again")
+        if kind == FAULT:
+            log.error("a fault in a worker:\n%s", answer[2])
+            return PoolError(f"the {self._what} failed by a fault of ours ({answer[1]}); it has been noted")
+        return PoolError(f"the {self._what} could not be made")
+
+
+def _settle(job: Job, result: Any) -> None:
+    if not job.answer.done():
+        job.answer.set_result(result)
+
+
+def _fail(job: Job, error: Exception) -> None:
+    if not job.answer.done():
+        job.answer.set_exception(error)
+
+
+def _tell(job: Job, done: int, total: int) -> None:
+    if job.progress is not None and not job.stopped:
+        job.progress(done, total)
+
+
+def _silent(done: int, total: int) -> None:
+    """Nobody listens."""

@@ -1,0 +1,68 @@
+"""A picture as a short text that can stand in an address, and back.
+
+The text is a digit, the version, then base64url of the JSON document of the state, compressed by raw deflate with a
+dictionary of what such documents hold. It comes from strangers: nothing of it is trusted, and little is unpacked.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import json
+import re
+import zlib
+
+from ..errors import InputError
+from .state import State, from_document, to_document
+
+VERSION = "1"
+#: Bytes of a link, and of the document in it, at most.
+MAX_LINK = 4096
+MAX_DOCUMENT = 8192
+
+#: What documents hold, the most frequent last. A change of it is another version.
+_DICTIONARY = (
+    b'"max_triangles":"invert":true"wireframe":true"cull":false"ambient_light":"#ffffff""lights_follow":true'
+    b'"background":{"top":"#000000","bottom":"#ffffff"}"size":{"width":256,"height":256}'
+    b'"shading":"smooth""flat""unlit""ambient":0."diffuse":0."specular":0."shininess":"color":"#'
+    b'"pose":{"position":[0.0,0.0,0.0],"rotation":[0.0,0.0,0.0],"scale":"surface":{'
+    b'"lights":[{"kind":"point","azimuth":-"elevation":"distance":"color":"#ffffff"},{"azimuth":'
+    b'"camera":{"target":[0.0,0.0,0.0],"distance":3."azimuth":"elevation":"roll":"projection":"orthographic","fov":'
+    b'{"source":{"kind":"upload","name":"genesis/icons/'
+    b'{"source":{"kind":"piece","name":"teapot"},'
+)
+
+
+def to_link(state: State) -> str:
+    """The text of a state: letters, digits, - and _ only."""
+    document = json.dumps(to_document(state), separators=(",", ":")).encode("ascii")
+    squeezer = zlib.compressobj(9, zlib.DEFLATED, -15, zdict=_DICTIONARY)
+    packed = squeezer.compress(document) + squeezer.flush()
+    return VERSION + base64.urlsafe_b64encode(packed).rstrip(b"=").decode("ascii")
+
+
+def from_link(text: str) -> State:
+    """The state of a text. InputError if it is none."""
+    if len(text) > MAX_LINK:
+        raise InputError(f"the link is too long: {len(text):,} characters, at most {MAX_LINK:,} are read")
+    if not re.fullmatch(r"[0-9A-Za-z_-]+", text, re.ASCII):
+        raise InputError("the link has characters that no link of a picture has; copy all of it, and nothing else")
+    if text[0] != VERSION:
+        raise InputError(f"the link is of version {text[0]!r}, which is not known here; known is {VERSION}")
+    try:
+        packed = base64.b64decode(text[1:] + "=" * (-(len(text) - 1) % 4), altchars=b"-_", validate=True)
+        opener = zlib.decompressobj(-15, zdict=_DICTIONARY)
+        document = opener.decompress(packed, MAX_DOCUMENT)
+        if opener.unconsumed_tail:
+            raise InputError(f"the link holds more than {MAX_DOCUMENT:,} bytes")
+        if not opener.eof or opener.unused_data:
+            raise InputError("the link is damaged: copy all of it, and nothing else")
+        value = json.loads(document.decode("ascii"))
+    except (binascii.Error, zlib.error, ValueError, RecursionError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError("the link is damaged: copy all of it, and nothing else") from None
+    try:
+        return from_document(value)
+    except InputError as error:
+        raise InputError(f"the link is of no picture: {error}") from None

@@ -1,0 +1,69 @@
+"""What the workers hand back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .fits import Fit
+from .scene import Facts
+from .state import Source
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A picture.
+
+    png, bmp: files; the BMP as the contract returned it. gas, intrinsic_gas: None where none is counted. triangles,
+    lit_pixels: None if they were not wanted. calldata_bytes: of the call. sha256: of the pixels, RGB, rows from the
+    top. seconds: that the call took. fits: where the call fits; empty where no gas is counted.
+    """
+
+    png: bytes
+    bmp: bytes
+    width: int
+    height: int
+    gas: int | None
+    intrinsic_gas: int | None
+    triangles: int | None
+    lit_pixels: int | None
+    calldata_bytes: int
+    sha256: str
+    seconds: float
+    fits: tuple[Fit, ...]
+
+
+@dataclass(frozen=True)
+class StagePicture:
+    """A stage of the pipeline. detail: a few words with numbers. png: what it made."""
+
+    name: str
+    title: str
+    detail: str
+    png: bytes
+
+
+@dataclass(frozen=True)
+class Upload:
+    """A file that was handed in and read. notes: what was done to it, for people; one sentence each."""
+
+    source: Source
+    facts: Facts
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The picture of a node beside ours. same: whether all bytes are. node: its name. seconds: that it took."""
+
+    same: bool
+    node: str
+    seconds: float
+
+
+@dataclass(frozen=True)
+class File:
+    """Something to take away. name: for the visitor's folder. media_type: as browsers know it."""
+
+    name: str
+    media_type: str
+    data: bytes

@@ -1,0 +1,123 @@
+"""A file of a stranger, read within bounds. It happens in a process of its own; see `guard`."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+import re
+import unicodedata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..render import resize, simplify_scene
+from ..scene.files.load import SCENES, load
+from ..scene.files.mesh_file import READERS
+from ..scene.scene import Scene
+from .archive import unpack
+from .controls import MAX_SIDE
+from .gltf import check_gltf
+from .guard import folder
+from .limits import MEGABYTE, Limits
+from .scene import describe
+from .state import Source
+from .store import Stored
+
+#: What can be handed in, by extension.
+ACCEPTED = (*READERS, *SCENES, ".zip")
+
+MAX_OBJECTS = 256
+MAX_TITLE = 60
+
+
+def read_upload(name: str, data: bytes, limits: Limits) -> tuple[str, Stored, tuple[str, ...]]:
+    """The SHA-256 of a file, what is kept of it, and what was done to it, a sentence each.
+
+    name: as the visitor calls it; its extension says what it is. InputError, for people, if it cannot be shown.
+    """
+    title = clean_name(name)
+    extension = Path(title).suffix.lower()
+    if extension not in ACCEPTED:
+        kind = f"{extension} files are" if extension else "a file without an extension is"
+        raise InputError(f"{title}: {kind} not known here; known are {', '.join(ACCEPTED)}")
+    if not data.strip():
+        raise InputError(f"{title} is empty")
+    if len(data) > limits.upload:
+        raise InputError(f"{title} is larger than the {limits.upload / MEGABYTE:g} MB that are read")
+    scene = _load(title, extension, data, limits)
+    notes: list[str] = []
+    scene, simplified_to = _bounded(scene, title, limits, notes)
+    largest = max(scene.width, scene.height)
+    if largest > MAX_SIDE:
+        sides = max(1, scene.width * MAX_SIDE // largest), max(1, scene.height * MAX_SIDE // largest)
+        notes.append(
+            f"The picture of {scene.width} x {scene.height} pixels was brought down to {sides[0]} x {sides[1]}."
+        )
+        scene = resize(scene, sides)
+    sha256 = hashlib.sha256(data).hexdigest()
+    source = Source("upload", sha256)
+    with np.errstate(all="ignore"):
+        try:
+            facts = describe(source, scene, title)
+            pickled = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)
+        except InputError:
+            raise InputError(f"{title}: its coordinates are too large or too small to be shown") from None
+    return sha256, Stored(title, pickled, facts, simplified_to, b""), tuple(notes)
+
+
+def clean_name(name: Any) -> str:
+    """The last part of a file's name, without what could be anything but letters, digits and plain signs."""
+    text = unicodedata.normalize("NFC", str(name)[:4096]).replace("\\", "/").rsplit("/", 1)[-1]
+    text = "".join(c if c.isalnum() or c in " ._-()+" else "_" for c in text).strip(" .")
+    stem, dot, extension = text.rpartition(".")
+    if not dot:
+        stem, extension = text, ""
+    stem = re.sub("_+", "_", stem)[:MAX_TITLE].strip() or "file"
+    return f"{stem}{dot}{extension[:10]}"
+
+
+def _load(title: str, extension: str, data: bytes, limits: Limits) -> Scene:
+    with folder() as inside:
+        # of a name that no message of a reader can be mistaken for
+        path = inside / f"upload{extension}"
+        try:
+            if extension == ".zip":
+                path = unpack(data, inside, limits)
+            else:
+                path.write_bytes(data)
+            if path.suffix.lower() in (".gltf", ".glb"):
+                check_gltf(path, path.read_bytes())
+            return load(path)
+        except InputError as error:
+            raise InputError(_message(str(error), title, path, inside)) from None
+
+
+def _message(message: str, title: str, path: Path, inside: Path) -> str:
+    """The message without what only we know: the folder, and the name that the file had in it."""
+    message = message.replace(str(path), title).replace(f"{inside}/", "").replace(str(inside), "")
+    if path.suffix.lower() in SCENES and message.endswith("does not exist"):
+        message += " here: put the scene and its meshes into a zip"
+    return message if message.startswith(title) else f"{title}: {message}"
+
+
+def _bounded(scene: Scene, title: str, limits: Limits, notes: list[str]) -> tuple[Scene, int | None]:
+    if len(scene.objects) > MAX_OBJECTS:
+        raise InputError(f"{title} has {len(scene.objects):,} objects; up to {MAX_OBJECTS} are shown")
+    if not scene.objects:
+        raise InputError(f"{title} holds no object")
+    before = [len(np.asarray(o.mesh.faces)) for o in scene.objects]
+    simplified_to = None
+    if max(before) > limits.triangles:
+        simplified_to = limits.triangles
+        try:
+            scene = simplify_scene(scene, limits.triangles)
+        except InputError as error:
+            raise InputError(f"{title}: {error}") from None
+    after = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+    if simplified_to is not None:
+        notes.append(f"The mesh was simplified from {sum(before):,} to {after:,} triangles, the most that are shown.")
+    if after > limits.all_triangles:
+        raise InputError(f"{title} has {after:,} triangles; up to {limits.all_triangles:,} are shown")
+    return scene, simplified_to

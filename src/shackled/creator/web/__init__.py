@@ -1,0 +1,7 @@
+"""The page of the Creator.
+
+- `server`: the command's server, its routes and what it forbids (`guard`).
+- `page`: what is on the page; `panel`: the controls, made of the data of `..controls`; `shelf`, `dialogs`, `icons`.
+- `live`: the wire between page and server; `visitor`: what a message does, and the picture that follows; `keys`.
+- `assets`: the style, and the little that has to happen in the browser.
+"""

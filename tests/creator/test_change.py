@@ -1,0 +1,97 @@
+"""Changing one control."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from shackled import InputError, load
+from shackled.creator.change import add_lamp, get, is_changed, put, remove_lamp, reset, reset_one
+from shackled.creator.controls import CONTROLS, lamp_controls
+from shackled.creator.scene import describe
+from shackled.creator.state import Source, State
+
+FACTS = describe(Source("piece", "teapot"), load("teapot"), "Teapot")
+PLAIN = State(FACTS.source)
+
+OTHER: dict[str, Any] = {
+    "camera.projection": "orthographic",
+    "lights.0.kind": "point",
+    "surface.shading": "flat",
+    "cull": False,
+}
+
+
+@pytest.mark.parametrize("control", [*CONTROLS, *lamp_controls(0)], ids=lambda control: control.path)
+def test_each_control_can_be_changed_and_reset(control: Any) -> None:
+    value = OTHER.get(
+        control.path,
+        {"switch": True, "color": "#123456", "number": min(control.high, 37)}[
+            control.kind if control.kind != "choice" else "number"
+        ],
+    )
+    state = put(PLAIN, FACTS, control.path, value)
+    assert get(state, FACTS, control.path) == value
+    assert is_changed(state, FACTS, control.path)
+    assert not is_changed(PLAIN, FACTS, control.path)
+    assert get(reset_one(state, FACTS, control.path), FACTS, control.path) == get(PLAIN, FACTS, control.path)
+    assert reset(state, control.group) == PLAIN
+    assert reset(state) == PLAIN
+    others = [each.path for each in CONTROLS if each.path != control.path]
+    assert not [path for path in others if get(state, FACTS, path) != get(PLAIN, FACTS, path)]
+
+
+def test_angles_go_round() -> None:
+    state = put(PLAIN, FACTS, "camera.azimuth", 190)
+    assert get(state, FACTS, "camera.azimuth") == -170
+    assert get(put(PLAIN, FACTS, "pose.rotation.y", -540), FACTS, "pose.rotation.y") == -180
+
+
+def test_numbers_keep_six_digits() -> None:
+    assert get(put(PLAIN, FACTS, "pose.scale", 1 / 3), FACTS, "pose.scale") == 0.333333
+    assert get(put(PLAIN, FACTS, "size.width", 99.7), FACTS, "size.width") == 100
+
+
+def test_none_gives_the_own_colours_back() -> None:
+    state = put(PLAIN, FACTS, "surface.color", "#ff0000")
+    assert get(put(state, FACTS, "surface.color", None), FACTS, "surface.color") is None
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        ("camera.fov", 151, "the fov of the camera must be a number from 1 to 150, not 151"),
+        ("camera.fov", "wide", "the fov of the camera must be a number from 1 to 150, not 'wide'"),
+        ("camera.azimuth", float("inf"), "the azimuth of the camera must be a number"),
+        ("pose.position.x", float("nan"), "the position of the object must be a number"),
+        ("size.width", 1e30, "the width of the picture must be a whole number"),
+        ("camera.roll", None, "the roll of the camera must be a number"),
+        ("lights.3.color", "#ffffff", "there is no number 3; there are 1"),
+    ],
+)
+def test_what_a_control_does_not_take(path: str, value: Any, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        put(PLAIN, FACTS, path, value)
+    assert message in str(error.value)
+
+
+def test_lights_come_and_go() -> None:
+    state = PLAIN
+    for count in (2, 3, 4):
+        state = add_lamp(state, FACTS)
+        assert state.lights is not None
+        assert len(state.lights) == count
+    with pytest.raises(InputError, match="up to 4 lights"):
+        add_lamp(state, FACTS)
+    assert state.lights is not None
+    kept = (*state.lights[:1], *state.lights[2:])
+    assert remove_lamp(state, FACTS, 1).lights == kept
+    with pytest.raises(InputError, match="there is no light 4"):
+        remove_lamp(state, FACTS, 4)
+    assert remove_lamp(PLAIN, FACTS, 0).lights == ()
+
+
+def test_a_group_that_is_none() -> None:
+    with pytest.raises(InputError, match="no group of controls 'engine'"):
+        reset(PLAIN, "engine")

@@ -1,0 +1,175 @@
+"""From a state to what is drawn."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, load, render
+from shackled.creator.scene import Facts, describe, filled, to_scene
+from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface
+from shackled.creator.view import bounds_of, camera_axes, camera_of, lamp_of, light_of, orbit_of
+from shackled.gas.exact import render_call
+from states import states
+
+#: One of each family of pieces, and those that are unlike the others.
+PIECES = (
+    "teapot",
+    "cornell-box",
+    "first-render",
+    "wireframe-cube",
+    "seashell",
+    "icons/coin",
+    "icons/heart",
+    "genesis/7",
+)
+
+
+def facts_of(name: str) -> tuple[Scene, Facts]:
+    scene = load(name)
+    return scene, describe(Source("piece", name), scene, name)
+
+
+@pytest.mark.parametrize("name", PIECES)
+def test_an_untouched_state_is_the_very_scene(name: str) -> None:
+    scene, facts = facts_of(name)
+    assert render_call(to_scene(State(facts.source), scene)) == render_call(scene)
+
+
+@pytest.mark.parametrize("name", ["teapot", "first-render", "genesis/7", "icons/heart", "wireframe-cube"])
+def test_what_the_controls_show_is_what_is_drawn(name: str) -> None:
+    """The numbers of the controls, taken for the scene's own, give its picture but for a few pixels on edges."""
+    scene, facts = facts_of(name)
+    assert not facts.mixed
+    shown = filled(State(facts.source), facts)
+    again = render(to_scene(shown, scene, facts.bounds)).pixels
+    assert (again != render(scene).pixels).any(axis=2).sum() < 30
+
+
+def test_objects_that_differ_are_told() -> None:
+    _, facts = facts_of("icons/coin")
+    assert facts.mixed == {"surface.shading"}
+    assert facts_of("cornell-box")[1].mixed >= {"surface.shading", "surface.ambient"}
+
+
+def test_none_is_filled_from_the_source() -> None:
+    _, facts = facts_of("genesis/7")
+    state = State(facts.source, surface=Surface(diffuse=0.5))
+    shown = filled(state, facts)
+    assert shown.surface == Surface("flat", 1, 0.5, 1.2, 10)
+    assert shown.lights == (Lamp("directional", -90.0, 0.0, color="#ffffff"),)
+    assert shown.size == Size(128, 128)
+    assert shown.surface.color is None
+    assert shown.max_triangles is None
+
+
+def test_every_field_changes_the_scene() -> None:
+    scene, facts = facts_of("icons/coin")
+    state = State(
+        facts.source,
+        pose=Pose((1, 0, 0), (0, 90, 0), 2),
+        camera=Orbit(distance=4, azimuth=-90, elevation=0, projection="orthographic", fov=90),
+        lights=(Lamp("point", 90, 0, 2, "#ff0000"), Lamp("directional", 0, 90)),
+        ambient_light="#010203",
+        surface=Surface("unlit", 1, 2, 3, 4, "#00ff00"),
+        background=Backdrop("#000001", "#000002"),
+        cull=False,
+        wireframe=True,
+        invert=True,
+        size=Size(20, 10),
+    )
+    made = to_scene(state, scene)
+    middle, radius = np.array(facts.bounds.middle), facts.bounds.radius
+    assert np.allclose(bounds_of(made).middle, middle + np.array([radius, 0, 0]), atol=radius)
+    assert made.camera.projection == "orthographic"
+    assert np.allclose(made.camera.eye, middle + np.array([-4 * radius, 0, 0]))
+    assert np.isclose(made.camera.half_height, 4 * radius)
+    assert np.allclose(made.lights[0].vector, middle + np.array([2 * radius, 0, 0]))
+    assert np.allclose(made.lights[1].vector, (0, 1, 0))
+    assert made.lights[0].color == (255, 0, 0)
+    assert made.ambient_light == (1, 2, 3)
+    assert all(o.material == Material("unlit", 1, 2, 3, 4) for o in made.objects)
+    assert all((np.asarray(o.mesh.colors) == (0, 255, 0)).all() for o in made.objects)
+    assert not any(o.cull for o in made.objects)
+    assert all(o.wireframe for o in made.objects)
+    assert made.invert
+    assert (made.background.top, made.background.bottom) == ((0, 0, 1), (0, 0, 2))
+    assert (made.width, made.height) == (20, 10)
+
+
+def test_a_pose_moves_all_objects_together() -> None:
+    mesh = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    scene = Scene([Object(mesh, (-1, 0, 0)), Object(mesh, (1, 0, 0), scale=3)])
+    bounds = bounds_of(scene)
+    made = to_scene(State(Source("piece", "x"), Pose((0.5, 0, 0), (0, 0, 90), 2)), scene)
+    for before, after in zip(scene.objects, made.objects, strict=True):
+        from_middle = np.asarray(before.position) - bounds.middle
+        expected = np.array(bounds.middle) + (0.5 * bounds.radius, 0, 0) + 2 * from_middle[[1, 0, 2]] * (-1, 1, 1)
+        assert np.allclose(after.position, expected)
+        assert after.scale == 2 * before.scale
+
+
+def test_a_camera_there_and_back() -> None:
+    scene = Scene([Object(Mesh([(-1, -2, -3), (4, 0, 1), (0, 9, 2)], [(0, 1, 2)]))])
+    bounds = bounds_of(scene)
+    for camera in (
+        Camera((3, 4, 20), (0, 1, 0)),
+        Camera((0, 30, 0), (0, 0, 0), (1, 0, 1)),
+        Camera((0, -30, 0), (0, 0, 0), (0, 0, 1)),
+        Camera((5, 5, 30), (0, 0, 0), (1, 1, 0), "orthographic", 7),
+    ):
+        again = camera_of(orbit_of(camera, bounds), bounds)
+        assert np.allclose(again.eye, camera.eye, atol=1e-3)
+        assert np.allclose(camera_axes(again), camera_axes(camera), atol=1e-6)
+        assert np.isclose(again.half_height, camera.half_height, rtol=1e-5)
+
+
+def test_a_light_there_and_back() -> None:
+    bounds = bounds_of(load("cornell-box"))
+    for light in (
+        Light("point", (1, 2, 3), "#102030"),
+        Light("directional", (1, -2, 3)),
+        Light("point", bounds.middle),
+    ):
+        again = light_of(lamp_of(light, bounds), bounds)
+        assert again.color == light.color
+        if light.kind == "point":
+            assert np.allclose(again.vector, light.vector, atol=0.01)
+        else:
+            assert np.allclose(again.vector, np.asarray(light.vector) / 14**0.5, atol=1e-5)
+
+
+def test_lights_that_follow_are_seen_from_the_same_side() -> None:
+    scene, facts = facts_of("teapot")
+    assert facts.defaults.camera is not None
+    camera = replace(facts.defaults.camera, azimuth=170.0, elevation=-30.0)
+    made = to_scene(State(facts.source, camera=camera, lights_follow=True), scene)
+    seen = [
+        camera_axes(each.camera) @ np.asarray(each.lights[0].vector) / np.linalg.norm(each.lights[0].vector)
+        for each in (scene, made)
+    ]
+    assert np.allclose(seen[0], seen[1], atol=1e-5)
+    assert not np.allclose(made.lights[0].vector, scene.lights[0].vector, atol=0.1)
+
+
+def test_fewer_triangles() -> None:
+    scene, facts = facts_of("teapot")
+    made = to_scene(State(facts.source, max_triangles=300), scene, facts.bounds)
+    assert 0 < len(np.asarray(made.objects[0].mesh.faces)) <= 300
+
+
+@settings(max_examples=60, deadline=None)
+@given(states())
+def test_any_state_can_be_drawn_or_says_why_not(state: State) -> None:
+    scene, facts = SMALL
+    size = Size(8, 8)
+    with suppress(InputError):
+        image = render(to_scene(replace(state, size=size, max_triangles=None), scene, facts.bounds))
+        assert image.pixels.shape == (8, 8, 3)
+
+
+SMALL = facts_of("tetrahedron")

@@ -1,0 +1,167 @@
+"""Minting by a wallet in the browser: one that the test plays, which stands for a chain as well."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from page_server import ARGUMENTS, Started, browser_path, creator
+from shackled.tokens.contract import Interface
+
+playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
+pytest.importorskip("nicegui", reason="the page needs nicegui")
+if browser_path() is None:
+    pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
+
+ACCOUNT, COLLECTION, HASH = "0x" + "a1" * 20, "0x" + "c0" * 20, "0x" + "7a" * 32
+CHAIN, PRICE, ICON, TOKEN = 31337, 15 * 10**15, 3, 41
+TRANSFER = "0xddf252ad1be2c89b69c2b068fc378daa952ba7f163c4a11628f55a4df523b3ef"
+
+#: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test.
+WALLET = """
+const provider = { request: async ({ method, params }) => {
+    const { result, error } = await window.answer(method, params ?? []);
+    if (error) throw new Error(error);
+    return result;
+} };
+const detail = Object.freeze({ info: { uuid: '1', name: '<b>Toy</b> wallet', rdns: 'test.toy', icon: '' }, provider });
+const announce = () => dispatchEvent(new CustomEvent('eip6963:announceProvider', { detail }));
+addEventListener('eip6963:requestProvider', announce);
+announce();
+"""
+
+
+class Chain:
+    """What the wallet answers. asked: the methods, in their order. sent: the transactions."""
+
+    def __init__(self, phase: int = 2, chain: int = CHAIN, refuses: bool = False) -> None:
+        self.phase, self.chain, self.refuses = phase, chain, refuses
+        self.icons = Interface("IconsCollection")
+        self.asked: list[str] = []
+        self.sent: list[dict[str, str]] = []
+        self.looks = 0
+
+    def answer(self, method: str, parameters: list[Any]) -> dict[str, Any]:
+        self.asked.append(method)
+        if method == "eth_requestAccounts":
+            return {"result": [ACCOUNT]}
+        if method == "eth_chainId":
+            return {"result": hex(self.chain)}
+        if method == "wallet_switchEthereumChain":
+            self.chain = int(parameters[0]["chainId"], 16)
+            return {"result": None}
+        if method == "eth_call":
+            assert parameters[0]["to"].lower() == COLLECTION
+            return {"result": "0x" + self.read(bytes.fromhex(parameters[0]["data"][2:])).hex()}
+        if method == "eth_sendTransaction":
+            if self.refuses:
+                return {"error": "User rejected the request."}
+            self.sent.append(parameters[0])
+            return {"result": HASH}
+        assert method == "eth_getTransactionReceipt"
+        self.looks += 1
+        if self.looks < 2:
+            return {"result": None}
+        topics = [TRANSFER, "0x" + "0" * 64, "0x" + ACCOUNT[2:].zfill(64), hex(TOKEN)]
+        return {"result": {"status": "0x1", "logs": [{"address": COLLECTION, "topics": topics}]}}
+
+    def read(self, data: bytes) -> bytes:
+        from eth_abi.abi import encode
+
+        number = int.from_bytes(data[4:36], "big")
+        if data == self.icons.encode("phase"):
+            return encode(["uint8"], [self.phase])
+        if data == self.icons.encode("iconCount"):
+            return encode(["uint256"], [5])
+        if data == self.icons.encode("left", number):
+            return encode(["uint256"], [7])
+        assert data == self.icons.encode("iconAt", number)
+        icon = ("Diamond" if number == ICON else f"Icon {number}", COLLECTION, 4, PRICE, 10, 0, 3, 0)
+        return encode(["(string,address,uint8,uint96,uint32,uint32,uint32,uint32)"], [icon])
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Started]:
+    book = tmp_path_factory.mktemp("book") / "addresses.json"
+    book.write_text(json.dumps({"chains": {str(CHAIN): {"IconsCollection": COLLECTION}}}))
+    with creator("icons/diamond", SHACKLED_ADDRESS_BOOK=str(book)) as started:
+        yield started
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        yield chromium
+        chromium.close()
+
+
+def open_mint(browser: Any, server: Started, chain: Chain | None) -> Any:
+    page = browser.new_context().new_page()
+    if chain is not None:
+        page.expose_function("answer", chain.answer)
+        page.add_init_script(WALLET)
+    page.goto(server.address)
+    page.wait_for_selector("#picture[data-draft=false]")
+    page.click("text=Download")
+    page.wait_for_selector("#takeaway >> text=Shackled Icons")
+    return page
+
+
+def words_of(page: Any, begin: str) -> str:
+    page.wait_for_function(
+        "begin => document.querySelector('[data-text=mint-words]').textContent.startsWith(begin)", arg=begin
+    )
+    return str(page.inner_text("[data-text=mint-words]"))
+
+
+def test_an_icon_is_minted_by_the_wallet(browser: Any, server: Started) -> None:
+    chain = Chain()
+    page = open_mint(browser, server, chain)
+    assert page.locator("#takeaway b").count() == 0  # the name of a wallet is text
+    page.click("text=Mint with <b>Toy</b> wallet")
+    assert f"token {TOKEN} of Shackled Icons" in words_of(page, "Minted")
+    (sent,) = chain.sent
+    assert sent["from"] == ACCOUNT
+    assert sent["to"].lower() == COLLECTION
+    assert int(sent["value"], 16) == PRICE
+    assert bytes.fromhex(sent["data"][2:]) == chain.icons.encode("mint", ICON, 1)
+
+
+def test_the_wallet_is_asked_to_change_the_chain(browser: Any, server: Started) -> None:
+    chain = Chain(chain=1)
+    page = open_mint(browser, server, chain)
+    page.click("text=Mint with")
+    words_of(page, "Minted")
+    assert chain.asked.count("wallet_switchEthereumChain") == 1
+
+
+@pytest.mark.parametrize(
+    ("chain", "words"),
+    [(Chain(refuses=True), "User rejected"), (Chain(phase=0), "the sale is closed")],
+    ids=["refused", "closed"],
+)
+def test_what_hinders_is_told(browser: Any, server: Started, chain: Chain, words: str) -> None:
+    page = open_mint(browser, server, chain)
+    page.click("text=Mint with")
+    assert words in words_of(page, "Not minted")
+    assert chain.sent == []
+
+
+def test_without_a_wallet(browser: Any, server: Started) -> None:
+    page = open_mint(browser, server, None)
+    assert "no wallet" in page.inner_text("#takeaway")
+
+
+def test_what_no_collection_has_is_not_offered(browser: Any, server: Started, tmp_path: Path) -> None:
+    page = open_mint(browser, server, Chain())
+    page.click("#takeaway [aria-label=Close]")
+    page.click("[data-tab=common]")
+    page.click("[data-name='piece-teapot']")
+    page.wait_for_function("() => document.querySelector('[data-text=title]').textContent.includes('teapot')")
+    page.click("text=Download")
+    page.wait_for_function("() => !document.querySelector('#takeaway').textContent.includes('Mint')")

@@ -1,0 +1,69 @@
+"""The looks."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from shackled import load, render
+from shackled.creator.change import put
+from shackled.creator.link import from_link, to_link
+from shackled.creator.presets import PRESETS, apply, preset
+from shackled.creator.scene import describe, to_scene
+from shackled.creator.state import Size, Source, State
+
+SCENE = load("suzanne")
+FACTS = describe(Source("piece", "suzanne"), SCENE, "Suzanne")
+STATE = State(FACTS.source, size=Size(48, 48))
+
+
+def picture(state: State) -> np.ndarray:
+    pixels: np.ndarray = render(to_scene(state, SCENE, FACTS.bounds)).pixels
+    return pixels
+
+
+def test_looks_differ_and_show_the_object() -> None:
+    pictures = [picture(apply(look, STATE, FACTS)) for look in PRESETS]
+    for one, other in combinations(pictures, 2):
+        assert np.abs(one.astype(int) - other).mean() > 4
+    for pixels, look in zip(pictures, PRESETS, strict=True):
+        on_object = pixels[20:28, 20:28].astype(int)
+        background = pixels[2:4, 2:4].astype(int).mean(axis=(0, 1))
+        assert np.abs(on_object - background).max() > 60, look.name
+
+
+def test_names_are_unique() -> None:
+    assert len({look.name for look in PRESETS}) == len(PRESETS) >= 8
+    assert all(preset(look.name) is look for look in PRESETS)
+    assert preset("mud") is None
+
+
+@pytest.mark.parametrize("look", PRESETS, ids=lambda look: look.name)
+def test_a_look_leaves_object_camera_and_size(look: object) -> None:
+    state = put(STATE, FACTS, "camera.azimuth", 100)
+    state = put(state, FACTS, "pose.scale", 1.5)
+    dressed = apply(look, state, FACTS)  # type: ignore[arg-type]
+    assert (dressed.source, dressed.pose, dressed.camera, dressed.size) == (
+        state.source,
+        state.pose,
+        state.camera,
+        state.size,
+    )
+    assert from_link(to_link(dressed)) == dressed
+
+
+def test_a_look_is_lit_alike_from_every_side() -> None:
+    ball = load("icosphere")
+    facts = describe(Source("piece", "icosphere"), ball, "")
+    look = preset("neon")
+    assert look is not None
+    pictures = []
+    for azimuth in (0, 90):  # the ball is the same after a quarter of a turn
+        state = put(State(facts.source), facts, "camera.azimuth", azimuth)
+        state = put(state, facts, "camera.elevation", 0)
+        for axis in "xyz":
+            state = put(state, facts, f"camera.target.{axis}", 0)
+        pictures.append(render(to_scene(apply(look, state, facts), ball)).pixels.astype(int))
+    assert np.abs(pictures[0] - pictures[1]).mean() < 12

@@ -1,0 +1,290 @@
+"""What is taken home makes the same picture again."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import io
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from shackled import Image, InputError, Scene, load, render
+from shackled.chain import open_chain
+from shackled.chain.chain import returned_bytes
+from shackled.chain.embedded import EmbeddedChain
+from shackled.cli.app import run
+from shackled.creator.change import put
+from shackled.creator.picture import File
+from shackled.creator.presets import apply, preset
+from shackled.creator.scene import Facts, describe, to_scene
+from shackled.creator.solidity_contract import contract_name
+from shackled.creator.state import Size, Source, State
+from shackled.creator.store import Stored
+from shackled.creator.subject import Subject
+from shackled.creator.takeaway import KINDS, make
+from shackled.gas.exact import render_call
+from shackled.render import simplify_scene
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+SOLC = ROOT / "contracts" / "node_modules" / "solc"
+
+
+def chain() -> EmbeddedChain:
+    found = open_chain()
+    assert isinstance(found, EmbeddedChain)
+    return found
+
+
+class Picture:
+    """A piece, as it comes or in another look, and what is taken home of it."""
+
+    def __init__(self, name: str, look: str = "", scene: Scene | None = None, source: Source | None = None) -> None:
+        self.source = load(name) if scene is None else scene
+        self.facts = describe(source or Source("piece", name), self.source, name)
+        self.state = State(self.facts.source)
+        if look:
+            self.state = dressed(self.state, self.facts, look)
+
+    @property
+    def scene(self) -> Scene:
+        return to_scene(self.state, self.source, self.facts.bounds)
+
+    @property
+    def image(self) -> Image:
+        return render(self.scene)
+
+    def take(self, kind: str, **settings: Any) -> File:
+        return make(kind, self.subject(**settings), chain())
+
+    def subject(self, **settings: Any) -> Subject:
+        return Subject(self.state, self.facts, self.source, self.scene, **settings)
+
+
+def dressed(state: State, facts: Facts, look: str) -> State:
+    """Everything that can be different."""
+    found = preset(look)
+    assert found is not None
+    state = apply(found, state, facts)
+    for path, value in {
+        "camera.azimuth": 33.3,
+        "camera.projection": "orthographic",
+        "pose.rotation.y": 20,
+        "pose.position.x": 0.1,
+        "lights_follow": True,
+        "size.width": 40,
+        "size.height": 32,
+    }.items():
+        state = put(state, facts, path, value)
+    return state
+
+
+PICTURES = [("tetrahedron", ""), ("icons/coin", "neon"), ("genesis/7", "xray"), ("cornell-box", "blueprint")]
+
+
+@pytest.mark.parametrize("name", ["teapot", "icons/coin", "genesis/3"])
+def test_an_untouched_picture_is_that_of_the_command_line(name: str, tmp_path: Path, capsys: Any) -> None:
+    assert run(["render", name, "-o", str(tmp_path / "a.bmp")]) == 0
+    capsys.readouterr()
+    file = Picture(name).take("bmp")
+    assert file.data == (tmp_path / "a.bmp").read_bytes()
+    assert file.name == f"{name.replace('/', '-')}.bmp"
+
+
+@pytest.mark.parametrize("scale", [1, 2, 8])
+def test_a_png_is_crisp(scale: int) -> None:
+    picture = Picture("tetrahedron", "clay")
+    with PillowImage.open(io.BytesIO(make("png", picture.subject(), chain(), scale).data)) as png:
+        pixels = np.asarray(png.convert("RGB"))
+    assert (pixels == picture.image.pixels.repeat(scale, axis=0).repeat(scale, axis=1)).all()
+
+
+def test_an_svg_is_that_of_the_contract() -> None:
+    picture = Picture("tetrahedron")
+    from shackled.artifacts import artifact
+
+    data = artifact("Renderer").selectors["renderSVG"] + render_call(picture.scene)[4:]
+    assert picture.take("svg").data == returned_bytes(chain().call("Renderer", data).output, 0)
+
+
+@pytest.mark.parametrize(("name", "look"), PICTURES)
+def test_a_scene_file_loads_again(name: str, look: str, tmp_path: Path) -> None:
+    picture = Picture(name, look)
+    file = picture.take("scene")
+    (tmp_path / file.name).write_bytes(file.data)
+    assert render(load(tmp_path / file.name)).bmp == picture.image.bmp
+
+
+def test_calldata() -> None:
+    picture = Picture("icons/coin", "gold")
+    data = bytes.fromhex(picture.take("calldata").data.decode().strip().removeprefix("0x"))
+    assert returned_bytes(chain().call("Renderer", data).output, 0) == picture.image.bmp
+
+
+@pytest.mark.parametrize("kind", ["cast", "cast-anywhere"])
+def test_a_line_for_cast(kind: str) -> None:
+    picture = Picture("icons/coin", "gold")
+    line = picture.take(kind).data.decode()
+    match = re.fullmatch(
+        r"cast call (0x[0-9a-f]{40}) (0x[0-9a-f]+)((?: --override-code 0x[0-9a-f]{40}:0x[0-9a-f]+)*)"
+        r' --rpc-url "\$\{ETH_RPC_URL:-http://127.0.0.1:8545\}" \| cut -c131- \| xxd -r -p'
+        r" \| head -c (\d+) > icons-coin.bmp\n",
+        line,
+    )
+    assert match
+    assert bytes.fromhex(match[1][2:]) == chain().address("Renderer")
+    assert match[2] == picture.take("calldata").data.decode().strip()
+    codes = dict(each.split(":") for each in match[3].split(" --override-code ")[1:])
+    assert len(codes) == (0 if kind == "cast" else 2)
+    assert all(chain().codes()[bytes.fromhex(place[2:])].hex() == code[2:] for place, code in codes.items())
+    # what the shell makes of the answer
+    answer = "0x" + chain().call("Renderer", bytes.fromhex(match[2][2:])).output.hex()
+    assert bytes.fromhex(answer[130:])[: int(match[4])] == picture.image.bmp
+
+
+def test_a_line_that_no_shell_takes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.creator.cast_command.MAX_ARGUMENT", 10_001)
+    with pytest.raises(InputError, match="bytes, too many for a command line, which takes 4,999"):
+        Picture("icons/coin").take("cast")
+
+
+@pytest.mark.parametrize(("name", "look"), PICTURES)
+def test_the_python_snippet_makes_the_picture(name: str, look: str, tmp_path: Path) -> None:
+    picture = Picture(name, look)
+    file = picture.take("python", link="http://127.0.0.1/#1abc")
+    assert file.data.startswith(b"# http://127.0.0.1/#1abc\nimport hashlib\n")
+    (tmp_path / file.name).write_bytes(file.data)
+    subprocess.run([sys.executable, file.name], cwd=tmp_path, check=True, capture_output=True)
+    with PillowImage.open(tmp_path / file.name.replace(".py", ".png")) as png:
+        assert (np.asarray(png.convert("RGB")) == picture.image.pixels).all()
+
+
+def test_the_python_snippet_of_an_upload(tmp_path: Path) -> None:
+    mesh = load("icosphere").objects[0].mesh
+    name = "a 'b' \"c\".obj"
+    rows = [f"v {x} {y} {z}" for x, y, z in np.asarray(mesh.positions).tolist()]
+    rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in np.asarray(mesh.faces).tolist()]
+    data = "\n".join(rows).encode()
+    (tmp_path / name).write_bytes(data)
+    scene = simplify_scene(load(tmp_path / name), 200)
+    source = Source("upload", hashlib.sha256(data).hexdigest())
+    picture = Picture(name, scene=scene, source=source)
+    picture.state = put(picture.state, picture.facts, "max_triangles", 90)
+    stored = Stored(name, b"", picture.facts, 200, data)
+    assert picture.take("file", stored=stored) == File(name, "application/octet-stream", data)
+    file = picture.take("python", stored=stored)
+    assert file.name == "a-b-c.py"
+    (tmp_path / "a.py").write_bytes(file.data)
+    subprocess.run([sys.executable, "a.py"], cwd=tmp_path, check=True, capture_output=True)
+    changed = (tmp_path / "a.py").read_text().replace("scene, 90", "scene, 80")
+    (tmp_path / "b.py").write_text(changed)
+    assert subprocess.run([sys.executable, "b.py"], cwd=tmp_path, check=False, capture_output=True).returncode != 0
+
+
+def test_the_python_snippet_of_an_archive_takes_the_scene_file(tmp_path: Path) -> None:
+    picture = Picture("icons/coin", "neon", source=Source("upload", "ab" * 32))
+    stored = Stored("coins.zip", b"", picture.facts, None, b"")
+    for kind in ("python", "scene"):
+        file = picture.take(kind, stored=stored)
+        (tmp_path / file.name).write_bytes(file.data)
+    (program,) = tmp_path.glob("*.py")
+    subprocess.run([sys.executable, program.name], cwd=tmp_path, check=True, capture_output=True)
+
+
+@pytest.mark.parametrize(
+    ("stem", "name"), [("icons-coin", "IconsCoin"), ("3d", "Picture3d"), ("scene", "PictureScene"), ("a-1", "A1")]
+)
+def test_names_of_contracts(stem: str, name: str) -> None:
+    assert contract_name(stem) == name
+
+
+@pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
+def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a scene that a contract holds, and of one whose meshes are brought by the caller."""
+    pictures = [Picture("icosahedron", "neon"), Picture("first-render")]
+    sources = []
+    for picture, most in zip(pictures, (10**9, 0), strict=True):
+        monkeypatch.setattr("shackled.creator.solidity_contract.MAX_CONSTANT", most)
+        sources.append(picture.take("solidity", link="http://127.0.0.1/#1abc").data.decode())
+    evm, place = chain(), b"\x7e" * 20
+    for picture, (creation, selectors) in zip(pictures, compiled(sources), strict=True):
+        ((signature, selector),) = ((key, value) for key, value in selectors.items() if key.startswith("bitmap("))
+        arguments = meshes(picture.scene) if "bytes[]" in signature else b""
+        evm._codes[place] = evm._create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
+        try:
+            output = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
+        finally:
+            del evm._codes[place]
+        assert returned_bytes(output, 0) == picture.image.bmp
+    assert ["bytes[] calldata" in source for source in sources] == [False, True]
+
+
+def meshes(scene: Scene) -> bytes:
+    """The packed meshes as the argument of type bytes[]."""
+    from eth_abi.abi import encode
+
+    from shackled.scene.fit import fit
+    from shackled.scene.packed_mesh import pack
+
+    packed = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fit(scene).objects]
+    return encode(["bytes[]"], [packed])
+
+
+def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
+    """Creation code and selectors of the contract in each source, compiled as a user would, from the npm package."""
+    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
+    assert spec is not None
+    assert spec.loader is not None
+    tool = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tool)
+    folder = ROOT / "contracts" / "src"
+    ours = [path for path in folder.rglob("*.sol") if path.relative_to(folder).parts[0] not in tool.GROUPS]
+    sources = {f"shackled/contracts/src/{path.relative_to(folder).as_posix()}": path.read_text() for path in ours}
+    names = [f"{number}.sol" for number in range(len(contracts))]
+    sources |= dict(zip(names, contracts, strict=True))
+    request = {
+        "language": "Solidity",
+        "sources": {name: {"content": content} for name, content in sources.items()},
+        "settings": tool.SETTINGS | {"outputSelection": {name: {"*": tool.OUTPUTS} for name in names}},
+    }
+    output = tool.run_compiler(json.dumps(request))["contracts"]
+    found = []
+    for name in names:
+        (contract,) = output[name].values()
+        assert len(contract["evm"]["deployedBytecode"]["object"]) / 2 <= tool.MAX_RUNTIME_SIZE
+        selectors = contract["evm"]["methodIdentifiers"]
+        found.append((bytes.fromhex(contract["evm"]["bytecode"]["object"]), selectors))
+    return found
+
+
+def test_what_is_not_there() -> None:
+    picture = Picture("tetrahedron")
+    with pytest.raises(InputError, match="there is nothing of the kind 'gold' to take; there are png, bmp, svg"):
+        picture.take("gold")
+    with pytest.raises(InputError, match="not made of a file that was handed in"):
+        picture.take("file")
+    with pytest.raises(InputError, match="a PNG can be 1, 2, 3, 4, 6, 8 times as large, not 9"):
+        make("png", picture.subject(), chain(), 9)
+    picture.state = put(picture.state, picture.facts, "size.width", 600)
+    with pytest.raises(InputError, match="up to 4,096 pixels a side: choose a smaller scale than 8"):
+        make("png", picture.subject(), chain(), 8)
+
+
+def test_each_kind_is_made() -> None:
+    picture = Picture("tetrahedron")
+    picture.state = put(picture.state, picture.facts, "size.width", 8)
+    picture.state = put(picture.state, picture.facts, "size.height", 8)
+    assert picture.state.size == Size(8, 8)
+    for kind in KINDS:
+        if kind.name != "file":
+            file = picture.take(kind.name)
+            assert file.name == f"tetrahedron{kind.extension}"
+            assert file.media_type == kind.media_type
+            assert not kind.is_text or file.data.decode("ascii").endswith("\n")

@@ -1,0 +1,302 @@
+"""What a visitor is sent, by a pool that the test holds in its hands."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Coroutine
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+import pytest
+
+pytest.importorskip("nicegui", reason="the page needs nicegui")
+
+from shackled.creator.picture import Frame
+from shackled.creator.pool import Pool
+from shackled.creator.scene import Facts, describe
+from shackled.creator.state import Source, State
+from shackled.creator.web import visitor as module
+from shackled.creator.web.actions import ACTIONS, act
+from shackled.creator.web.keys import KEYS
+from shackled.creator.web.visitor import Visitor
+from shackled.datasets import require
+from shackled.errors import InputError, RenderError
+
+SOURCE = Source("piece", "icons/diamond")
+
+
+def facts_of(source: Source) -> Facts:
+    return describe(source, require(source.name).make(), source.name)
+
+
+@dataclass
+class Asked:
+    state: State
+    longest: int | None
+    answer: asyncio.Future[Frame | None]
+
+
+@dataclass
+class SlowPool:
+    """Answers when the test says so. asked: pictures that are wanted, without those of the looks."""
+
+    asked: list[Asked] = field(default_factory=list)
+    left: list[str] = field(default_factory=list)
+    absent: set[Source] = field(default_factory=set)
+
+    async def render(self, visitor: str, state: State, longest: int | None = None, count: bool = True) -> Frame | None:
+        if visitor.endswith("looks"):
+            return None
+        self.asked.append(Asked(state, longest, asyncio.get_running_loop().create_future()))
+        return await self.asked[-1].answer
+
+    async def open(self, source: Source, visitor: str = "") -> Facts:
+        if source in self.absent:
+            raise InputError("it is not here")
+        return facts_of(source)
+
+    def leave(self, visitor: str) -> None:
+        self.left.append(visitor)
+
+
+def frame(side: int = 8) -> Frame:
+    return Frame(b"png", b"bmp", side, side, 1_234_567, 21_000, 3, 40, 500, "", 0.01, ())
+
+
+class Page:
+    """What was sent to the page."""
+
+    def __init__(self) -> None:
+        self.messages: list[dict[str, Any]] = []
+        self.pictures: list[dict[str, Any]] = []
+
+    async def send(self, message: dict[str, Any] | bytes) -> None:
+        if isinstance(message, bytes):
+            length = int.from_bytes(message[:4], "big")
+            self.pictures.append(json.loads(message[4 : 4 + length]))
+            assert message[4 + length :] == b"bmp"
+        else:
+            self.messages.append(message)
+
+    def said(self, kind: str) -> list[Any]:
+        return [message[kind] for message in self.messages if kind in message]
+
+
+async def turn() -> None:
+    for _ in range(10):
+        await asyncio.sleep(0)
+
+
+def play(story: Any) -> None:
+    async def run() -> None:
+        pool, page = SlowPool(), Page()
+        visitor = Visitor("v", cast(Pool, pool), State(SOURCE), facts_of(SOURCE))
+        await visitor.join(page.send)
+        await turn()
+        await cast(Coroutine[Any, Any, None], story(visitor, pool, page))
+        visitor.leave(page.send)
+
+    asyncio.run(run())
+
+
+async def answer(asked: Asked, picture: Frame | None = None) -> None:
+    asked.answer.set_result(picture or frame())
+    await turn()
+
+
+ORBIT = {"do": "orbit", "x": 0.1, "y": 0.0}
+
+
+def test_who_joins_is_sent_everything() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        first = page.messages[0]
+        assert first["values"]["camera.azimuth"]["changed"] is False
+        assert first["link"].startswith("/?p=")
+        assert first["attributes"]["undo"] == {"disabled": ""}
+        await answer(pool.asked[0])
+        assert page.pictures[0]["draft"] is False
+        assert page.pictures[0]["show"]["texts"]["gas"] == "1,234,567"
+
+    play(story)
+
+
+def test_of_many_movements_the_last_is_drawn() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await answer(pool.asked[0])
+        for _ in range(20):
+            await act(visitor, ORBIT)
+            await turn()
+        assert len(pool.asked) == 2
+        await answer(pool.asked[1])
+        assert len(pool.asked) == 3
+        assert pool.asked[2].state == visitor.state
+        assert all(each.longest is not None for each in pool.asked[1:])
+        await answer(pool.asked[2])
+        assert len(pool.asked) == 3
+        assert [each["moves"] for each in page.pictures] == [0, 1, 20]
+
+    play(story)
+
+
+def test_when_it_rests_it_is_drawn_in_full() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await answer(pool.asked[0])
+        await act(visitor, ORBIT)
+        await turn()
+        await act(visitor, {"do": "rest"})
+        await answer(pool.asked[1])
+        assert pool.asked[2].longest is None
+        assert pool.asked[2].state == visitor.state
+        await answer(pool.asked[2])
+        assert [each["draft"] for each in page.pictures] == [False, True, False]
+
+    play(story)
+
+
+def test_it_rests_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "REST", 0.01)
+
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await answer(pool.asked[0])
+        await act(visitor, ORBIT)
+        await turn()
+        await answer(pool.asked[1])
+        await asyncio.sleep(0.05)
+        assert pool.asked[-1].longest is None
+
+    play(story)
+
+
+def test_a_full_picture_gives_way_to_a_movement() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await act(visitor, ORBIT)  # the first picture is still in work
+        await turn()
+        assert pool.asked[1].longest == module.DRAFT
+        await answer(pool.asked[0])  # too late
+        assert page.pictures == []
+        await answer(pool.asked[1])
+        assert len(page.pictures) == 1
+
+    play(story)
+
+
+def test_a_drag_is_one_step_of_undo() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        before = visitor.state
+        for _ in range(5):
+            await act(visitor, ORBIT)
+        await act(visitor, {"do": "rest"})
+        await act(visitor, ORBIT)
+        await act(visitor, {"do": "undo"})
+        await act(visitor, {"do": "undo"})
+        assert visitor.state == before
+        assert not visitor.history.can_undo
+
+    play(story)
+
+
+def test_what_is_not_here_any_more_is_not_undone() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await act(visitor, {"do": "piece", "name": "icons/heart"})
+        now = visitor.state
+        pool.absent.add(SOURCE)
+        await act(visitor, {"do": "undo"})
+        assert page.said("alert") == ["it is not here"]
+        assert visitor.state == now
+        assert visitor.facts.source == now.source
+        pool.absent.clear()
+        await act(visitor, {"do": "undo"})
+        assert visitor.state == State(SOURCE)
+
+    play(story)
+
+
+def test_what_a_contract_refuses_is_told() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        pool.asked[0].answer.set_exception(RenderError("too much gas"))
+        await turn()
+        assert page.said("alert") == ["too much gas"]
+        await act(visitor, {"do": "cycle", "path": "invert"})
+        await turn()
+        await answer(pool.asked[1])
+        assert len(page.pictures) == 1
+
+    play(story)
+
+
+def test_who_leaves_is_drawn_nothing() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        visitor.leave(page.send)
+        assert "v" in pool.left
+        await act(visitor, ORBIT)
+        await turn()
+        assert len(pool.asked) == 1
+        assert page.pictures == []
+
+    play(story)
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        None,
+        [],
+        "orbit",
+        {},
+        {"do": None},
+        {"do": ["orbit"]},
+        {"do": "nothing"},
+        {"do": "orbit"},
+        {"do": "orbit", "x": float("nan"), "y": 0},
+        {"do": "orbit", "x": "1", "y": 0},
+        {"do": "orbit", "x": True, "y": 0},
+        {"do": "put"},
+        {"do": "put", "path": "camera.fov", "value": "wide"},
+        {"do": "put", "path": "camera.fov", "value": None},
+        {"do": "put", "path": "camera.fov", "value": [1]},
+        {"do": "put", "path": "camera.projection", "value": "oblique"},
+        {"do": "put", "path": "surface.color", "value": "red"},
+        {"do": "put", "path": "lights.3.azimuth", "value": 1},
+        {"do": "put", "path": "source", "value": 1},
+        {"do": "put", "path": "__class__", "value": 1},
+        {"do": "lamp", "number": 9, "x": 0, "y": 0},
+        {"do": "remove-lamp", "number": -1},
+        {"do": "reset", "path": "nothing"},
+        {"do": "reset-group", "group": "nothing"},
+        {"do": "look", "name": "nothing"},
+        {"do": "piece", "name": "../../etc/passwd"},
+        {"do": "piece", "name": 7},
+        {"do": "seed", "text": "<script>"},
+        {"do": "size", "side": -3},
+        {"do": "cycle", "path": "camera.fov"},
+        {"do": "gif", "frames": None, "scale": 1},
+        {"do": "mint", "wallet": 0},
+        {"do": "wallets", "names": [1]},
+        {"do": "answer", "id": [], "result": 1},
+    ],
+)
+def test_what_strangers_send_changes_nothing(message: object) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        before = visitor.state
+        await act(visitor, message)
+        assert visitor.state == before
+        assert all("\n" not in words for words in page.said("alert"))
+
+    play(story)
+
+
+def test_every_key_does_something_that_there_is() -> None:
+    for key in KEYS:
+        assert "open" in key.does or key.does["do"] in ACTIONS
+    names = [name for key in KEYS for name in key.names]
+    assert len(names) == len(set(names))
+
+
+@pytest.mark.parametrize("key", [key for key in KEYS if key.does.get("do") not in (None, "stages", "takeaway", "node")])
+def test_every_key_is_understood(key: Any) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await act(visitor, key.does)
+        assert page.said("alert") == []
+
+    play(story)

@@ -1,0 +1,82 @@
+"""The Creator as it is started by its command, and a browser that looks at it."""
+
+from __future__ import annotations
+
+import base64
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+BROWSERS = ("chromium", "chromium-browser")
+#: It must not look for updates, or ask for anything but the page.
+ARGUMENTS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+
+
+@dataclass(frozen=True)
+class Started:
+    """A server. address: of the page. at: when its process was started, by `time.monotonic`."""
+
+    address: str
+    at: float
+    process: subprocess.Popen[str]
+
+
+def browser_path() -> str | None:
+    """Where a browser is, if there is one."""
+    return next((path for path in map(shutil.which, BROWSERS) if path), None)
+
+
+@contextmanager
+def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
+    """The server of `shackled creator`; port 0 is any that is free. variables: of its environment."""
+    # NiceGUI behaves in another way where it believes to be under test
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+    # what somebody has deployed on this machine is no part of it
+    environment |= {"SHACKLED_ADDRESS_BOOK": str(Path(__file__).parent / "no-address-book.json")} | variables
+    at = time.monotonic()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "shackled", "creator", "--no-browser", "--port", port, *arguments],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=environment,
+    )
+    try:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        found = re.search(r"http://\S+", line)
+        assert found, f"the Creator said {line!r}"
+        yield Started(found[0], at, process)
+    finally:
+        process.terminate()
+        process.communicate(timeout=20)
+
+
+def pixels(page: Any) -> bytes:
+    """What the canvas shows: red, green, blue, rows from the top."""
+    data = page.evaluate(
+        """() => {
+            const canvas = document.getElementById('picture');
+            const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d');
+            copy.drawImage(canvas, 0, 0);
+            const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+            let text = '';
+            for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i], data[i + 1], data[i + 2]);
+            return btoa(text);
+        }"""
+    )
+    return base64.b64decode(data)

@@ -1,0 +1,73 @@
+"""Any state, for tests of properties."""
+
+from __future__ import annotations
+
+from hypothesis import strategies as st
+
+from shackled.creator.controls import control
+from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface
+
+
+def numbers(path: str) -> st.SearchStrategy[float]:
+    """What a control takes."""
+    of = control(path)
+    if of.whole:
+        return st.integers(int(of.low), int(of.high))
+    return st.floats(of.low, of.high).map(lambda value: value + 0.0)
+
+
+def vectors(path: str) -> st.SearchStrategy[tuple[float, float, float]]:
+    """Three of them."""
+    return st.tuples(*(numbers(f"{path}.{axis}") for axis in "xyz"))
+
+
+colors = st.integers(0, 0xFFFFFF).map("#{:06x}".format)
+flags = st.none() | st.booleans()
+
+
+def states() -> st.SearchStrategy[State]:
+    """Of any source."""
+    names = st.sampled_from(["teapot", "icons/coin", "genesis/7", "genesis/" + "0f" * 32])
+    sources = st.builds(Source, st.just("piece"), names) | st.builds(
+        Source, st.just("upload"), st.binary(min_size=32, max_size=32).map(bytes.hex)
+    )
+    orbits = st.builds(
+        Orbit,
+        vectors("camera.target"),
+        numbers("camera.distance"),
+        numbers("camera.azimuth"),
+        numbers("camera.elevation"),
+        numbers("camera.roll"),
+        st.sampled_from(["perspective", "orthographic"]),
+        numbers("camera.fov"),
+    )
+    lamps = st.builds(
+        Lamp,
+        st.sampled_from(["directional", "point"]),
+        numbers("lights.0.azimuth"),
+        numbers("lights.0.elevation"),
+        numbers("lights.0.distance"),
+        colors,
+    )
+    surfaces = st.builds(
+        Surface,
+        st.none() | st.sampled_from(["unlit", "flat", "smooth"]),
+        *(st.none() | numbers(f"surface.{name}") for name in ("ambient", "diffuse", "specular", "shininess")),
+        st.none() | colors,
+    )
+    return st.builds(
+        State,
+        sources,
+        st.builds(Pose, vectors("pose.position"), vectors("pose.rotation"), numbers("pose.scale")),
+        st.none() | orbits,
+        st.none() | st.lists(lamps, max_size=4).map(tuple),
+        st.booleans(),
+        st.none() | colors,
+        surfaces,
+        st.none() | st.builds(Backdrop, colors, colors),
+        flags,
+        flags,
+        flags,
+        st.none() | st.builds(Size, numbers("size.width"), numbers("size.height")),
+        st.none() | numbers("max_triangles"),
+    )
