@@ -12,7 +12,6 @@ import statistics
 import sys
 from pathlib import Path
 
-from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.genesis import seed_of
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -117,7 +116,7 @@ def token_uris(s: object, seeds: int) -> Figures:
     for number in range(seeds):
         _, data = s.metadata.encode("tokenURI", (number, seed_of(number)))
         receipt = s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, [])
-        gas.append(receipt.gas - intrinsic_gas(data))
+        gas.append(receipt.execution)
         lengths.append(int.from_bytes(receipt.output[32:64], "big"))
     figures = {}
     for name, values in (("tokenURI", gas), ("tokenURI, bytes", lengths)):

@@ -116,6 +116,14 @@ def test_the_command_writes_pictures(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert "compositing, 32 x 32 pixels" in capsys.readouterr().out
 
 
+def test_the_command_takes_the_look_of_render(tmp_path: Path) -> None:
+    look = ["--size", "24", "--light", "point:1,2,3:#ff8800", "--background", "#102030,#405060", "--orthographic"]
+    assert run(["stages", "teapot", "-o", str(tmp_path), *look]) == 0
+    assert run(["render", "teapot", "-o", str(tmp_path / "whole.png"), *look]) == 0
+    with PillowImage.open(tmp_path / "6-picture.png") as one, PillowImage.open(tmp_path / "whole.png") as other:
+        assert (np.asarray(one.convert("RGB")) == np.asarray(other.convert("RGB"))).all()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import xml.etree.ElementTree as ElementTree
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
 import pytest
+import typer
 
 from nodes import anvil, needs_anvil
 
@@ -15,7 +17,9 @@ pytest.importorskip("eth", reason="stages need py-evm")
 pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
 
 from shackled import load, render
-from shackled.cli.app import run
+from shackled.cli.app import app, run
+from shackled.cli.look_options import chosen_look
+from shackled.datasets import Piece
 from shackled.gas import trace
 from shackled.gas.stages import STAGES
 
@@ -77,6 +81,41 @@ def test_the_look_changes_the_gas(capsys: pytest.CaptureFixture[str]) -> None:
         assert report(capsys, "--no-stages", *options)["gas"] != plain
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--light", "point:1,2,3:#ff0000", "--light", "directional:0,0,1", "--background", "#102030,#405060"),
+        ("--eye", "2,1,4", "--target", "0,0.2,0", "--up", "0,1,0.1", "--fov", "30", "--near", "0.5"),
+        ("--orthographic", "--half-height", "0.7", "--invert", "--max-triangles", "3"),
+        ("--shading", "smooth", "--specular", "0.9", "--shininess", "9", "--ambient", "0", "--diffuse", "2"),
+        ("--color", "#c8553d", "--unlit", "--no-cull", "--rotate", "20,30,40"),
+    ],
+)
+def test_the_look_is_that_of_render(capsys: pytest.CaptureFixture[str], options: tuple[str, ...]) -> None:
+    found = report(capsys, "--no-stages", *options)
+    assert run(["render", "shape.obj", "-o", "out.png", "--json", "--size", "20x12", *options]) == 0
+    image = json.loads(capsys.readouterr().out)
+    for key in ("gas", "intrinsic_gas", "triangles", "lit_pixels"):
+        assert found[key] == image[key]
+    assert found["gas"] != report(capsys, "--no-stages")["gas"]
+
+
+def test_the_options_of_a_look_are_the_same_everywhere() -> None:
+    commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    options = {name: {o for p in commands[name].params for o in p.opts} for name in ("render", "gas", "stages")}
+    look = {"--" + name.replace("_", "-") for name in signature(chosen_look).parameters}
+    assert len(look) > 20
+    for given in options.values():
+        assert look <= given
+
+
+def test_who_made_a_piece_is_said_once(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    piece = Piece("set/shape", "set", "A shape", "CC BY 4.0", lambda: load("shape.obj"), credit="Somebody")
+    monkeypatch.setattr("shackled.cli.gas.locate", lambda _: piece)
+    assert run(["gas", "set/shape", "--json", "--no-stages", "--size", "8"]) == 0
+    assert capsys.readouterr().err == "set/shape: A shape by Somebody; licence: CC BY 4.0\n"
+
+
 def test_tables_for_people(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["gas", "shape.obj", "--size", "16", "--eth-price", "2500"]) == 0
     output, messages = capsys.readouterr()
@@ -114,6 +153,9 @@ def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> No
     assert "--eth-price" in error(capsys, 2, "--eth-price", "nan")
     assert "0 <= lower < upper" in error(capsys, 2, "--no-stages", "--lower", "9", "--upper", "9")
     assert "1,000, the upper limit of the search" in error(capsys, 1, "--no-stages", "--upper", "1000")
+    assert "--light must be" in error(capsys, 2, "--light", "lamp:1,2,3")
+    assert "--background must be" in error(capsys, 2, "--background", "#000000,#111111,#222222")
+    assert "--fov and --half-height" in error(capsys, 2, "--no-stages", "--fov", "30", "--half-height", "1")
     assert run(["gas", "missing.obj"]) == 2
 
 

@@ -1,7 +1,8 @@
 """A chain with state in this process: accounts, blocks with headers, contracts by name, exact gas.
 
 pyrevm keeps addresses and slots warm from call to call. So each transaction runs in an EVM of its own, set up from what
-is kept here: its gas is that of a real chain, and going back to an earlier state is a copy.
+is kept here, cold: its gas is that of a real chain, and going back to an earlier state is a copy. The rules are those
+of Cancun, with two of Prague that matter here: hashes of older blocks (EIP-2935), and the price of data (EIP-7623).
 """
 
 from __future__ import annotations
@@ -39,6 +40,11 @@ def keccak(data: bytes) -> bytes:
     return _keccak.new(digest_bits=256, data=data).digest()
 
 
+def least_gas(data: bytes) -> int:
+    """What a transaction with this data costs at least, whatever it executes: EIP-7623."""
+    return 21_000 + 10 * data.count(0) + 40 * (len(data) - data.count(0))
+
+
 def account(name: str) -> str:
     """An address that nothing else has."""
     return "0x" + keccak(name.encode())[12:].hex()
@@ -62,9 +68,12 @@ class Account:
 
 @dataclass(frozen=True)
 class Receipt:
-    """What a transaction did. gas: of all of it, intrinsic gas too. events: name and values of each that is known."""
+    """What a transaction did. gas: of all of it, intrinsic gas too. execution: without that, as a call needs it.
+    events: name and values of each that is known.
+    """
 
     gas: int
+    execution: int
     output: bytes
     events: list[tuple[str, dict[str, Any]]]
 
@@ -159,20 +168,20 @@ class World:
         except RuntimeError as error:
             raise _refusal(str(error), built.abi) from None
         self._keep(evm)
-        return Contract(self, address.lower(), built.abi, evm.result.gas_used)
+        return Contract(self, address.lower(), built.abi, max(evm.result.gas_used, least_gas(data)))
 
     def run(
         self, sender: str, to: str, data: bytes, value: int, gas: int, keep: bool, abi: list[dict[str, Any]]
     ) -> Receipt:
-        evm = self._evm()
-        limit = gas + intrinsic_gas(data)
+        evm, intrinsic = self._evm(), intrinsic_gas(data)
         try:
-            output = bytes(evm.message_call(sender, to, data, value, limit))
+            output = bytes(evm.message_call(sender, to, data, value, gas + intrinsic))
         except RuntimeError as error:
             raise _refusal(str(error), abi) from None
         if keep:
             self._keep(evm)
-        return Receipt(evm.result.gas_used, output, _events(evm.result.logs, abi))
+        used = evm.result.gas_used
+        return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(evm.result.logs, abi))
 
     def _evm(self) -> Any:
         evm = pyrevm.EVM(spec_id="Cancun", env=pyrevm.Env(cfg=pyrevm.CfgEnv(chain_id=self.chain_id)))
@@ -182,11 +191,13 @@ class World:
             )
         )
         for address, each in self.accounts.items():
-            evm.insert_account_info(address, pyrevm.AccountInfo(nonce=each.nonce, code=each.code or None))
-            if each.balance:
-                evm.set_balance(address, each.balance)
+            info = pyrevm.AccountInfo(balance=each.balance, nonce=each.nonce, code=each.code or None)  # type: ignore[call-arg]
+            evm.insert_account_info(address, info)
             for slot, value in each.storage.items():
+                # a slot leaves its account warm, and then the slots after it: going back makes it cold, and keeps it
+                before = evm.snapshot()
                 evm.insert_account_storage(address, slot, value)
+                evm.revert(before)
         return evm
 
     def _keep(self, evm: Any) -> None:
@@ -221,7 +232,7 @@ class Contract:
     def gas_of(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0) -> int:
         """The gas of the execution of a call, without intrinsic gas."""
         _, data = self.encode(function, arguments)
-        return self.world.run(sender, self.address, data, value, GAS, False, self.abi).gas - intrinsic_gas(data)
+        return self.world.run(sender, self.address, data, value, GAS, False, self.abi).execution
 
     def send(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Receipt:
         """A transaction."""

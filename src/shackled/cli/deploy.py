@@ -13,14 +13,11 @@ import typer
 from ..chain.addresses import show_address
 from ..chain.connection import PATIENCE, Connection
 from ..errors import InputError
+from .option import option
 from .payer import PASSWORD, ask, open_signer
 
 if TYPE_CHECKING:
     from ..deploy import Plan, Receipt, Step
-
-
-def _option(name: str, text: str, kind: str | None = None) -> Any:
-    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False)
 
 
 def deploy(
@@ -30,25 +27,23 @@ def deploy(
     ] = None,
     account: Annotated[
         Path | None,
-        _option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
+        option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
     ] = None,
     private_key_env: Annotated[
-        str | None, _option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
+        str | None, option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
     ] = None,
     contracts: Annotated[
-        str | None, _option("--contracts", "Which, with commas; else all. Those that they call are added.", "NAMES")
+        str | None, option("--contracts", "Which, with commas; else all. Those that they call are added.", "NAMES")
     ] = None,
-    chain_id: Annotated[int | None, _option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
-    yes: Annotated[bool, _option("--yes -y", "Do not ask.")] = False,
-    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
+    chain_id: Annotated[int | None, option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
+    yes: Annotated[bool, option("--yes -y", "Do not ask.")] = False,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
     standard_json: Annotated[
         Path | None,
-        _option(
-            "--standard-json", "The folder for what verifies the sources; else deployed-CHAIN, in this one.", "DIR"
-        ),
+        option("--standard-json", "The folder for what verifies the sources; else deployed-CHAIN, in this one.", "DIR"),
     ] = None,
     rpc_timeout: Annotated[
-        float, _option("--rpc-timeout", f"Seconds that the node may take for an answer; else {PATIENCE:g}.", "SECONDS")
+        float, option("--rpc-timeout", f"Seconds that the node may take for an answer; else {PATIENCE:g}.", "SECONDS")
     ] = PATIENCE,
 ) -> None:
     """Put the contracts on a chain, at the same addresses as on every chain. What is there already is left alone."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,7 +11,6 @@ import typer
 
 from ..chain import CHAINS, open_chain, open_node
 from ..chain.node import NodeChain
-from ..datasets import Piece
 from ..errors import InputError
 from ..gas.exact import counting, render_call
 from ..gas.flame_graph import flame_graph
@@ -21,28 +19,26 @@ from ..gas.report import make_report
 from ..gas.speedscope import speedscope
 from ..gas.trace import require_tracer
 from ..load import locate
-from ..render import simplify_scene
 from ..whole_file import write_whole
 from .gas_progress import Progress
 from .gas_tables import print_profile, print_report
 from .look import Changes, load_changed
-from .parse import parse_shading, parse_size, parse_vector
+from .look_options import with_look
+from .option import option
 
 #: What --profile writes, by extension.
 FORMATS = (".json", ".svg")
 
 
-def _option(name: str, text: str, kind: str | None = None, panel: str | None = None) -> Any:
-    return typer.Option(*name.split(), help=text, metavar=kind, rich_help_panel=panel, show_default=False)
-
-
+@with_look
 def gas(
     input: Annotated[
         str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
     ],
-    size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
+    *,
+    changes: Changes,
     chain: Annotated[
-        str | None, _option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+        str | None, option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
     ] = None,
     rpc: Annotated[
         str | None,
@@ -55,43 +51,29 @@ def gas(
         ),
     ] = None,
     address: Annotated[
-        str | None, _option("--address", "Of a renderer on the node's chain, to be called.", "ADDRESS")
+        str | None, option("--address", "Of a renderer on the node's chain, to be called.", "ADDRESS")
     ] = None,
     rpc_timeout: Annotated[
-        float | None, _option("--rpc-timeout", "How long the node may take for a call; else 120.", "SECONDS")
+        float | None, option("--rpc-timeout", "How long the node may take for a call; else 120.", "SECONDS")
     ] = None,
-    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of tables.")] = False,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
-        _option(
+        option(
             "--profile", "Gas by function and line too, and as a flame graph: .svg, or .json for speedscope.", "FILE"
         ),
     ] = None,
     stages: Annotated[
-        bool, _option("--stages/--no-stages", "Gas by stage, which takes a slow EVM some seconds, or not.")
+        bool, option("--stages/--no-stages", "Gas by stage, which takes a slow EVM some seconds, or not.")
     ] = True,
-    gas_price: Annotated[float, _option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, _option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
+    gas_price: Annotated[float, option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
+    eth_price: Annotated[float | None, option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
     lower: Annotated[
-        int, _option("--lower", "Where the search begins: gas that does not suffice; else 0.", "GAS", "Search")
+        int, option("--lower", "Where the search begins: gas that does not suffice; else 0.", "GAS", "Search")
     ] = 0,
     upper: Annotated[
         int | None,
-        _option("--upper", "Gas that does suffice; else it is doubled until it does.", "GAS", "Search"),
-    ] = None,
-    max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N", "Look")] = None,
-    rotate: Annotated[
-        str | None, _option("--rotate", "Turn the scene about x, then y, then z, in degrees.", "X,Y,Z", "Look")
-    ] = None,
-    orthographic: Annotated[
-        bool | None, _option("--orthographic/--perspective", "How the camera projects.", None, "Look")
-    ] = None,
-    shading: Annotated[str | None, _option("--shading", "unlit, flat or smooth.", "KIND", "Look")] = None,
-    smooth: Annotated[bool, _option("--smooth", "As --shading smooth.", None, "Look")] = False,
-    unlit: Annotated[bool, _option("--unlit", "As --shading unlit.", None, "Look")] = False,
-    cull: Annotated[bool | None, _option("--cull/--no-cull", "Leave out faces that turn away.", None, "Look")] = None,
-    wireframe: Annotated[
-        bool | None, _option("--wireframe/--filled", "Draw the edges only, or whole faces.", None, "Look")
+        option("--upper", "Gas that does suffice; else it is doubled until it does.", "GAS", "Search"),
     ] = None,
 ) -> None:
     """Measure the gas of a picture: exactly, by a search over gas limits, by stage and by line, and where it fits."""
@@ -105,25 +87,12 @@ def gas(
         _require_tracer()
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
-    source = locate(input)
-    changes = Changes(
-        size=None if size is None else parse_size(size),
-        rotation=None if rotate is None else parse_vector(rotate, "--rotate"),
-        projection=None if orthographic is None else "orthographic" if orthographic else "perspective",
-        shading=parse_shading(shading, smooth, unlit),
-        cull=cull,
-        wireframe=wireframe,
-    )
-    scene = load_changed(source, changes)
-    if max_triangles is not None:
-        scene = simplify_scene(scene, max_triangles)
+    scene = load_changed(locate(input), changes)
     with Progress(quiet=as_json) as progress:
         report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         _write_profile(path, report.profile, input)
-    if isinstance(source, Piece) and source.notice:
-        print(source.notice, file=sys.stderr)
     if as_json:
         more: dict[str, Any] = {} if path is None else {"profile": str(path)}
         if node is not None and counted is not None:

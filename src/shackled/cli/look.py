@@ -12,6 +12,7 @@ import numpy as np
 
 from ..datasets import Piece
 from ..errors import InputError
+from ..render import simplify_scene
 from ..scene.background import Background
 from ..scene.camera import Camera, Projection, half_height_of
 from ..scene.files.load import load as load_file
@@ -31,10 +32,12 @@ Vector = tuple[float, float, float]
 class Changes:
     """What is to be different from the scene as it is loaded; None leaves it.
 
-    rotation: degrees about x, then y, then z, about the middle of the scene.
+    max_triangles: meshes of more are simplified. rotation: degrees about x, then y, then z, about the middle of the
+    scene.
     """
 
     size: tuple[int, int] | None = None
+    max_triangles: int | None = None
     rotation: Vector | None = None
     eye: Vector | None = None
     target: Vector | None = None
@@ -71,7 +74,7 @@ def load_changed(source: Path | Piece, changes: Changes) -> Scene:
             scene = turn(scene, changes.rotation)
     if changes.size is not None:
         scene = replace(scene, width=changes.size[0], height=changes.size[1])
-    return replace(
+    scene = replace(
         scene,
         objects=[_change_object(o, changes) for o in scene.objects],
         camera=_change_camera(scene, changes),
@@ -79,6 +82,7 @@ def load_changed(source: Path | Piece, changes: Changes) -> Scene:
         background=scene.background if changes.background is None else changes.background,
         invert=scene.invert if changes.invert is None else changes.invert,
     )
+    return scene if changes.max_triangles is None else simplify_scene(scene, changes.max_triangles)
 
 
 def _look(changes: Changes) -> Look:

@@ -6,47 +6,44 @@ import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..chain.addresses import show_address
 from ..errors import InputError
+from .option import option
 from .payer import PASSWORD, ask, open_signer
 
 if TYPE_CHECKING:
     from ..deploy import Receipt, Step
 
 
-def _option(name: str, text: str, kind: str | None = None, **more: Any) -> Any:
-    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False, **more)
-
-
 def mint(
     input: Annotated[
         str, typer.Argument(help="A piece of a dataset, or a mesh or scene file of yours.", metavar="INPUT")
     ],
-    rpc: Annotated[str | None, _option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")] = None,
+    rpc: Annotated[str | None, option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")] = None,
     account: Annotated[
         Path | None,
-        _option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
+        option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
     ] = None,
     private_key_env: Annotated[
-        str | None, _option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
+        str | None, option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
     ] = None,
-    licence: Annotated[str | None, _option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
+    licence: Annotated[str | None, option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
     output: Annotated[
-        str | None, _option("-o --output", "The picture as the chain draws it: .png .bmp .svg or .gif.", "FILE")
+        str | None, option("-o --output", "The picture as the chain draws it: .png .bmp .svg or .gif.", "FILE")
     ] = None,
-    size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
-    max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N")] = None,
+    size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
+    max_triangles: Annotated[int | None, option("--max-triangles", "Simplify meshes of more.", "N")] = None,
     position_bits: Annotated[
         int | None,
-        _option("--position-bits", "Cheaper: keep positions on a grid of 2^N steps, 4 to 16; else exactly.", "N"),
+        option("--position-bits", "Cheaper: keep positions on a grid of 2^N steps, 4 to 16; else exactly.", "N"),
     ] = None,
-    chain_id: Annotated[int | None, _option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
-    yes: Annotated[bool, _option("--yes -y", "Do not ask.")] = False,
-    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
+    chain_id: Annotated[int | None, option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
+    yes: Annotated[bool, option("--yes -y", "Do not ask.")] = False,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
 ) -> None:
     """Put an object on a chain for ever, for every contract to draw. The price is told first."""
     import numpy as np

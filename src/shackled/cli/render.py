@@ -20,18 +20,17 @@ from ..image import Image, check_output
 from ..load import locate
 from ..parallel import Where, render_frames
 from ..parallel.store import folder_of, remove_parts
-from ..render import render_whole, simplify_scene
+from ..render import render_whole
 from ..scene.scene import Scene
 from ..scene.turning import full_turn
 from .job_progress import JobProgress
 from .look import Changes, load_changed
-from .parse import parse_background, parse_color, parse_light, parse_shading, parse_size, parse_tile, parse_vector
+from .look_options import with_look
+from .option import option
+from .parse import parse_tile
 
 
-def _option(name: str, text: str, kind: str | None = None, panel: str | None = None) -> Any:
-    return typer.Option(*name.split(), help=text, metavar=kind, rich_help_panel=panel, show_default=False)
-
-
+@with_look
 def render(
     context: typer.Context,
     input: Annotated[
@@ -39,28 +38,26 @@ def render(
     ],
     output: Annotated[
         str | None,
-        _option(
+        option(
             "-o --output",
             ".png .bmp .svg or .gif, of a turntable .gif, .png or a folder; else INPUT's name, in this folder.",
             "FILE",
         ),
     ] = None,
-    size: Annotated[str | None, _option("--size", "Pixels, as 128 or 320x200, up to 2048 a side.", "SIZE")] = None,
-    as_json: Annotated[bool, _option("--json", "Print one JSON object instead of words.")] = False,
-    max_triangles: Annotated[int | None, _option("--max-triangles", "Simplify meshes of more.", "N")] = None,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
     turntable: Annotated[
         int | None,
-        _option("--turntable", "A full turn in so many frames; the contract turns it.", "FRAMES", "Turntable"),
+        option("--turntable", "A full turn in so many frames; the contract turns it.", "FRAMES", "Turntable"),
     ] = None,
     duration: Annotated[
-        int | None, _option("--duration", f"How long a frame is shown; else {DURATION}.", "MILLISECONDS", "Turntable")
+        int | None, option("--duration", f"How long a frame is shown; else {DURATION}.", "MILLISECONDS", "Turntable")
     ] = None,
     chain: Annotated[
         str | None,
-        _option("--chain", f"Where it is computed: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME", "Where"),
+        option("--chain", f"Where it is computed: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
-        int | None, _option("--jobs", "So many worker processes, or calls at a time to each node.", "N", "Where")
+        int | None, option("--jobs", "So many worker processes, or calls at a time to each node.", "N", "Where")
     ] = None,
     rpc: Annotated[
         list[str] | None,
@@ -74,68 +71,25 @@ def render(
         ),
     ] = None,
     address: Annotated[
-        str | None, _option("--address", "A renderer that is deployed there, to be called.", "ADDRESS", "Where")
+        str | None, option("--address", "A renderer that is deployed there, to be called.", "ADDRESS", "Where")
     ] = None,
     rpc_timeout: Annotated[
-        float | None, _option("--rpc-timeout", "How long a node may take for a call.", "SECONDS", "Where")
+        float | None, option("--rpc-timeout", "How long a node may take for a call.", "SECONDS", "Where")
     ] = None,
     cluster: Annotated[
         str | None,
-        _option(
+        option(
             "--cluster", "A dask scheduler, as tcp://host:8786; without an address, one here.", "[ADDRESS]", "Where"
         ),
     ] = None,
     gas_limit: Annotated[
-        int | None, _option("--gas-limit", "What a call may use; the picture is cut to fit.", "GAS", "Where")
+        int | None, option("--gas-limit", "What a call may use; the picture is cut to fit.", "GAS", "Where")
     ] = None,
     tile: Annotated[
-        str | None, _option("--tile", "Cut the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
+        str | None, option("--tile", "Cut the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
     ] = None,
-    rotate: Annotated[
-        str | None,
-        _option("--rotate", "Turn the scene about x, then y, then z, in degrees.", "X,Y,Z", "Camera"),
-    ] = None,
-    eye: Annotated[str | None, _option("--eye", "Where the eye is.", "X,Y,Z", "Camera")] = None,
-    target: Annotated[str | None, _option("--target", "What it looks at.", "X,Y,Z", "Camera")] = None,
-    up: Annotated[str | None, _option("--up", "What appears upward in the picture.", "X,Y,Z", "Camera")] = None,
-    fov: Annotated[
-        float | None, _option("--fov", "Vertical field of view in degrees, perspective only.", "DEGREES", "Camera")
-    ] = None,
-    half_height: Annotated[
-        float | None,
-        _option("--half-height", "Half the height of what is seen, perspective: at distance 1.", "H", "Camera"),
-    ] = None,
-    near: Annotated[float | None, _option("--near", "Distance of the near plane.", "DISTANCE", "Camera")] = None,
-    orthographic: Annotated[
-        bool | None, _option("--orthographic/--perspective", "How the camera projects.", None, "Camera")
-    ] = None,
-    light: Annotated[
-        list[str] | None,
-        _option(
-            "--light",
-            "In place of the scene's, up to four: directional:x,y,z or point:x,y,z, then :#rrggbb if wanted.",
-            "LIGHT",
-            "Look",
-        ),
-    ] = None,
-    ambient: Annotated[float | None, _option("--ambient", "Share of ambient light, 0..4.", "K", "Look")] = None,
-    diffuse: Annotated[float | None, _option("--diffuse", "Share of diffuse light, 0..4.", "K", "Look")] = None,
-    specular: Annotated[float | None, _option("--specular", "Strength of highlights, 0..4.", "K", "Look")] = None,
-    shininess: Annotated[int | None, _option("--shininess", "Exponent of highlights, 1..128.", "N", "Look")] = None,
-    color: Annotated[str | None, _option("--color", "One colour for all meshes.", "#RRGGBB", "Look")] = None,
-    background: Annotated[
-        str | None, _option("--background", "A colour, or two from top to bottom.", "#RRGGBB[,#RRGGBB]", "Look")
-    ] = None,
-    shading: Annotated[str | None, _option("--shading", "unlit, flat or smooth.", "KIND", "Look")] = None,
-    smooth: Annotated[bool, _option("--smooth", "As --shading smooth.", None, "Look")] = False,
-    unlit: Annotated[bool, _option("--unlit", "As --shading unlit.", None, "Look")] = False,
-    cull: Annotated[bool | None, _option("--cull/--no-cull", "Leave out faces that turn away.", None, "Look")] = None,
-    wireframe: Annotated[
-        bool | None, _option("--wireframe/--filled", "Draw the edges only, or whole faces.", None, "Look")
-    ] = None,
-    invert: Annotated[
-        bool | None, _option("--invert/--no-invert", "Turn each value v into 255 - v.", None, "Look")
-    ] = None,
+    *,
+    changes: Changes,
 ) -> None:
     """Render a mesh file, a scene file or a piece of a dataset to a picture."""
     source = locate(input)
@@ -159,33 +113,9 @@ def render(
         gas_limit=gas_limit,
         tile=None if tile is None else parse_tile(tile),
     )
-    changes = Changes(
-        size=None if size is None else parse_size(size),
-        rotation=None if rotate is None else parse_vector(rotate, "--rotate"),
-        eye=None if eye is None else parse_vector(eye, "--eye"),
-        target=None if target is None else parse_vector(target, "--target"),
-        up=None if up is None else parse_vector(up, "--up"),
-        projection=None if orthographic is None else "orthographic" if orthographic else "perspective",
-        fov=fov,
-        half_height=half_height,
-        near=near,
-        lights=[parse_light(text) for text in light or []],
-        shading=parse_shading(shading, smooth, unlit),
-        ambient=ambient,
-        diffuse=diffuse,
-        specular=specular,
-        shininess=shininess,
-        color=None if color is None else parse_color(color, "--color"),
-        background=None if background is None else parse_background(background),
-        cull=cull,
-        wireframe=wireframe,
-        invert=invert,
-    )
     if chain is not None:
         open_chain(chain)
     scene = load_changed(source, changes)
-    if max_triangles is not None:
-        scene = simplify_scene(scene, max_triangles)
     made = _made(scene, where, turntable, shown, path)
     if path.suffix.lower() == ".gif":
         _warn_of_palette(made)

@@ -12,13 +12,15 @@ from ..chain import CHAINS, open_chain
 from ..errors import InputError
 from ..load import locate
 from .look import Changes, load_changed
-from .parse import parse_size
+from .look_options import with_look
 
 
+@with_look
 def stages(
     input: Annotated[str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT")],
     output: Annotated[str, typer.Option("--output", "-o", help="The folder for the pictures.", metavar="DIR")],
-    size: Annotated[str | None, typer.Option("--size", help="Pixels, as 128 or 320x200.", metavar="SIZE")] = None,
+    *,
+    changes: Changes,
     chain: Annotated[
         str | None, typer.Option("--chain", help=f"Where it is computed: {', '.join(CHAINS)}.", metavar="NAME")
     ] = None,
@@ -29,7 +31,6 @@ def stages(
     folder = Path(output)
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder} is a file, not a folder to write to")
-    changes = Changes(size=None if size is None else parse_size(size))
     made = draw_stages(load_changed(locate(input), changes), open_chain(chain))
     pictures = {stage.name: PillowImage.fromarray(stage.pixels) for stage in made} | {"strip": strip(made)}
     try:

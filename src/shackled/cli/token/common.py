@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ...chain.addresses import parse_address, show_address
 from ...errors import InputError
 from ...tokens.ether import ether, roughly
 from ...tokens.kinds import KINDS
 from ...tokens.plain import plain
+from ..option import option
 from ..payer import PASSWORD, ask, open_signer
 
 if TYPE_CHECKING:
@@ -25,11 +24,6 @@ if TYPE_CHECKING:
 PHASES = ("closed", "allow-list", "public")
 #: More than there will ever be of anything.
 MOST = 2**64 - 1
-
-
-def option(name: str, text: str, kind: str | None = None, **more: Any) -> Any:
-    """An option of a command: its names, its help, and what stands for its value there."""
-    return typer.Option(*name.split(), help=text, metavar=kind, show_default=False, **more)
 
 
 Rpc = Annotated[str | None, option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")]

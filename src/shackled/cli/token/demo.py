@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Annotated
 
 from ...errors import InputError
-from .common import Rpc, connect, option, say, table
+from ..option import option
+from .common import Rpc, connect, say, table
 
 
 def demo(

@@ -11,8 +11,9 @@ import typer
 
 from ...checks import number
 from ...errors import InputError
+from ..option import option
 from ..payer import open_signer
-from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named, option
+from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named
 
 
 def allow_list(

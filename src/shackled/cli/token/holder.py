@@ -11,8 +11,9 @@ import typer
 
 from ...errors import InputError
 from ...tokens.ether import roughly
+from ..option import option
 from ..payer import ask, open_signer
-from .common import MOST, Account, Chain, Json, Key, Rpc, Which, Yes, address, open_named, option, say, send
+from .common import MOST, Account, Chain, Json, Key, Rpc, Which, Yes, address, open_named, say, send
 
 if TYPE_CHECKING:
     from ...deploy import Receipt

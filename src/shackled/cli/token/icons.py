@@ -8,7 +8,8 @@ import typer
 
 from ...errors import InputError
 from ...tokens.ether import parse_ether
-from .common import Account, Chain, Key, Rpc, Which, Yes, address, do, open_icons, option
+from ..option import option
+from .common import Account, Chain, Key, Rpc, Which, Yes, address, do, open_icons
 
 
 def add(

@@ -14,8 +14,9 @@ from ...checks import choice, number
 from ...errors import InputError
 from ...tokens.ether import parse_ether, roughly
 from ...tokens.kinds import KINDS
+from ..option import option
 from ..payer import ask, open_signer
-from .common import Account, Chain, Json, Key, Rpc, Yes, address, connect, option, say
+from .common import Account, Chain, Json, Key, Rpc, Yes, address, connect, say
 
 if TYPE_CHECKING:
     from ...deploy import Receipt, Step

@@ -11,7 +11,8 @@ import typer
 from ...errors import InputError, RenderError
 from ...tokens.ether import amount, ether
 from ...tokens.plain import plain
-from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, option, table
+from ..option import option
+from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table
 
 
 def show(

@@ -10,8 +10,9 @@ from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
 from ...tokens.ether import ether
+from ..option import option
 from ..payer import open_signer
-from .common import PHASES, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named, option, send
+from .common import PHASES, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named, send
 
 
 def phase(
