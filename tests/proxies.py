@@ -10,12 +10,13 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from typing import Any
 
-from nodes import Reply, forward, serving
+from nodes import Reply, failure, forward, result, serving
 
 #: What a proxy does with the n-th picture that is asked of it, counted from 0; "" passes it on.
 #:
 #: "kill" breaks off, "429" asks to come again at once, "500" fails, "html" answers with a page, "half" with half of the
-#: answer, "wrong" with another picture, "slow" after a third of a second, "stuck" after three seconds.
+#: answer, "wrong" with another picture, "empty" with no bytes, "junk" with bytes that are no picture, "slow" after a
+#: third of a second, "stuck" after three seconds, "lie" says that the contract refuses.
 Manners = Callable[[int], str]
 
 
@@ -51,6 +52,10 @@ def proxy(target: str, manners: Manners, asked: list[str] | None = None) -> Abst
             return Reply(status=429, headers={"Retry-After": "0"})
         if manner == "500":
             return Reply(b"oh", 500)
+        if manner in ("empty", "junk"):
+            return result("0x" + ("ab" * 500 if manner == "junk" else ""))
+        if manner == "lie":
+            return failure("execution reverted", 3, "0x" + "12" * 36)
         if manner == "html":
             return Reply(b"<html>this is a captive portal</html>")
         time.sleep({"slow": 0.3, "stuck": 3}.get(manner, 0))

@@ -15,9 +15,10 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import Camera, Image, InputError, Light, Mesh, Object, RenderError, Scene, render
+from shackled.animation import check_animation
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
-from shackled.image import decode_bmp
+from shackled.image import check_output, decode_bmp
 from shackled.scene.codec import encode
 
 SCENE = Scene(
@@ -114,6 +115,14 @@ def test_unknown_formats(image: Image, tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError, match=r"must end in one of \.png \.bmp \.svg \.gif"):
         image.save(tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is told before anything is rendered."""
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    for check, name in ((check_output, "a.png"), (check_animation, "a.gif"), (check_animation, "frames")):
+        with pytest.raises(InputError, match=rf"{name} cannot be written: nothing can be written to its folder"):
+            check(tmp_path / name)
 
 
 def test_places_that_are_not_there(image: Image, tmp_path: Path) -> None:

@@ -19,13 +19,20 @@ pragma solidity 0.8.37;
 /// @notice The Huffman code of the PNG encoder, fitted to pictures of the renderer. Written by tools/png_code.py.
 /// @dev All bits are in the order of the stream.
 library PngCode {{
-    /// @notice Bits of the code of 259 zeros, the most that it can tell at once.
-    uint256 internal constant LONGEST_RUN_SIZE = {run_size};
-    /// @notice Nine times that code.
-    uint256 internal constant NINE_LONGEST_RUNS = {runs};
+    /// @notice The code of a zero; those of other bytes are as much more. They have 9 bits.
+    uint256 internal constant LITERAL = {literal};
+    /// @notice Three zeros.
+    uint256 internal constant LITERALS = {literals};
+    /// @notice Bits of the longest match, and 32 of them: at the distance of a pixel, and of a byte.
+    uint256 internal constant LONGEST_SIZE = {longest_size};
+    uint256 internal constant LONGEST = {longest};
+    uint256 internal constant LONGEST_ZEROS = {zeros};
+    /// @notice Where the matches of 259 and 260 bytes, which are two each, differ for the other distance. Those of
+    /// fewer bytes differ in the last bit.
+    uint256 internal constant OTHER_DISTANCES = {others};
 
-    /// @notice Of each byte the code (12 bits) and its length (4 bits); of each number of zeros from 0 to 259 the codes
-    /// of a zero and of a match of the others (19 bits), and their length (5 bits).
+    /// @notice Of each length from 3 to 260 the code of the match at the distance of a pixel (19 bits), and its length
+    /// (5 bits).
     function tables() internal pure returns (bytes memory) {{
         return
 {tables};
@@ -52,16 +59,20 @@ library PngCode {{
 
 def write() -> str:
     """The text of the file."""
-    literals = "".join(f"{int(code, 2) << 4 | len(code):04x}" for code in map(png.literal, range(256)))
-    runs = map(png.short_run, range(png.LONGEST_RUN + 1))
-    zeros = "".join(f"{int(code or '0', 2) << 5 | len(code):06x}" for code in runs)
+    matches = [png.short_match(length, png.PIXEL) for length in range(3, 261)]
+    longest, zeros = (png.short_match(png.LONGEST, distance) for distance in (png.PIXEL, png.BYTE))
+    others = {int(png.short_match(n, png.PIXEL), 2) ^ int(png.short_match(n, png.BYTE), 2) for n in (259, 260)}
     header = png.code_header()
     whole = len(header) // 8 * 8
     return FILE.format(
-        tables=_literal(literals + zeros),
+        tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in matches)),
         header=_literal(f"{int(header[:whole], 2):0{whole // 4}x}"),
-        run_size=len(png.short_run(png.LONGEST_RUN)),
-        runs=hex(int(9 * png.short_run(png.LONGEST_RUN), 2)),
+        literal=int(png.literal(0), 2),
+        literals=int(3 * png.literal(0), 2),
+        longest_size=len(longest),
+        longest=f"0x{int(32 * longest, 2):064x}",
+        zeros=f"0x{int(32 * zeros, 2):064x}",
+        others=hex(others.pop()),
         rest=int(header[whole:] or "0", 2),
         rest_size=len(header) - whole,
         end=int(png.codes()[png.END], 2),

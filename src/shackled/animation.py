@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -103,6 +104,8 @@ def check_animation(path: str | Path) -> Path:
         raise InputError(f"{path} is there already, and is no {'file' if path.suffix else 'folder'}")
     if not path.parent.is_dir():
         raise InputError(f"the folder {path.parent} of the turntable {path.name} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"the turntable {path} cannot be written: nothing can be written to its folder")
     return path
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -94,6 +95,8 @@ def check_output(path: str | Path) -> Path:
         raise InputError(f"{path} is a folder, not the file of a picture")
     if not path.parent.is_dir():
         raise InputError(f"the folder {path.parent} of the picture {path.name} does not exist")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"the picture {path} cannot be written: nothing can be written to its folder")
     return path
 
 

@@ -61,6 +61,7 @@ def test_an_answer() -> None:
         (Reply(b"<html>hello</html>"), NodeUnreachableError, "what is not JSON"),
         (Reply(b""), NodeUnreachableError, "answered with nothing"),
         (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "what is not JSON"),
+        (Reply(b"[" * 100_000), NodeUnreachableError, "what is not JSON"),
         (Reply(b"[]"), NodeUnreachableError, "JSON that is not JSON-RPC"),
         (Reply(b'{"jsonrpc": "2.0", "id": 0}'), NodeUnreachableError, "JSON that is not JSON-RPC"),
         (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered another request"),
@@ -170,8 +171,25 @@ def test_keys_elsewhere_in_the_address(url: str) -> None:
     check(error.value)
 
 
+def test_a_key_that_is_a_part_of_the_host() -> None:
+    key = "0123456789abcdef0123456789abcdef"
+    connection = Connection(f"http://{key}.node.invalid:1")
+    assert connection.name == "node ***.node.invalid:1"
+    with pytest.raises(NodeUnreachableError) as error:
+        connection.request("eth_chainId")
+    assert key not in str(error.value)
+    with pytest.raises(InputError, match=r"not 'ws://\*\*\*\.node\.invalid/\.\.\.'") as wrong:
+        Connection(f"ws://{key}.node.invalid/path")
+    assert key not in str(wrong.value)
+    assert Connection("http://ec2-12-34-56-78-some-long-name.node.invalid").name.startswith("node ec2-12")
+
+
 @pytest.mark.parametrize(
-    "url", ["", "localhost:8545", "ftp://127.0.0.1", "http://", "http://[", "http://a:b:c/key0123456"]
+    "url",
+    [
+        *("", "localhost:8545", "ftp://127.0.0.1", "http://", "http://[", "http://a:b:c/key0123456"),
+        *("http://a b/key0123456", "http://a..b/key0123456", "http://a%zz/key0123456", "http://<a>/key0123456"),
+    ],
 )
 def test_addresses_that_are_none(url: str) -> None:
     with pytest.raises(InputError, match=r"--rpc must be the address of a node, as http://127\.0\.0\.1:8545") as error:
@@ -180,7 +198,7 @@ def test_addresses_that_are_none(url: str) -> None:
 
 
 def test_timeouts_that_are_none() -> None:
-    with pytest.raises(InputError, match="--rpc-timeout must be more than 0 seconds, not 0"):
+    with pytest.raises(InputError, match="--rpc-timeout must be more than 0 seconds and at most 86,400, not 0"):
         Connection("http://127.0.0.1", 0)
 
 

@@ -133,6 +133,18 @@ def test_a_keystore(node: Anvil, folder: Path, deploy: Command, monkeypatch: pyt
     assert deploy(*arguments).code == 0
 
 
+def test_a_book_that_cannot_be_written(
+    node: Anvil, folder: Path, deploy: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is told before anything is paid."""
+    (folder / "file").write_text("", "utf-8")
+    monkeypatch.setenv(VARIABLE, str(folder / "file" / "book.json"))
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
+    assert told.code == 2
+    assert "book.json cannot be" in told.err
+    assert int(node.rpc("eth_blockNumber"), 16) == 0
+
+
 def test_nobody_to_ask_and_nobody_to_pay(node: Anvil, deploy: Command) -> None:
     told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY")
     assert told.code == 2

@@ -216,3 +216,20 @@ def marked(mark: str) -> set[int]:
         except OSError:
             continue
     return found
+
+
+def test_a_picture_that_cannot_be_written_keeps_its_parts(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(path: Path, data: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("shackled.image.write_whole", full)
+        assert run(["render", "shape.obj", "--size", "48", "--tile", "48x12"]) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[1:] == [
+        "shackled: finished parts are kept in shape.png.parts: the same command goes on from there",
+        "shackled: shape.png cannot be written: No space left on device",
+    ]
+    assert len(list(Path("shape.png.parts").glob("*.part"))) == 4

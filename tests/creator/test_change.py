@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Any
 
 import pytest
@@ -11,6 +12,7 @@ from shackled.creator.change import add_lamp, get, is_changed, put, remove_lamp,
 from shackled.creator.controls import CONTROLS, lamp_controls
 from shackled.creator.scene import describe
 from shackled.creator.state import Source, State
+from shackled.creator.view import direction
 
 FACTS = describe(Source("piece", "teapot"), load("teapot"), "Teapot")
 PLAIN = State(FACTS.source)
@@ -82,6 +84,8 @@ def test_lights_come_and_go() -> None:
         state = add_lamp(state, FACTS)
         assert state.lights is not None
         assert len(state.lights) == count
+    places = [direction(lamp.azimuth, lamp.elevation) for lamp in state.lights or ()]
+    assert all(a @ b < 0.9 for a, b in combinations(places, 2))  # none stands where another is
     with pytest.raises(InputError, match="up to 4 lights"):
         add_lamp(state, FACTS)
     assert state.lights is not None

@@ -164,10 +164,18 @@ def test_the_picture_is_the_contracts_own(visit: NewPage) -> None:
 def test_dragging_orbits(visit: NewPage) -> None:
     page = visit()
     before, first, used = pixels(page), number(page), gas(page)
+    # what passes by is written down, for who rests for a moment gets the picture in full
+    page.evaluate(
+        """() => {
+            window.seen = [];
+            const picture = document.getElementById('picture'), label = document.querySelector('[data-text=gas-label]');
+            new MutationObserver(() => window.seen.push(`${picture.dataset.draft} ${label.textContent}`))
+                .observe(picture, { attributeFilter: ['data-draft', 'data-number'] });
+        }"""
+    )
     drag(page, 150, 40, hold=True)
     page.wait_for_function("before => document.getElementById('picture').dataset.number > before + 1", arg=first)
-    assert page.get_attribute("#picture", "data-draft") == "true"
-    assert "at" in page.inner_text("[data-text=gas-label]").lower()
+    assert any(line.startswith("true Gas, at ") for line in page.evaluate("window.seen"))
     shown = after(page, page.mouse.up)
     assert shown != before
     assert gas(page) != used
@@ -200,6 +208,24 @@ def test_what_is_right_dragged_is_shifted(visit: NewPage) -> None:
     assert float(page.input_value("[id='camera.target.x']")) != 0
 
 
+def test_what_is_out_of_sight_is_told(visit: NewPage) -> None:
+    page = visit()
+    after(page, lambda: set_number(page, "camera.target.x", "90"))
+    assert "F fits it" in page.inner_text("[data-text=size]")
+    after(page, press(page, "f"))
+    assert "F fits it" not in page.inner_text("[data-text=size]")
+
+
+def test_a_wide_and_low_picture_does_not_spin(visit: NewPage) -> None:
+    page = visit()
+    after(page, lambda: set_number(page, "size.width", "320"))
+    after(page, lambda: set_number(page, "size.height", "4"))
+    box = page.locator("#view").bounding_box()
+    assert box["height"] >= 24
+    after(page, lambda: drag(page, box["width"] / 4, 0))
+    assert page.input_value("[id='camera.azimuth']") == "-45"
+
+
 # ---- controls ----
 
 
@@ -219,6 +245,7 @@ def test_what_a_control_does_not_take_is_told(visit: NewPage) -> None:
     assert len(small) == 64 * 128 * 3
     most = after(page, lambda: set_number(page, "surface.shininess", "1000"))
     assert page.input_value("[id='surface.shininess']") == "128"
+    assert page.inner_text(".toast") == "Shininess goes from 1 to 128"
     assert most != small
 
 
@@ -328,6 +355,14 @@ def test_a_file_is_dropped(visit: NewPage) -> None:
     assert "shape" in page.inner_text("[data-text=title]")
 
 
+def test_what_is_nearly_a_seed_is_told(visit: NewPage) -> None:
+    page = visit()
+    page.fill("[data-search]", "0x12")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".toast.alert")
+    assert "64 hexadecimal digits" in page.inner_text(".toast.alert")
+
+
 def test_a_file_that_is_none_is_told(visit: NewPage, tmp_path: Path) -> None:
     (tmp_path / "broken.glb").write_bytes(b"glTF" + bytes(100))
     page = visit(refused=True)
@@ -341,6 +376,24 @@ def test_a_file_that_is_none_is_told(visit: NewPage, tmp_path: Path) -> None:
 # ---- taking it home ----
 
 
+def test_what_cannot_be_had_is_not_offered(visit: NewPage) -> None:
+    page = visit()
+    after(page, lambda: set_number(page, "size.width", "1024"))
+    page.click("text=Download")
+    page.wait_for_selector("[data-name=take-png-4][title^='4096 x']:visible")
+    assert page.is_hidden("[data-name=take-png-5]")
+
+
+def test_why_there_is_no_file_is_told(visit: NewPage) -> None:
+    page = visit(refused=True)
+    page.click("text=Download")
+    # as if the canvas had grown in the meantime
+    page.evaluate("document.querySelector('[data-name=take-bmp]').href += '-of-no-kind'")
+    page.click("[data-name=take-bmp]")
+    page.wait_for_selector(".toast.alert")
+    assert "there is nothing of the kind" in page.inner_text(".toast.alert")
+
+
 def test_what_is_downloaded_is_what_is_seen(visit: NewPage) -> None:
     page = visit()
     shown = after(page, lambda: page.click("[data-name=look-noir]"))
@@ -348,7 +401,7 @@ def test_what_is_downloaded_is_what_is_seen(visit: NewPage) -> None:
     files = {}
     for title in ("PNG, 4x", "BMP", "SVG", "Scene file"):
         with page.expect_download() as download:
-            page.click(f"#takeaway >> text={title}")
+            page.get_by_role("link", name=title, exact=True).click()
         files[title] = Path(download.value.path()).read_bytes()
     with PillowImage.open(io.BytesIO(files["PNG, 4x"])) as picture:
         enlarged = np.asarray(picture.convert("RGB"))
@@ -380,6 +433,24 @@ def test_a_link_to_a_file_that_is_not_here_says_so(visit: NewPage) -> None:
     page = visit(f"?p={to_link(State(Source('upload', 'ab' * 32)))}")
     page.wait_for_selector(".toast.alert")
     assert "hand it in again" in page.inner_text(".toast.alert")
+
+
+def test_a_picture_comes_back_with_its_file(visit: NewPage, tmp_path: Path) -> None:
+    from shackled.creator.link import to_link
+    from shackled.creator.state import Orbit, Size, Source, State
+
+    file = tmp_path / "kept elsewhere.obj"
+    file.write_text(f"# only here\n{OBJ}")
+    source = Source("upload", hashlib.sha256(file.read_bytes()).hexdigest())
+    link = to_link(State(source, camera=Orbit(azimuth=40.0), size=Size(48, 32), invert=True))
+    page = visit(f"?p={link}")
+    page.reload()  # the link is kept until something else is shown
+    page.wait_for_selector(".toast.alert")
+    assert urlsplit(page.url).query == f"p={link}"
+    shown = after(page, lambda: page.set_input_files("#file", file))
+    assert len(shown) == 48 * 32 * 3
+    assert page.input_value("[id='camera.azimuth']") == "40"
+    assert page.is_checked("[id=invert]")
 
 
 def test_a_turntable_is_made_and_another_cancelled(visit: NewPage) -> None:
@@ -521,6 +592,33 @@ def test_a_screen_320_pixels_wide(visit: NewPage) -> None:
             wire.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
     assert after(page, swipe) != before
+
+
+def test_two_fingers_zoom_and_shift(visit: NewPage) -> None:
+    page = visit(width=390, height=780, has_touch=True, is_mobile=True)
+    box = page.locator("#view").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    wire = page.context.new_cdp_session(page)
+
+    def touch(*steps: tuple[float, float]) -> None:
+        """Two fingers about the middle; steps: how far they are apart, and to the right."""
+        for number, (apart, right) in enumerate(steps):
+            points = [{"x": x + right + side * apart / 2, "y": y, "id": side} for side in (-1, 1)]
+            kind = "touchMove" if number else "touchStart"
+            wire.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+        wire.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    def value(path: str) -> float:
+        return float(page.input_value(f"[id='{path}']"))
+
+    before = value("camera.distance")
+    after(page, lambda: touch((60, 0), (90, 0), (120, 0)))
+    near = value("camera.distance")
+    assert near < 0.7 * before
+    after(page, lambda: touch((60, 0), (60, 30), (60, 60)))
+    assert value("camera.target.x") < -0.05
+    assert value("camera.distance") == pytest.approx(near, rel=0.05)
+    assert value("camera.azimuth") == 0
 
 
 def test_light_and_dark(visit: NewPage) -> None:

@@ -17,7 +17,7 @@ from shackled.cli.app import run
 pytest.importorskip("nicegui", reason="the page needs nicegui")
 
 from shackled.creator.web.headers import numbered
-from shackled.creator.web.server import unpack
+from shackled.creator.web.server import _browse, unpack
 from shackled.errors import InputError
 
 
@@ -137,6 +137,7 @@ def test_files_of_an_upload() -> None:
     assert unpack(packed(("a.obj", b"v 0 0 0"))) == ("a.obj", b"v 0 0 0")
     name, data = unpack(packed(("a.obj", b"1"), ("../b.mtl", b"2")))
     assert name == "files.zip"
+    assert unpack(packed(("../b.mtl", b"2"), ("a.obj", b"1"))) == (name, data)  # it is the bytes that links name
     assert data.startswith(b"PK")
     assert b"b.mtl" in data
     assert b".." not in data
@@ -166,6 +167,7 @@ def test_bad_input_is_told_in_one_line(capsys: pytest.CaptureFixture[str], serve
         (["--port", port], "cannot be had"),
         (["--port", "70000"], "65535"),
         (["--host", "no.such.name.invalid"], "--host"),
+        (["--host", "192.0.2.1"], "--host must be an address of this machine"),
         (["--rpc", "ftp://node"], "--rpc"),
         (["no-such-piece"], "no-such-piece"),
         (["absent.obj"], "absent.obj"),
@@ -174,6 +176,14 @@ def test_bad_input_is_told_in_one_line(capsys: pytest.CaptureFixture[str], serve
         error = capsys.readouterr().err
         assert words in error
         assert error.count("\n") == 1
+
+
+def test_without_a_browser_the_address_is_said(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("webbrowser.open", lambda address: False)
+    _browse("http://127.0.0.1:1/")
+    assert "open http://127.0.0.1:1/" in capsys.readouterr().err
 
 
 def test_without_the_extra_it_is_said_how_to_get_it(

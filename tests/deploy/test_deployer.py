@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Reply, anvil, forward, needs_anvil, serving
+from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, serving
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import AddressBook
@@ -18,7 +18,7 @@ from shackled.chain.connection import Connection
 from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
 from shackled.deploy.contract import PROXY_CODE, STANDARD, deployment, local_chain
 from shackled.deploy.proxy import COST, SIGNED, SIGNER
-from shackled.errors import InputError, RenderError, TransactionError
+from shackled.errors import InputError, RenderError, TransactionError, WrongChainError
 
 #: A chain without the proxy.
 NO_PROXY = ("--disable-default-create2-deployer",)
@@ -146,6 +146,36 @@ def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: l
         deployer.carry_out(plan, transactor)
         assert code(node, PROXY) == PROXY_CODE
         assert code(node, wanted[0].address) == wanted[0].code
+
+
+@needs_anvil
+def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted: list[Deployment]) -> None:
+    """Nothing is paid before it says so."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_sendRawTransaction" and request["params"][0] == "0x" + SIGNED.hex():
+            return failure("only replay-protected (EIP-155) transactions allowed over RPC")
+        return forward(bare.url, request)
+
+    with anvil(*NO_PROXY) as bare, serving(answer) as url:
+        transactor = Transactor(Connection(url), Account.from_key(KEY))
+        deployer, before = Deployer(transactor.connection, book), transactor.balance()
+        with pytest.raises(TransactionError, match=r"refuses transactions that are not bound to a chain.*another node"):
+            deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+        assert transactor.balance() == before
+        # another node of the same chain does it
+        parts(bare, book)[0].carry_out(deployer.plan(wanted[:1]), parts(bare, book)[1])
+        assert code(bare, PROXY) == PROXY_CODE
+
+
+@needs_anvil
+def test_chains_that_cannot_have_the_contracts(book: AddressBook, wanted: list[Deployment]) -> None:
+    with anvil("--hardfork", "shanghai") as old, pytest.raises(WrongChainError, match="they need the rules of Cancun"):
+        Deployer(old.connection, book).plan(wanted)
+    with anvil("--gas-limit", "3000000") as small:
+        message = r"^Engine needs 5,\d+,\d+ gas, and a block of chain 31337 has 3,000,000: it cannot be deployed there$"
+        with pytest.raises(TransactionError, match=message):
+            Deployer(small.connection, book).plan(wanted)
 
 
 @needs_anvil

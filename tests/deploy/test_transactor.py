@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, serving
+from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
+from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Fees, Transactor
 from shackled.deploy.transactor import ETHER, ether
@@ -72,6 +73,31 @@ def test_no_suggestion_of_a_tip(node: Anvil) -> None:
 
     with serving(answer) as url:
         assert transactor(url).fees().tip == 10**9
+
+
+def test_a_refusal_without_a_reason(node: Anvil) -> None:
+    with pytest.raises(
+        TransactionError, match=r"^the transaction would fail: the contract refused, and gave no reason$"
+    ):
+        transactor(node.url).send(PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
+
+
+def test_what_is_waited_for_is_told(node: Anvil, monkeypatch: pytest.MonkeyPatch) -> None:
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_getTransactionReceipt":
+            asked.append(request["params"][0])
+            if len(asked) < 5:
+                return result(None)
+        return forward(node.url, request)
+
+    monkeypatch.setattr("shackled.deploy.transactor.LATE", 0.0)
+    asked: list[str] = []
+    told: list[str] = []
+    with serving(answer) as url:
+        payer = transactor(url)
+        payer.late = told.append
+        receipt = payer.send(SOMEONE, value=1)
+    assert told == [f"waiting for a block that takes the transaction {receipt.hash}"]
 
 
 def test_too_little_ether(node: Anvil) -> None:

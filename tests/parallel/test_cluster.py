@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
+from nodes import Reply, serving
 from shackled import InputError, RenderError, load
-from shackled.parallel import Where, render_frames
+from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel.cluster import ClusterPlace
 from shackled.scene.turning import full_turn
 
@@ -55,6 +56,38 @@ def test_tiles_on_a_cluster_of_our_own() -> None:
 def test_what_a_worker_says_is_told(address: str) -> None:
     with pytest.raises(RenderError, match="still too much: take fewer triangles"):
         render_frames([SCENE], Where(cluster=address, gas_limit=100_000))
+
+
+def test_something_else_than_a_cluster() -> None:
+    """Nothing but one line, and at once."""
+    program = (
+        "import sys; from shackled.cli.app import run; from shackled.parallel import cluster; cluster.PATIENCE = 2; "
+        "sys.exit(run(['render', 'cube', '--size', '8', '--cluster', %r]))"
+    )
+    with serving(lambda request: Reply(b"?")) as url:
+        for wrong in (url.replace("http", "tcp"), "nowhere:port"):
+            told = subprocess.run([sys.executable, "-c", program % wrong], capture_output=True, text=True, timeout=60)
+            assert told.returncode == 1
+            assert told.stderr.startswith(f"shackled: no dask scheduler answers at {wrong}: ")
+            assert told.stderr.count("\n") == 1
+
+
+def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
+    command = [sys.executable, "-m", "shackled.parallel.local_cluster", "1"]
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+
+        class Breaker(Listener):
+            def advanced(self, pixels: int) -> None:
+                process.kill()
+
+        with pytest.raises(RenderError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
+            render_frames(full_turn(SCENE, 200), Where(cluster=address), listener=Breaker())
+    # dask is quiet about it
+    assert capfd.readouterr().err == ""
 
 
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:

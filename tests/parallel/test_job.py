@@ -142,7 +142,8 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
     [
         ({"jobs": 0}, "--jobs must be from 1 to 256, not 0"),
         ({"jobs": 1.5}, "--jobs must be from 1 to 256"),
-        ({"gas_limit": 0}, "--gas-limit must be a whole number of gas from 1, not 0"),
+        ({"gas_limit": 0}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000, not 0"),
+        ({"gas_limit": 10**30}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000"),
         ({"tile": 0}, "sides of a --tile must be whole numbers from 1"),
         ({"tile": "big"}, "the size of a tile must be one number"),
         ({"rpc": "http://127.0.0.1:1", "cluster": ""}, "give --rpc or --cluster"),

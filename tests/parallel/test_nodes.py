@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
-from nodes import anvil, free_port, needs_anvil
+from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, each_third, proxy
 from shackled import Image, RenderError, load
 from shackled.chain import open_chain
+from shackled.chain.addresses import PROXY
 from shackled.errors import NodeError
-from shackled.parallel import Listener, Where, referee, render_frames, scheduler
+from shackled.parallel import Listener, Outline, Where, referee, render_frames, scheduler
 from shackled.render import render_whole
 
 SCENE = replace(load("cube"), width=64, height=60)
@@ -26,6 +28,10 @@ pytestmark = needs_anvil
 class Notes(Listener):
     def __init__(self) -> None:
         self.warnings: list[str] = []
+        self.outlines = 0
+
+    def planned(self, outline: Outline) -> None:
+        self.outlines += 1
 
     def warned(self, text: str) -> None:
         self.warnings.append(text)
@@ -94,6 +100,9 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
         ("html", "not JSON"),
         ("half", "broke off its answer"),
         ("wrong", "answers wrongly: its picture is not what the contracts draw"),
+        ("empty", "answers wrongly: the contract returned 0 bytes"),
+        ("junk", "answers wrongly: the contract returned 468 bytes"),
+        ("lie", "answers wrongly: the contract refused: error 0x1212"),
     ],
 )
 def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
@@ -107,6 +116,8 @@ def test_a_node_that_always_fails(node: str, right: Image, manner: str, message:
     assert job.images[0].bmp == right.bmp
     assert all("it is left out" in warning for warning in notes.warnings)
     assert len(job.shares) == 2
+    # whoever did nothing for it is not named
+    assert not notes.warnings or job.images[0].chain.startswith("node ")
 
 
 def test_a_node_that_turns_bad(node: str, right: Image, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -134,6 +145,59 @@ def test_a_node_that_does_not_answer_in_time(node: str, right: Image) -> None:
         assert job.images[0].bmp == right.bmp
     with proxy(node, always("stuck")) as url, pytest.raises(NodeError, match=r"did not answer within 0.2 seconds"):
         render_frames([replace(SCENE, width=12, height=10)], Where(rpc=(url,), timeout=0.2))
+
+
+def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
+    asked: list[str] = []
+
+    def answer(request: dict[str, Any]) -> Reply:
+        asked.append(request["method"])
+        return Reply(status=429, headers={"Retry-After": "0"}) if len(asked) in (1, 2, 4) else forward(node, request)
+
+    with serving(answer) as url:
+        job = render_frames([SCENE], Where(rpc=(url,), tile=TILE))
+    assert job.images[0].bmp == right.bmp
+
+
+def test_a_wrong_address_is_told_before_anything_is_rendered(node: str) -> None:
+    notes = Notes()
+    for address, message in (
+        (b"\x77" * 20, "^there is no contract at"),
+        (PROXY, "^the contract at .* is not the rend"),
+    ):
+        with pytest.raises(RenderError, match=message):
+            render_frames([SCENE], Where(rpc=(node,), address=f"0x{address.hex()}", tile=TILE), listener=notes)
+    assert notes.outlines == 0
+
+
+def test_answers_that_are_too_long(node: str, right: Image) -> None:
+    """The picture is halved until it fits, and no further."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        reply = forward(node, request)
+        return failure("response size exceeded", -32008) if len(reply.body) > 8000 else reply
+
+    with serving(answer) as url:
+        # 64 x 60 in halves of 30, 15, and 8 and 7 rows
+        job = render_frames([SCENE], Where(rpc=(url,), tile=(64, 60)))
+    assert job.images[0].bmp == right.bmp
+    assert job.calls == 4
+
+
+def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
+    """As geth does, whatever gas is asked for; nobody says so."""
+    scene = replace(load("cube"), width=128, height=128)
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_call":
+            call = request["params"][0]
+            call["gas"] = hex(min(1_500_000, int(call.get("gas", "0xffffffff"), 16)))
+        return forward(node, request)
+
+    with serving(answer) as url:
+        job = render_frames([scene], Where(rpc=(url,)))
+    assert job.calls > 1
+    assert job.images[0].bmp == open_chain().draw(scene).bmp
 
 
 def test_nodes_that_are_not_there(node: str, right: Image) -> None:

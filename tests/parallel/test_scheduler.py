@@ -181,6 +181,20 @@ def test_what_a_contract_refuses_ends_it() -> None:
         run([place, Shaky("b", lambda n, tile: time.sleep(0.05))])
 
 
+def test_what_a_contract_is_said_to_refuse() -> None:
+    """It is true if it refuses here too; else the place is left out."""
+
+    class Agreeing(Referee):
+        def draw(self, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+            raise RenderError("the contract refused: NoViewDirection()")
+
+    liar = Shaky("liar", lambda n, tile: RenderError("the contract refused: NoViewDirection()"))
+    with pytest.raises(RenderError, match=r"^the contract refused: NoViewDirection\(\)$"):
+        run([liar], Agreeing())
+    notes = run([liar, Shaky("honest", lambda n, tile: time.sleep(0.02))], Referee())
+    assert notes.warnings == ["the liar answers wrongly: the contract refused: NoViewDirection(); it is left out"]
+
+
 def test_a_place_that_lies_at_once() -> None:
     liar, honest = Shaky("liar"), Shaky("honest", lambda n, tile: time.sleep(0.02))
     liar.lies = True
@@ -243,6 +257,20 @@ def test_half_a_picture_is_no_picture() -> None:
 
     with pytest.raises(RenderError, match=r"^the cutter answers wrongly: the contract "):
         run([Cutter("cutter")])
+
+
+def test_halves_of_an_earlier_run_are_taken(tmp_path: Path) -> None:
+    """A place learns that parts are too large; those that were cut before are there, however they are come by."""
+
+    def large(n: int, tile: Rectangle) -> BaseException | None:
+        return TooLargeError("too large") if area(tile) > 2 * SIDE else None
+
+    folder = tmp_path / "parts"
+    first, again = Shaky("first", large), Shaky("again", large)
+    run([first], store=Store(folder, [SCENE], True))
+    assert len(first.tiles) == 2 * len(PARTS)
+    run([again], store=Store(folder, [SCENE], True))
+    assert again.tiles == []
 
 
 def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

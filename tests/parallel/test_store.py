@@ -9,6 +9,7 @@ import pytest
 
 from shackled import InputError, RenderError, Scene, load
 from shackled.chain import open_chain
+from shackled.errors import TooLargeError
 from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel import place as place_module
 from shackled.parallel.part import Part, Piece, draw_part
@@ -122,3 +123,36 @@ def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
     tight = render_frames([large], Where(tile=(64, 16)), keep=keep2)
     # two processes would be given more parts
     assert render_frames([large], Where(jobs=2), keep=keep2).calls == tight.calls == 4
+
+
+def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    keep, drawn, resumed = tmp_path / "cube.png.parts", list[Rectangle](), False
+
+    def narrow(chain: object, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        if tile.width * tile.height > 200:
+            raise TooLargeError("too large")
+        if len(drawn) == 3 and not resumed:
+            raise KeyboardInterrupt
+        drawn.append(tile)
+        return draw_part(open_chain(), scene, tile, count)
+
+    monkeypatch.setattr(place_module, "draw_part", narrow)
+    monkeypatch.setattr(Listener, "warned", lambda self, text: None)
+    with pytest.raises(KeyboardInterrupt):
+        render_frames([SCENE], Where(gas_limit=10**9), keep=keep)
+    resumed = True
+    again = render_frames([SCENE], Where(gas_limit=10**9), keep=keep)
+    assert again.calls == len(drawn) > 3
+    assert again.images[0].bmp == open_chain().draw(SCENE).bmp
+
+
+def test_what_was_being_written_is_taken_away_too(tmp_path: Path) -> None:
+    """When the machine goes down, a file may be there that was not finished."""
+    store = Store(tmp_path / "parts", [SCENE], False)
+    part = Part(0, Rectangle(0, 0, 16, 10))
+    store.write(part, draw_part(open_chain(), SCENE, part.tile, False))
+    (name,) = store.folder.iterdir()
+    for each in (name.name, PLAN):
+        (store.folder / f".{each}.abcd1234").write_bytes(b"half")
+    remove_parts(store.folder)
+    assert not store.folder.exists()

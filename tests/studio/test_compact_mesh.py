@@ -16,20 +16,19 @@ from shackled.datasets.teapot import teapot
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
 from shackled.studio.compact_mesh import COMPACT, compact, expand, take_apart
-
-KEPT = b"\xaa" * 20
+from shackled.studio.keeping import kept_at
 
 
 def opened(stored: bytes) -> bytes:
     """What the Studio makes of it, had it been kept."""
     place = chain()
     assert isinstance(place, EmbeddedChain)
-    place.address("Studio")
-    place._codes[KEPT] = b"\0" + stored
+    pointer = kept_at(stored, place.address("Studio"))
+    place._codes[pointer] = b"\0" + stored
     try:
-        output = place.call("Studio", call_data("mesh(address)", "0x" + KEPT.hex())).output
+        output = place.call("Studio", call_data("mesh(address)", "0x" + pointer.hex())).output
     finally:
-        del place._codes[KEPT]
+        del place._codes[pointer]
     return bytes(decode(["bytes"], output)[0])
 
 
@@ -120,6 +119,48 @@ CUBE = compact(pack(Mesh(np.array(np.meshgrid([0, 9], [0, 9], [0, 9])).reshape(3
 def test_what_is_broken_is_refused(broken: bytes, error: str) -> None:
     with pytest.raises(RenderError, match=error):
         opened(broken)
+
+
+def head(kind: int = 0, x: int = 0, y: int = 0, z: int = 0, colors: int = 0, color: int = 0, normal: int = 0) -> bytes:
+    """A compact mesh of nothing: how many bits its numbers have, if there were any."""
+    sizes = bytes([COMPACT, kind]) + bytes(6) + bytes([x, y, z]) + bytes(9)
+    return sizes + colors.to_bytes(2, "big") + bytes([color, normal]) + bytes(3 * colors)
+
+
+@pytest.mark.parametrize("known", [{"x": 16, "y": 16, "z": 16}, {"kind": 2, "z": 24}])
+@pytest.mark.parametrize("more", [{"color": 24}, {"colors": 1}, {"colors": 3, "color": 2}, {"kind": 3, "normal": 10}])
+def test_heads_that_the_format_knows(known: dict[str, int], more: dict[str, int]) -> None:
+    made = head(**known | more)
+    assert opened(made)[1:] == bytes(4)
+
+
+@pytest.mark.parametrize(
+    "beyond",
+    [
+        {"kind": 4},
+        {"x": 17},
+        {"y": 17},
+        {"z": 17},
+        {"kind": 2, "x": 25},
+        {"kind": 2, "z": 25},
+        {"color": 25},
+        {"colors": 1, "color": 1},
+        {"colors": 3, "color": 3},
+        {"kind": 1, "normal": 11},
+        {"kind": 1},
+        {"normal": 5},
+    ],
+)
+def test_heads_beyond_what_the_format_knows(beyond: dict[str, int]) -> None:
+    with pytest.raises(RenderError, match="CompactMeshHeader"):
+        opened(head(**beyond))
+
+
+def test_faces_of_more_vertices_than_there_are() -> None:
+    """A face of three new ones, where there are none."""
+    made = head()
+    with pytest.raises(RenderError, match="CompactMeshFaces"):
+        opened(made[:4] + b"\0\1" + made[6:] + b"\xf0")
 
 
 @settings(max_examples=40, deadline=None)

@@ -18,7 +18,7 @@ from ledger import call_data
 from pictures import chain
 from shackled import RenderError
 from shackled.reference.bmp import encode_bmp
-from shackled.reference.png import CODE_LENGTHS, code_header, codes, encode_png, short_run
+from shackled.reference.png import CODE_LENGTHS, PIXEL, code_header, codes, encode_png, literal, match
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -107,6 +107,19 @@ def test_data_uri() -> None:
         assert uri == b"data:image/png;base64," + base64.b64encode(encode_png(pixels, scale))
 
 
+def test_data_uri_of_whole_words() -> None:
+    """The encoder writes zeros behind the file, where nothing else may be."""
+    import base64
+
+    for width in range(1, 200):
+        pixels = np.random.default_rng(width).integers(0, 256, (1, width, 3), np.uint8)
+        png = encode_png(pixels, 2)
+        if len(png) % 32 == 0:
+            break
+    assert len(png) % 32 == 0
+    assert contract_answer(pixels, 2, "dataURI") == b"data:image/png;base64," + base64.b64encode(png)
+
+
 @pytest.mark.parametrize("scale", [0, 9, 2**255])
 def test_scale_out_of_range(scale: int) -> None:
     with pytest.raises(RenderError, match=f"ScaleOutOfRange.*{scale}"):
@@ -131,8 +144,20 @@ def test_what_is_no_bitmap(change: str) -> None:
 def test_the_code_is_complete() -> None:
     assert sum(2.0**-length for length in CODE_LENGTHS) == 1
     assert len(set(codes())) == len(CODE_LENGTHS) == 286
-    assert max(len(short_run(zeros)) for zeros in range(260)) + 3 * max(CODE_LENGTHS[:256]) <= 64
     assert set(code_header()) == {"0", "1"}
+
+
+def test_codes_of_bytes_need_no_table() -> None:
+    assert {int(literal(value), 2) - value for value in range(256)} == {int(literal(0), 2)}
+    assert {len(literal(value)) for value in range(256)} == {9}
+
+
+def test_what_the_contract_writes_at_once_fits_a_word() -> None:
+    """A pixel and its match, behind up to seven bits and before the byte that has their number."""
+    longest = max(len(match(3 * 8 * gap - 3, PIXEL)) for gap in range(1, 257))
+    assert 7 + 3 * 9 + longest <= 248
+    for scale in (2, 4, 8):
+        assert 3 * 9 + len(match(3 * scale - 3, PIXEL)) == 32
 
 
 def test_the_tables_are_those_of_the_model() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 from dataclasses import replace
 
@@ -72,6 +73,19 @@ def test_a_scene_is_drawn_as_it_was(world: World) -> None:
     assert np.array_equal(pixels(png), picture.pixels.repeat(3, 0).repeat(3, 1))
     uri = world.call("Studio", "renderDataURI(address,uint256)", pointer, 1)
     assert uri.startswith("data:image/png;base64,iVBORw0KGgo")
+
+
+def test_a_data_uri_of_whole_words(world: World) -> None:
+    """The PNG file ends where a word ends, and what is behind it in memory is free."""
+    pointer = stored(world, SCENE)
+    for width in range(8, 200):
+        changes = (16, *NOTHING[1:-1], (width, 8))
+        png = world.call("Studio", f"renderPNG(address,uint256,{CHANGES})", pointer, 2, changes)
+        if len(png) % 32 == 0:
+            break
+    assert len(png) % 32 == 0
+    uri = world.call("Studio", f"renderDataURI(address,uint256,{CHANGES})", pointer, 2, changes)
+    assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
 
 
 def test_what_is_kept_is_the_scene(world: World) -> None:
@@ -203,6 +217,23 @@ def test_large_meshes_are_kept_in_parts(world: World) -> None:
 def test_where_nothing_is_kept(world: World, function: str) -> None:
     with pytest.raises(RenderError, match=f"NothingKept.*{NOBODY}"):
         world.call("Studio", f"{function}(address)", NOBODY)
+
+
+def test_only_what_the_studio_keeps_counts(world: World) -> None:
+    """Code elsewhere may change: an account that delegates (EIP-7702) has 0xef0100 and an address as its code."""
+    account, other = bytes(19) + b"\x71", bytes(19) + b"\x72"
+    world.codes[account] = bytes.fromhex("ef0100") + bytes(20)
+    # a mesh whose last bytes are those of the account's code; the rest is kept
+    head = world.store("storePart(bytes)", b"\0\0\2\0\0" + bytes(3))
+    joined = world.store("join(address[])", ["0x" + head.hex(), "0x" + account.hex()])
+    with pytest.raises(RenderError, match=f"NothingKept.*{account.hex()}"):
+        world.call("Studio", "mesh(address)", "0x" + joined.hex())
+    # the very code of what is kept, and a list of parts, at another place
+    mesh = world.store("storeMesh(bytes)", bytes(5))
+    for code in (world.codes[mesh], b"\0\x13" + mesh):
+        world.codes[other] = code
+        with pytest.raises(RenderError, match=f"NothingKept.*{other.hex()}"):
+            world.call("Studio", "mesh(address)", "0x" + other.hex())
 
 
 def test_what_is_neither(world: World) -> None:

@@ -17,11 +17,13 @@ from shackled.chain.address_book import AddressBook
 from shackled.chain.addresses import show_address
 from shackled.chain.connection import Connection
 from shackled.cli.app import run
-from shackled.errors import RenderError, RevertError
+from shackled.deploy.contract import local_chain
+from shackled.errors import NodeError, RenderError, RevertError
+from shackled.tokens.allow_list import read_allow_list
 from shackled.tokens.collection import open_collection
 from shackled.tokens.development import development_accounts
 from shackled.tokens.immutables import immutable_places
-from shackled.tokens.verify import check_collection_code
+from shackled.tokens.verify import check_collection_code, check_token
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB, CAROL = range(4)
@@ -92,6 +94,7 @@ def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, sh
         (("mint", "--private-key-env", "NO_SUCH", "--yes"), 2, "NO_SUCH"),
         (("phase", "open"), 2, "the phase must be one of closed, allow-list, public"),
         (("deploy", "punks"), 2, "the collection must be one of genesis, icons"),
+        (("deploy", "icons", "--icons", "heart", "--supply", "0"), 2, "there must be 1 token or more"),
         (("deploy", "genesis", "--price", "much"), 2, "--price must be an amount of ether"),
         (("deploy", "genesis", "--royalty", "11"), 2, "--royalty must be a finite number from 0 to 10, not 11"),
         (("deploy", "genesis", "--royalty", "nan"), 2, "--royalty must be a finite number from 0 to 10, not nan"),
@@ -106,6 +109,36 @@ def test_mistakes_are_told_in_one_line(
     result = shackled("token", *arguments, expect=code)
     assert said in result.error
     assert len(result.err.strip().splitlines()) == 1
+
+
+def test_a_node_in_a_variable_sends_no_list(
+    node: Node, address: str, allow_list: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The root alone is asked for, by one who has named a node for everything else."""
+    root = read_allow_list(allow_list).root.hex()
+    monkeypatch.setenv("SHACKLED_RPC", node.url)
+    assert run(["token", "allow-list", str(allow_list)]) == 0
+    assert capsys.readouterr().out.startswith(f"root 0x{root}, ")
+    assert run(["token", "allow-list", str(allow_list), "--rpc", node.url]) == 2
+    assert "say whose account it is" in capsys.readouterr().err
+
+
+def test_without_a_signer_nobody_permits(node: Node, address: str, shackled: Shackled) -> None:
+    contract = node.contract("GenesisCollection", address)
+    root = contract.functions.allowListRoot().call()
+    contract.functions.setAllowList(root, "0x" + "00" * 20).transact({"from": node.accounts[OWNER]})
+    said = shackled("token", "permit", node.accounts[BOB], 1, user=OWNER, expect=2)
+    contract.functions.setAllowList(root, node.accounts[OWNER]).transact({"from": node.accounts[OWNER]})
+    assert said.error.startswith("shackled: nobody signs permissions of this collection")
+
+
+def test_a_phase_that_there_is_not_is_told(node: Node, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Contracts of strangers may say anything."""
+    collection = open_collection(Connection(node.url), address)
+    ask = collection.contract.call
+    monkeypatch.setattr(collection.contract, "call", lambda name, *rest: 7 if name == "phase" else ask(name, *rest))
+    with pytest.raises(NodeError, match="its sale is in phase 7, which there is not"):
+        collection.terms()
 
 
 def test_the_owner_changes_in_two_steps(node: Node, address: str, shackled: Shackled) -> None:
@@ -173,7 +206,9 @@ def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> 
     assert said.error == "shackled: 1 of the checks failed"
 
 
-def test_another_randomness_than_that_of_the_block_is_found(node: Node, address: str, shackled: Shackled) -> None:
+def test_another_randomness_than_that_of_the_block_is_found(
+    node: Node, address: str, shackled: Shackled, monkeypatch: pytest.MonkeyPatch
+) -> None:
     contract = node.contract("GenesisCollection", address)
     contract.functions.setPhase(2).transact({"from": node.accounts[OWNER]})
     node.mine(40)
@@ -195,6 +230,16 @@ def test_another_randomness_than_that_of_the_block_is_found(node: Node, address:
     finally:
         node.rpc("anvil_setStorageAt", address, "0x" + place.hex(), "0x" + randomness.hex())
     assert f"WRONG  Shackled Genesis #{token}: the randomness of its round is not that of block" in said.out
+    # what cannot be compared is not said to be right
+    collection = open_collection(Connection(node.url), address)
+    ask = collection.connection.request
+    monkeypatch.setattr(
+        collection.connection,
+        "request",
+        lambda method, *rest: None if method == "eth_getBlockByNumber" else ask(method, *rest),
+    )
+    with pytest.raises(NodeError, match="does not have block"):
+        check_token(collection, token, local_chain())
 
 
 def test_a_picture_file_may_be_of_the_other_kind(address: str, tmp_path: Path, shackled: Shackled) -> None:

@@ -102,6 +102,13 @@ def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
         s.icons.send("mint", 1, 1, sender=s.alice, value=PRICES[1])
 
 
+def test_a_permission_must_be_signed(s: Stage) -> None:
+    s.icons.send("setPhase", ALLOW_LIST, sender=s.owner)
+    s.icons.send("setAllowList", bytes(32), s.owner, sender=s.owner)
+    with refused("AllowanceNotSigned", s.owner):
+        s.icons.send("mintWithSignature", 0, 1, (s.alice, 1, 2**40), bytes(65), sender=s.alice, value=PRICES[0])
+
+
 def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
     c, scene = fresh(s), pointer(s)
     with refused("NoIcons"):

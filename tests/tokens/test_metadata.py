@@ -79,6 +79,8 @@ CLEAR = PillowImage.new("RGBA", (2, 2))
         (data_uri("application/json", b"\xff"), "no JSON"),
         (data_uri("application/json", b"[" * 60_000), "no JSON"),
         (data_uri("application/json", b'{"a": NaN}'), "NaN is no number"),
+        (data_uri("application/json", b'{"name": 1e999}'), "not JSON compliant"),
+        (data_uri("application/json", b'{"name": "\\ud800"}'), "surrogates not allowed"),
         (data_uri("application/json", TWICE), "'name' stands there twice"),
         (data_uri("application/json", b"[]"), "no object"),
         (token(name=None), "has no name"),

@@ -11,6 +11,7 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from shackled.tokens.header import encode_values
 from tokens.adversaries import adversary
 from tokens.stage import PRICE, Stage, stage
 from tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
@@ -194,6 +195,33 @@ def test_a_chain_without_randomness_says_so(s: Stage, monkeypatch: pytest.Monkey
     block = s.genesis.call("blockOf", 0)
     with refused("NoRandomness", block):
         s.reveal(0)
+
+
+def of_another_form() -> dict[str, bytes]:
+    """Headers as no chain has them, whose hashes a chain could know all the same."""
+    before: list[bytes | int] = [*[bytes(32)] * 2, bytes(20), *[bytes(32)] * 3]
+    numbers: list[bytes | int] = [0, 1, 2, 3, 4, b""]
+    whole = encode_values([*before, bytes(256), *numbers, b"\x55" * 32, bytes(8)])
+    return {
+        "a randomness of 31 bytes": encode_values([*before, bytes(256), *numbers, b"\x55" * 31, bytes(8)]),
+        "a randomness of 33 bytes": encode_values([*before, bytes(256), *numbers, b"\x55" * 33, bytes(8)]),
+        "a short bloom filter": encode_values([*before, bytes(100), *numbers, b"\x55" * 32, bytes(8)]),
+        "a list": b"\xf9\x02\x00" + b"\xc0" * 600,
+        "an end within the randomness": whole[: whole.index(b"\x55") + 31],
+    }
+
+
+@pytest.mark.parametrize("form", list(of_another_form()))
+def test_headers_of_another_form_give_no_randomness(s: Stage, form: str) -> None:
+    """A fork that changed headers altogether must not lead to seeds made of something else."""
+    s.mint()
+    block = s.genesis.call("blockOf", 0)
+    s.world.mine_to(block + 300)
+    header = of_another_form()[form]
+    s.world.of(HISTORY).storage[block % HISTORY_LENGTH] = int.from_bytes(keccak(header), "big")
+    with refused("NotAHeader"):
+        s.genesis.send("reveal", [0], [header])
+    assert s.genesis.call("randomnessOf", 0) == bytes(32)
 
 
 @pytest.mark.parametrize("while_it_arrives", [False, True])

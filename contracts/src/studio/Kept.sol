@@ -12,7 +12,7 @@ library Kept {
     /// @notice The first byte of a list of parts.
     uint256 internal constant PARTS = 0x13;
 
-    /// @notice Nothing is kept there.
+    /// @notice Nothing is kept there by this contract.
     error NothingKept(address pointer);
     /// @notice There is nothing to be kept, or its first byte is that of a list of parts.
     error NotToBeKept();
@@ -60,7 +60,7 @@ library Kept {
         if (pointer.code.length == 0) return (SSTORE2.writeCounterfactual(data, 0), true);
     }
 
-    /// @notice The bytes that are kept there.
+    /// @notice The bytes that are kept there. Code that others have put anywhere does not count: that of some accounts can change.
     function read(address pointer) internal view returns (bytes memory data) {
         unchecked {
             data = readPart(pointer);
@@ -81,9 +81,19 @@ library Kept {
                 }
                 uint256 size = part.code.length;
                 if (size == 0) revert NothingKept(part);
+                // read as bytes whose length stands in the word before, which is that of `data` or the end of the last part
+                bytes memory here;
+                uint256 neighbour;
                 assembly ("memory-safe") {
+                    here := sub(target, 32)
+                    neighbour := mload(here)
+                    mstore(here, sub(size, 1))
                     extcodecopy(part, target, 1, sub(size, 1))
                     target := add(target, sub(size, 1))
+                }
+                check(part, here);
+                assembly ("memory-safe") {
+                    mstore(here, neighbour)
                 }
             }
             assembly ("memory-safe") {
@@ -94,8 +104,14 @@ library Kept {
         }
     }
 
-    function readPart(address pointer) private view returns (bytes memory) {
+    function readPart(address pointer) private view returns (bytes memory data) {
         if (pointer.code.length == 0) revert NothingKept(pointer);
-        return SSTORE2.read(pointer);
+        data = SSTORE2.read(pointer);
+        check(pointer, data);
+    }
+
+    /// @dev Whether the address is that at which this contract keeps these bytes.
+    function check(address pointer, bytes memory data) private view {
+        if (SSTORE2.predictCounterfactualAddress(data, 0) != pointer) revert NothingKept(pointer);
     }
 }

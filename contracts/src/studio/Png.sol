@@ -9,26 +9,27 @@ import {PngCode} from "./PngCode.sol";
 /// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
 /// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
 ///
-/// The rows are stored as differences: the first row of each square from the pixel at the left (filter Sub), the others from the row above
-/// (filter Up), which leaves zeros. So there are two things to write, the differences of pixels and runs of zeros, and one Huffman code
-/// for all pictures, fitted to those of this renderer, does for both: see `PngCode`. The checksums are computed from what is not zero.
+/// The first row of each square holds the pixels themselves (filter None), the others are like the row above (filter Up): zeros. A pixel
+/// is written as its three bytes and a match that repeats them until another one comes. All bytes have codes of nine bits, so that eight
+/// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
 library Png {
     uint256 internal constant MAX_SCALE = 8;
     uint256 private constant BMP_HEADER = 54;
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
     uint256 private constant DATA = 75;
-    uint256 private constant SUB = 1;
+    /// @dev The filter of rows that are as the row above.
     uint256 private constant UP = 2;
     /// @dev The largest prime below 2^16, for the checksum Adler-32.
     uint256 private constant ADLER = 65521;
-    /// @dev Behind the tables of `PngCode` there is room to remember codes of a difference and the zeros before it, each a word: how many
-    /// zeros (16 bits) and the difference (24 bits), at bit 64 the size of the code, and the code.
-    uint256 private constant KNOWN = 1312;
-    uint256 private constant KNOWN_COUNT = 509;
-    uint256 private constant KNOWN_SIZE = 16288;
-    /// @dev Zeros that one code can stand for.
-    uint256 private constant LONGEST_RUN = 259;
+    /// @dev Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
+    uint256 private constant PART = 256;
+    /// @dev Where a pixel and the match of the rest of its square have so many bits, eight pixels of which so many are not like those at
+    /// their left are all written.
+    uint256 private constant GROUP_SIZE = 32;
+    uint256 private constant MANY = 4;
+    /// @dev As many longest matches are written at once.
+    uint256 private constant LONGEST_MANY = 32;
 
     /// @notice The bytes are not a bitmap as the renderer makes them.
     error NotABitmap();
@@ -36,18 +37,14 @@ library Png {
     error ScaleOutOfRange(uint256 scale);
 
     /// @dev What has been written so far.
-    /// @param target Where the next bytes belong.
-    /// @param bits The bits that are not there yet, the last one lowest. Above them there may be others, which are there already.
-    /// @param count How many, up to 255.
-    /// @param sums What the bytes before compression add to Adler-32: twice 128 bits, the second sum, the first sum. All values are
-    /// below 2^8, and there are fewer than 2^28 of them.
-    /// @param code The tables of `PngCode`.
+    /// @param target Where the next byte belongs.
+    /// @param count How many of its bits are there already, 0..7. The others are zeros.
+    /// @param gaps Codes, 48 bytes apart: of a pixel of zeros and the match of it up to 0, 1, 2, ... pixels farther. In the lowest byte
+    /// the number of bits, of which the first is uppermost.
     struct Stream {
         uint256 target;
-        uint256 bits;
         uint256 count;
-        uint256 sums;
-        uint256 code;
+        uint256 gaps;
     }
 
     /// @notice A PNG file of a bitmap.
@@ -60,16 +57,13 @@ library Png {
             Stream memory stream;
             bytes memory tables = PngCode.tables();
             bytes memory header = PngCode.header();
+            Rows memory rows = Rows(bmp, tables, 0, width, height, scale);
+            Above memory above = aboveOf(rows);
+            writeGaps(stream, tables, width < PART ? width : PART, scale);
             uint256 row;
             assembly ("memory-safe") {
-                // the tables, and room to remember codes
-                let code := mload(0x40)
-                mstore(add(stream, 0x80), code)
-                mcopy(code, add(tables, 32), mload(tables))
-                calldatacopy(add(code, KNOWN), calldatasize(), KNOWN_SIZE)
-                // room for a row, with a word of zeros before it and two more words behind it
-                row := add(add(code, add(KNOWN, KNOWN_SIZE)), 32)
-                mstore(sub(row, 32), 0)
+                // room for a row, with a word before it and two words behind it
+                row := add(mload(0x40), 32)
                 png := add(row, and(add(mul(3, width), 95), not(31)))
                 // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
                 let sides := or(shl(32, mul(width, scale)), mul(height, scale))
@@ -77,11 +71,15 @@ library Png {
                 mstore(add(png, 64), shl(168, 0x0000000000494441547801))
                 let target := add(png, DATA)
                 mcopy(target, add(header, 32), mload(header))
-                mstore(stream, add(target, mload(header)))
+                target := add(target, mload(header))
+                mstore(target, 0)
+                mstore(stream, target)
             }
-            (stream.bits, stream.count) = PngCode.headerRest();
-            writeRows(stream, bmp, row, width, height, scale);
-            finish(png, stream, (1 + 3 * width * scale) * height * scale);
+            (uint256 rest, uint256 restSize) = PngCode.headerRest();
+            put(stream, rest << (256 - restSize), restSize);
+            rows.row = row;
+            (uint256 second, uint256 first) = writeRows(stream, rows, above);
+            finish(png, stream, second, first);
             writeSums(png);
         }
     }
@@ -89,10 +87,11 @@ library Png {
     /// @notice A PNG file of a bitmap as a `data:` URI.
     function dataURI(bytes memory bmp, uint256 scale) internal pure returns (string memory uri) {
         unchecked {
+            // this stands before the file, since zeros are written behind that
+            string memory prefix = "data:image/png;base64,";
             bytes memory png = encode(bmp, scale);
             uint256 file;
             uint256 begin;
-            string memory prefix = "data:image/png;base64,";
             assembly ("memory-safe") {
                 file := add(png, 32)
                 // the encoder needs zeros behind the file
@@ -135,209 +134,290 @@ library Png {
         }
     }
 
-    function writeRows(Stream memory stream, bytes memory bmp, uint256 row, uint256 width, uint256 height, uint256 scale)
-        private
-        pure
-    {
+    struct Rows {
+        bytes bmp;
+        bytes tables;
+        uint256 row;
+        uint256 width;
+        uint256 height;
+        uint256 scale;
+    }
+
+    /// @dev Finds the codes of pixels and of matches of them up to `width` pixels farther.
+    function writeGaps(Stream memory stream, bytes memory tables, uint256 width, uint256 scale) private pure {
         unchecked {
-            uint256 stride = strideOf(width);
-            uint256 rowSize = 1 + 3 * width * scale;
-            // bytes that are not written yet
-            uint256 rest = rowSize * height * scale;
-            uint256 source;
+            uint256 gaps;
             assembly ("memory-safe") {
-                // bitmaps begin with the lowest row
-                source := add(add(add(bmp, 32), BMP_HEADER), mul(stride, height))
+                gaps := mload(0x40)
+                mstore(0x40, add(gaps, mul(48, add(width, 1))))
             }
-            (uint256 sub, uint256 subSize) = literal(stream, SUB);
-            // a row like the one above
-            (uint256 up, uint256 upSize) = literal(stream, UP);
-            (uint256 run, uint256 runSize, bool short) = runCode(stream, rowSize - 1);
-            (uint256 copied, uint256 copiedSize) = ((up << runSize) | run, upSize + runSize);
-            for (uint256 y = height; y != 0; --y) {
-                source -= stride;
+            stream.gaps = gaps;
+            for (uint256 gap = 1; gap <= width; ++gap) {
+                (uint256 text, uint256 size) = matchCode(tables, 3 * scale * gap - 3);
                 assembly ("memory-safe") {
-                    let end := add(row, mul(3, width))
-                    mcopy(row, source, mul(3, width))
-                    // ten more pixels like the last one, and something else
-                    let pixel := shr(232, mload(sub(end, 3)))
-                    mstore(end, or(shl(16, mul(pixel, 0x000001000001000001000001000001000001000001000001000001000001)), and(not(shr(8, pixel)), 0xffff)))
+                    gaps := add(gaps, 48)
                 }
-                put(stream, sub, subSize);
-                putRun(stream, writeRow(stream, row, width, rest - 1, scale));
-                for (uint256 copy = 1; copy != scale; ++copy) {
-                    if (short) {
-                        put(stream, copied, copiedSize);
-                    } else {
-                        put(stream, up, upSize);
-                        putRun(stream, rowSize - 1);
+                uint256 entry = (PngCode.LITERALS << 229) | (text << (229 - size)) | (27 + size);
+                assembly ("memory-safe") {
+                    mstore(gaps, entry)
+                }
+            }
+        }
+    }
+
+    /// @dev The code of a match of up to 32 times the longest length at the distance of a pixel, and its bits.
+    function matchCode(bytes memory tables, uint256 length) private pure returns (uint256 text, uint256 size) {
+        unchecked {
+            if (length == 0) return (0, 0);
+            uint256 longest = PngCode.LONGEST_SIZE * ((length - 3) / 258);
+            assembly ("memory-safe") {
+                text := shr(232, mload(add(add(tables, 32), mul(3, mod(sub(length, 3), 258)))))
+            }
+            size = text & 31;
+            text = (text >> 5) | ((PngCode.LONGEST & ((1 << longest) - 1)) << size);
+            size += longest;
+        }
+    }
+
+    /// @return second What the bytes before compression add to Adler-32: its second sum.
+    /// @return first Its first sum.
+    function writeRows(Stream memory stream, Rows memory rows, Above memory above) private pure returns (uint256 second, uint256 first) {
+        unchecked {
+            uint256 scale = rows.scale;
+            uint256 rowSize = 1 + 3 * rows.width * scale;
+            // bytes that are not written yet
+            uint256 rest = rowSize * rows.height * scale;
+            uint256 stride = strideOf(rows.width);
+            uint256 source;
+            {
+                bytes memory bmp = rows.bmp;
+                uint256 height = rows.height;
+                assembly ("memory-safe") {
+                    // bitmaps begin with the lowest row
+                    source := add(add(add(bmp, 32), BMP_HEADER), mul(stride, height))
+                }
+            }
+            second = rest;
+            first = 1;
+            for (uint256 y = rows.height; y != 0; --y) {
+                source -= stride;
+                put(stream, PngCode.LITERAL << 247, 9);
+                {
+                    uint256 row = rows.row;
+                    uint256 size = 3 * rows.width;
+                    assembly ("memory-safe") {
+                        mcopy(row, source, size)
+                        // eight more pixels like the last one
+                        let end := add(row, size)
+                        mstore(end, shl(64, mul(shr(232, mload(sub(end, 3))), 0x000001000001000001000001000001000001000001000001)))
                     }
                 }
-                stream.sums += (((SUB + UP * (scale - 1)) * rest - UP * rowSize * (scale * (scale - 1) / 2)) << 128) + SUB + UP * (scale - 1);
+                (uint256 sum, uint256 less) = writeParts(stream, rows);
+                second += scale * ((rest - 1) * sum - less) - 3 * (scale * (scale - 1) / 2) * sum;
+                first += scale * sum;
+                for (uint256 copies = scale - 1; copies != 0;) copies -= putAbove(stream, above, copies);
+                second += UP * ((scale - 1) * rest - rowSize * (scale * (scale - 1) / 2));
+                first += UP * (scale - 1);
                 rest -= rowSize * scale;
             }
         }
     }
 
-    /// @dev Writes the differences of a row, each from the pixel at its left, but for the zeros at its end.
-    /// @param row The pixels, after one of zeros. There must be ten more like the last one behind them, and then another one.
-    /// @param rest How many bytes are not written yet, with those of this row.
-    /// @return zeros How many there are at the end.
-    function writeRow(Stream memory stream, uint256 row, uint256 width, uint256 rest, uint256 scale)
+    /// @dev Writes the pixels of a row.
+    /// @return sum Of their bytes.
+    /// @return less Of their bytes, each times the first of its places in the row as it is written.
+    function writeParts(Stream memory stream, Rows memory rows) private pure returns (uint256 sum, uint256 less) {
+        unchecked {
+            uint256 scale = rows.scale;
+            uint256 width = rows.width;
+            uint256 many = GROUP_SIZE;
+            {
+                uint256 gaps = stream.gaps;
+                assembly ("memory-safe") {
+                    if eq(and(mload(add(gaps, 48)), 0xff), GROUP_SIZE) { many := sub(MANY, 1) }
+                }
+            }
+            uint256 rowAt = rows.row;
+            for (uint256 x; x < width; x += PART) {
+                uint256 size = width - x < PART ? width - x : PART;
+                (uint256 lanes, uint256 totals, uint256 channels) = writePart(stream, rowAt + 3 * x, rowAt + 3 * (x + size), many);
+                uint256 blocks = (size + 7) / 8;
+                uint256 all = lanes % 0xffffff;
+                uint256 steps;
+                assembly ("memory-safe") {
+                    // each times its place, 0 to 7
+                    steps := and(shr(168, mul(lanes, 0x000007000006000005000004000003000002000001000000)), 0xffffff)
+                }
+                steps += 8 * (blocks * all - totals % 0xffffff);
+                channels %= 0xffffff;
+                // pixels behind the end of the row
+                uint256 more = 8 * blocks - size;
+                if (more != 0) {
+                    uint256 pixel;
+                    assembly ("memory-safe") {
+                        pixel := shr(232, mload(add(rowAt, mul(3, sub(width, 1)))))
+                    }
+                    uint256 bytesOf = (pixel >> 16) + ((pixel >> 8) & 0xff) + (pixel & 0xff);
+                    all -= more * bytesOf;
+                    steps -= bytesOf * (more * (size + 8 * blocks - 1) / 2);
+                    channels -= more * (((pixel >> 8) & 0xff) + 2 * (pixel >> 16));
+                }
+                sum += all;
+                less += 3 * scale * (x * all + steps) + channels;
+            }
+        }
+    }
+
+    /// @dev Writes the pixels of a part of a row.
+    /// @param first Its first pixel. What is before it may change.
+    /// @param end Behind its last one; up to seven pixels more must be like that.
+    /// @param many Where more of eight pixels than this are not like those at their left, all are written.
+    /// @return lanes Sums of red, green and blue of each eighth pixel.
+    /// @return totals Sums of these sums after each eight pixels.
+    /// @return channels Of each eighth pixel, sums of green and twice blue.
+    function writePart(Stream memory stream, uint256 first, uint256 end, uint256 many)
         private
         pure
-        returns (uint256 zeros)
+        returns (uint256 lanes, uint256 totals, uint256 channels)
     {
         assembly ("memory-safe") {
-            let end := add(row, mul(3, width))
-            let bits := mload(add(stream, 0x20))
-            let count := mload(add(stream, 0x40))
-            let code := mload(add(stream, 0x80))
-            // how many bytes are left at a pixel: this less its address times the scale
-            let places := add(rest, mul(row, scale))
-            let done := rest
-            let step := mul(3, scale)
-            for {} 1 { row := add(row, 30) } {
-                // ten pixels at a time that are like those at their left
-                for {} iszero(shr(16, xor(mload(row), mload(sub(row, 3))))) { row := add(row, 30) } {}
-                if iszero(lt(row, end)) { break }
-                // the differences: each byte by itself, its uppermost bit apart
-                let here := mload(row)
-                let word := mload(sub(row, 3))
-                let signs := and(not(xor(here, word)), 0x8080808080808080808080808080808080808080808080808080808080808080)
-                word := sub(or(here, 0x8080808080808080808080808080808080808080808080808080808080808080), and(word, 0x7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f7f))
-                word := and(xor(word, signs), not(0xffff))
-                here := sub(places, mul(row, scale))
+            function write(target, count, pixel, code) -> newTarget, newCount {
+                // blue, green and red, of eight bits each, to red, green and blue of nine
+                let text := shr(232, mload(pixel))
+                text := or(or(shl(247, and(text, 0xff)), and(shl(230, text), 0x003fc00000000000000000000000000000000000000000000000000000000000)), shl(229, shr(16, text)))
+                mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, add(text, code))))
+                newCount := add(count, and(code, 0xff))
+                newTarget := add(target, shr(3, newCount))
+                newCount := and(newCount, 7)
+            }
+
+            let target := mload(stream)
+            let count := mload(add(stream, 0x20))
+            let gaps := mload(add(stream, 0x40))
+            // the pixel that is to be written next, when it is known how far it goes
+            let last := first
+            mcopy(sub(first, 3), first, 3)
+            for {} lt(first, end) { first := add(first, 24) } {
+                let pixels := mload(first)
+                let change := xor(pixels, mload(sub(first, 3)))
                 {
-                    // red, green and blue of ten pixels at once. What counts as often as there are bytes left, less green, less twice blue
-                    let blue := and(shr(32, word), 0x0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)
-                    let green := and(shr(24, word), 0x0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)
-                    let all := add(add(blue, green), and(shr(16, word), 0x0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff))
-                    let less := mod(add(add(blue, blue), green), 0xffffff)
-                    // each times its place from the left, 0 to 9
-                    let steps := and(shr(216, mul(all, 0x000009000008000007000006000005000004000003000002000001000000)), 0xffffff)
-                    less := add(less, mul(steps, step))
-                    let sums := add(stream, 0x60)
-                    mstore(sums, sub(add(mload(sums), mul(mod(all, 0xffffff), or(shl(128, here), 1))), shl(128, less)))
+                    let blue := and(shr(80, pixels), 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)
+                    let green := and(shr(72, pixels), 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)
+                    channels := add(channels, add(green, add(blue, blue)))
+                    lanes := add(lanes, add(add(blue, green), and(shr(64, pixels), 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)))
+                    totals := add(totals, lanes)
                 }
-                for {} word { word := shl(24, word) } {
-                    let pixel := shr(232, word)
-                    if pixel {
-                        // the code of this after as many zeros, if it is remembered
-                        let size := sub(done, here)
-                        pixel := or(pixel, shl(24, size))
-                        let slot := add(add(code, KNOWN), shl(5, mod(pixel, KNOWN_COUNT)))
-                        let known := mload(slot)
-                        if xor(shr(216, known), pixel) {
-                            for {} gt(size, 258) { size := sub(size, 259) } {
-                                known := shr(232, mload(add(code, 1289)))
-                                bits := or(shl(and(known, 31), bits), shr(5, known))
-                                count := add(count, and(known, 31))
-                                if gt(count, 191) {
-                                    count := sub(count, 192)
-                                    mstore(mload(stream), shl(64, shr(count, bits)))
-                                    mstore(stream, add(mload(stream), 24))
-                                }
-                            }
-                            // the zeros that are left, red, green, blue
-                            pixel := or(and(pixel, 0xffffff), shl(24, size))
-                            let entry := shr(232, mload(add(add(code, 512), mul(3, size))))
-                            known := shr(5, entry)
-                            size := and(entry, 31)
-                            entry := shr(240, mload(add(code, shl(1, byte(2, word)))))
-                            known := or(shl(and(entry, 15), known), shr(4, entry))
-                            size := add(size, and(entry, 15))
-                            entry := shr(240, mload(add(code, shl(1, byte(1, word)))))
-                            known := or(shl(and(entry, 15), known), shr(4, entry))
-                            size := add(size, and(entry, 15))
-                            entry := shr(240, mload(add(code, shl(1, byte(0, word)))))
-                            known := or(shl(and(entry, 15), known), shr(4, entry))
-                            size := add(size, and(entry, 15))
-                            known := or(or(shl(216, pixel), shl(64, size)), known)
-                            mstore(add(add(code, KNOWN), shl(5, mod(pixel, KNOWN_COUNT))), known)
-                        }
-                        size := byte(23, known)
-                        bits := or(shl(size, bits), and(known, 0xffffffffffffffff))
-                        count := add(count, size)
-                        if gt(count, 191) {
-                            count := sub(count, 192)
-                            mstore(mload(stream), shl(64, shr(count, bits)))
-                            mstore(stream, add(mload(stream), 24))
-                        }
-                        done := sub(here, 3)
+                if iszero(shr(64, change)) { continue }
+                // how many pixels change
+                let changed := shr(64, or(change, or(shr(8, change), shr(16, change))))
+                changed := add(and(changed, 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff), 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)
+                changed := mod(and(shr(8, changed), 0x0000000000000000000001000001000001000001000001000001000001000001), 0xffffff)
+                if gt(mul(changed, lt(first, sub(end, 23))), many) {
+                    if xor(first, last) { target, count := write(target, count, last, mload(add(gaps, shl(4, sub(first, last))))) }
+                    // red, green and blue, from 24 bits to 32 bits
+                    pixels := shr(64, pixels)
+                    pixels := or(or(shl(16, and(pixels, 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff)), and(pixels, 0x000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff00)), and(shr(16, pixels), 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff))
+                    pixels := or(and(pixels, 0x0000000000000000000000000000000000000000ffffffffffffffffffffffff), shl(32, and(pixels, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000)))
+                    pixels := or(and(pixels, 0x00000000000000000000ffffffffffff00000000000000000000ffffffffffff), shl(16, and(pixels, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000)))
+                    pixels := or(and(pixels, 0x0000000000ffffff0000000000ffffff0000000000ffffff0000000000ffffff), shl(8, and(pixels, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000)))
+                    pixels := shl(5, pixels)
+                    pixels := add(pixels, and(pixels, 0x1fffe0001fffe0001fffe0001fffe0001fffe0001fffe0001fffe0001fffe000))
+                    pixels := add(pixels, and(pixels, 0x3fc000003fc000003fc000003fc000003fc000003fc000003fc000003fc00000))
+                    pixels := add(pixels, mul(shr(224, mload(add(gaps, 48))), 0x0000000100000001000000010000000100000001000000010000000100000001))
+                    // all but the last one, of which it is not known yet how far it goes
+                    mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, and(pixels, not(0xffffffff)))))
+                    target := add(target, 28)
+                    last := add(first, 21)
+                    continue
+                }
+                change := and(change, not(0xffffffffffffffff))
+                for { let place := first } change {
+                    change := shl(24, change)
+                    place := add(place, 3)
+                } {
+                    if shr(232, change) {
+                        target, count := write(target, count, last, mload(add(gaps, shl(4, sub(place, last)))))
+                        last := place
                     }
-                    here := sub(here, step)
                 }
             }
-            mstore(add(stream, 0x20), bits)
-            mstore(add(stream, 0x40), count)
-            zeros := sub(done, sub(places, mul(end, scale)))
+            target, count := write(target, count, last, mload(add(gaps, shl(4, sub(end, last)))))
+            mstore(stream, target)
+            mstore(add(stream, 0x20), count)
         }
     }
 
-    /// @dev The code of a byte, and its bits.
-    function literal(Stream memory stream, uint256 value) private pure returns (uint256 text, uint256 size) {
+    /// @dev As many rows like the row above as fit a word, or what one begins with.
+    struct Above {
+        uint256 text;
+        uint256 size;
+        uint256 copies;
+        uint256 longest;
+    }
+
+    function aboveOf(Rows memory rows) private pure returns (Above memory above) {
         unchecked {
-            uint256 code = stream.code;
-            assembly ("memory-safe") {
-                text := shr(240, mload(add(code, shl(1, value))))
+            uint256 zeros = 3 * rows.width * rows.scale - 1;
+            // after the filter and the first zero, matches at the distance of a byte
+            uint256 longest = (zeros - 3) / 258;
+            uint256 last = 3 + (zeros - 3) % 258;
+            (uint256 text, uint256 size) = matchCode(rows.tables, last);
+            text ^= last > 258 ? PngCode.OTHER_DISTANCES : 1;
+            above.longest = longest / LONGEST_MANY;
+            longest = PngCode.LONGEST_SIZE * (longest % LONGEST_MANY);
+            text |= (PngCode.LONGEST_ZEROS & ((1 << longest) - 1)) << size;
+            size += longest;
+            text |= (((PngCode.LITERAL + UP) << 9) | PngCode.LITERAL) << size;
+            size += 18;
+            above.size = size;
+            uint256 copies = above.longest == 0 ? rows.scale - 1 : 1;
+            for (; size * (above.copies + 1) <= 248 && above.copies < copies; ++above.copies) {
+                above.text |= text << (256 - size * (above.copies + 1));
             }
-            return (text >> 4, text & 15);
         }
     }
 
-    /// @dev Writes zeros, which add nothing to sums.
-    function putRun(Stream memory stream, uint256 zeros) private pure {
+    /// @dev Writes some rows like the row above.
+    /// @return How many, at most as many as are wanted.
+    function putAbove(Stream memory stream, Above memory above, uint256 wanted) private pure returns (uint256) {
         unchecked {
-            for (; zeros >= 9 * LONGEST_RUN; zeros -= 9 * LONGEST_RUN) put(stream, PngCode.NINE_LONGEST_RUNS, 9 * PngCode.LONGEST_RUN_SIZE);
-            (uint256 text, uint256 size,) = runCode(stream, zeros);
-            put(stream, text, size);
-        }
-    }
-
-    /// @dev The code of zeros, and its bits, if there are fewer than 9 times LONGEST_RUN.
-    function runCode(Stream memory stream, uint256 zeros) private pure returns (uint256 text, uint256 size, bool short) {
-        unchecked {
-            uint256 code = stream.code;
-            uint256 whole = 9 * LONGEST_RUN > zeros ? zeros / LONGEST_RUN : 0;
-            assembly ("memory-safe") {
-                text := shr(232, mload(add(code, add(512, mul(3, mod(zeros, LONGEST_RUN))))))
+            uint256 size = above.size;
+            if (above.longest != 0) {
+                put(stream, (above.text >> 238) << 238, 18);
+                for (uint256 k = above.longest; k != 0; --k) {
+                    put(stream, PngCode.LONGEST_ZEROS << (256 - PngCode.LONGEST_SIZE * LONGEST_MANY), PngCode.LONGEST_SIZE * LONGEST_MANY);
+                }
+                put(stream, above.text << 18, size - 18);
+                return 1;
             }
-            (text, size) = (text >> 5, text & 31);
-            whole *= PngCode.LONGEST_RUN_SIZE;
-            text |= (PngCode.NINE_LONGEST_RUNS >> (9 * PngCode.LONGEST_RUN_SIZE - whole)) << size;
-            return (text, size + whole, zeros < 9 * LONGEST_RUN);
+            uint256 copies = wanted < above.copies ? wanted : above.copies;
+            put(stream, above.text & ~(type(uint256).max >> (size * copies)), size * copies);
+            return copies;
         }
     }
 
-    /// @dev Writes up to 64 bits.
+    /// @dev Writes up to 248 bits, the first of which is uppermost.
     function put(Stream memory stream, uint256 text, uint256 size) private pure {
         assembly ("memory-safe") {
-            let bits := or(shl(size, mload(add(stream, 0x20))), text)
-            let count := add(mload(add(stream, 0x40)), size)
-            if gt(count, 191) {
-                count := sub(count, 192)
-                mstore(mload(stream), shl(64, shr(count, bits)))
-                mstore(stream, add(mload(stream), 24))
-            }
-            mstore(add(stream, 0x20), bits)
-            mstore(add(stream, 0x40), count)
+            let target := mload(stream)
+            let count := mload(add(stream, 0x20))
+            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, text)))
+            count := add(count, size)
+            mstore(stream, add(target, shr(3, count)))
+            mstore(add(stream, 0x20), and(count, 7))
         }
     }
 
-    /// @dev Ends the block, turns the bits of each byte to the order of deflate, and adds the checksum of `size` bytes. After that the
+    /// @dev Ends the block, turns the bits of each byte to the order of deflate, and adds the checksum Adler-32. After that the
     /// length of the file is right, and its last twelve bytes are free.
-    function finish(bytes memory png, Stream memory stream, uint256 size) private pure {
+    function finish(bytes memory png, Stream memory stream, uint256 second, uint256 first) private pure {
         unchecked {
             (uint256 end, uint256 endSize) = PngCode.end();
-            put(stream, end, endSize);
-            uint256 second = (size + (stream.sums >> 128)) % ADLER;
-            uint256 first = (1 + uint128(stream.sums)) % ADLER;
+            put(stream, end << (256 - endSize), endSize);
+            second %= ADLER;
+            first %= ADLER;
             assembly ("memory-safe") {
-                let count := mload(add(stream, 0x40))
-                let target := mload(stream)
-                mstore(target, shl(sub(256, count), mload(add(stream, 0x20))))
-                target := add(target, shr(3, add(count, 7)))
+                let target := add(mload(stream), iszero(iszero(mload(add(stream, 0x20)))))
                 for { let place := add(png, DATA) } lt(place, target) { place := add(place, 32) } {
                     let word := mload(place)
                     word := or(and(shr(4, word), 0x0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f), shl(4, and(word, 0x0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f)))

@@ -46,6 +46,16 @@ class AddressBook:
         found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
         return {chain: address for chain, address in found.items() if address is not None}
 
+    def check(self) -> None:
+        """InputError if `write` would fail; makes the folder."""
+        self._read()
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise self._unwritable(error.strerror) from None
+        if not os.access(self.path.parent, os.W_OK):
+            raise self._unwritable("nothing can be written to its folder")
+
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
         """Adds addresses of a chain to the file, or puts them in place of those that are there.
 
@@ -62,7 +72,10 @@ class AddressBook:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, text.encode())
         except OSError as error:
-            raise InputError(f"the address book {self.path} cannot be written: {error.strerror}") from None
+            raise self._unwritable(error.strerror) from None
+
+    def _unwritable(self, why: str | None) -> InputError:
+        return InputError(f"the address book {self.path} cannot be written: {why}; name another file in {VARIABLE}")
 
     def _read(self) -> dict[str, dict[str, str]]:
         hint = f"repair or remove it, or name another file in {VARIABLE}"

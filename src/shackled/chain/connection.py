@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlsplit
@@ -12,8 +13,10 @@ from .failures import rpc_failure
 if TYPE_CHECKING:
     from web3 import Web3
 
-#: Seconds that a node may take for an answer.
-PATIENCE = 120.0
+#: Seconds that a node may take for an answer, and that it may be given at most.
+PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
+#: A part of the name of a host that is rather a key: some nodes are given one as a name of their own.
+_KEY = re.compile("(?=[a-z]*[0-9])[0-9a-z]{20,}", re.IGNORECASE)
 #: The longest pause before a busy node is asked again, in seconds.
 LONGEST_PAUSE = 20.0
 
@@ -27,7 +30,7 @@ class Connection:
         timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
         InputError if the address is none.
         """
-        from .transport import Transport
+        from .transport import Transport, is_address
 
         self.url, self.timeout, self.attempts = url.strip(), timeout, attempts
         try:
@@ -35,15 +38,19 @@ class Connection:
             host, port = parts.hostname, parts.port
         except ValueError:
             parts, host, port = urlsplit(""), None, None
-        if parts.scheme not in ("http", "https") or not host:
+        if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
             shown = _without_key(url)
             raise InputError(f"--rpc must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
-        if not timeout > 0:
-            raise InputError(f"--rpc-timeout must be more than 0 seconds, not {timeout:g}")
-        self.name = f"node {f'[{host}]' if ':' in host else host}" + (f":{port}" if port else "")
+        if not 0 < timeout <= MOST_PATIENCE:
+            raise InputError(
+                f"--rpc-timeout must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}"
+            )
+        shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
+        self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
         local = host in ("localhost", "::1") or host.startswith("127.")
         pieces = [parts.username, parts.password, *parts.path.split("/"), *parts.query.replace("=", "&").split("&")]
         long = [piece for piece in pieces if piece and len(piece) >= 8]
+        long += [label for label in host.split(".") if _KEY.fullmatch(label)]
         self._secrets = {*long, *map(unquote, long)}
         #: What carries the requests, a provider of web3.
         self.transport = Transport(self.url, self.name, timeout, local)
@@ -127,4 +134,5 @@ def _without_key(url: str) -> str:
     if not mark:
         scheme, rest = "", url
     host = rest.split("/")[0].split("?")[0].rpartition("@")[2]
-    return f"{scheme}{mark}{host}" + ("/..." if len(host) < len(rest) else "")
+    shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
+    return f"{scheme}{mark}{shown}" + ("/..." if len(host) < len(rest) else "")

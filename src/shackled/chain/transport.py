@@ -6,9 +6,11 @@ web3's own way would give up after 30 seconds, then try calls that took too long
 from __future__ import annotations
 
 import json
+import re
 import threading
 import time
 from typing import Any, cast
+from urllib.parse import urlsplit
 
 import requests
 import urllib3
@@ -16,6 +18,7 @@ from web3 import HTTPProvider
 from web3.types import RPCEndpoint, RPCResponse
 
 from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
+from ..json_text import read_json
 from .failures import http_failure, too_large
 
 #: Seconds within which a node must take a connection.
@@ -42,7 +45,7 @@ class Transport(HTTPProvider):
         request = self.encode_rpc_request(method, params)
         body = self._post(request)
         try:
-            answer = json.loads(body)
+            answer = read_json(body.decode())
         except ValueError:
             raise self._no_node("what is not JSON" if body else "nothing") from None
         number = json.loads(request)["id"]
@@ -103,6 +106,16 @@ class Transport(HTTPProvider):
         return NodeUnreachableError(f"the {self.name} answered with {what}: is this the address of a node?")
 
 
+def is_address(url: str) -> bool:
+    """Whether a request can be sent there."""
+    try:
+        requests.Request("POST", url).prepare()
+    except (requests.RequestException, ValueError):
+        return False
+    host = urlsplit(url).netloc.rpartition("@")[2]
+    return re.search(r"[\s<>\\^`{|}\"]|\.\.|^[^\[]*%", host) is None
+
+
 def _failure(error: Exception) -> tuple[type[NodeError], str]:
     """The kind of what came in place of an answer, and what to say of the node."""
     reason = getattr(error.args[0], "reason", None) if error.args else None
@@ -123,7 +136,7 @@ def _is_rpc_error(status: int, body: bytes) -> bool:
     if status in (413, 429):
         return False
     try:
-        answer = json.loads(body)
+        answer = read_json(body.decode())
     except ValueError:
         return False
     return isinstance(answer, dict) and isinstance(answer.get("error"), dict) and "message" in answer["error"]

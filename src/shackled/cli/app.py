@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 
@@ -62,6 +62,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
+    except OSError as error:
+        # as when the disk is full to which the output goes
+        where = f"{error.filename}: " if error.filename else ""
+        return _fail(f"{where}{error.strerror or repr(error)}", 1)
     except Exception as error:
         # errors of usage, whose class depends on the version of typer
         if not hasattr(error, "format_message"):
@@ -72,8 +76,3 @@ def run(arguments: Sequence[str] | None = None) -> int:
 def _fail(message: object, code: int) -> int:
     print(f"shackled: {' '.join(str(message).split())}", file=sys.stderr)
     return code
-
-
-def main() -> NoReturn:
-    """The entry point."""
-    sys.exit(run())

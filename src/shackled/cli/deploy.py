@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -69,11 +70,14 @@ def deploy(
     if plan.missing:
         _show(plan, connection, as_json)
         transactor = Transactor(connection, open_signer(account, private_key_env))
+        transactor.late = _say
         transactor.settle()
-        plan = deployer.plan(wanted)
+        # nothing is paid for that was not told
+        plan = replace(deployer.plan(wanted), fees=plan.fees)
         if plan.missing and not yes:
             ask(transactor.name)
         # while nothing is paid yet
+        deployer.book.check()
         write_verification(folder, connection.chain_id, wanted)
         receipts = deployer.carry_out(plan, transactor, None if as_json else _tell)
     else:
@@ -107,6 +111,10 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
     price = f"{plan.fees.likely / GWEI:.6g} gwei a gas"
     console.print(f"on chain {connection.chain_id}, by the {connection.name}, at {price}:", highlight=False)
     console.print(table)
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
 
 
 def _tell(step: Step, receipts: Sequence[Receipt]) -> None:

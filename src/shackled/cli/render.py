@@ -24,6 +24,7 @@ from ..render import render_whole
 from ..scene.scene import Scene
 from ..scene.turning import full_turn
 from .job_progress import JobProgress
+from .late_bar import LateBar
 from .look import Changes, load_changed
 from .look_options import with_look
 from .option import option
@@ -147,16 +148,24 @@ class Made:
 def _made(scene: Scene, where: Where, turntable: int | None, duration: int, path: Path) -> Made:
     """Renders the scene, and writes the file."""
     if turntable is None and where.alone:
-        image = render_whole(scene, open_chain(where.chain))  # type: ignore[arg-type]
+        with LateBar("rendering"):
+            image = render_whole(scene, open_chain(where.chain))  # type: ignore[arg-type]
         image.save(path)
         return Made([image], None, image.seconds)
     scenes = [scene] if turntable is None else full_turn(scene, turntable)
     keep = folder_of(path)
-    job = render_frames(scenes, where, count=turntable is None, listener=JobProgress(), keep=keep)
-    if turntable is None:
-        job.images[0].save(path)
-    else:
-        Animation(job.images, duration).save(path)
+    listener = JobProgress()
+    job = render_frames(scenes, where, count=turntable is None, listener=listener, keep=keep)
+    try:
+        with LateBar("writing"):
+            if turntable is None:
+                job.images[0].save(path)
+            else:
+                Animation(job.images, duration).save(path)
+    except BaseException:
+        if keep.is_dir():
+            listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
+        raise
     remove_parts(keep)
     return Made(job.images, job.calls, sum(image.seconds for image in job.images))
 

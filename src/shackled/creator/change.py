@@ -11,8 +11,14 @@ from .controls import CONTROLS, MAX_LAMPS, Control, control
 from .orbit import around, lamp_camera
 from .scene import Facts, filled
 from .state import Lamp, Pose, State, Surface
+from .view import direction
 
 _AXES = {"x": 0, "y": 1, "z": 2}
+
+#: Where a new light may stand: degrees to the right of the viewer, and above the horizon; the first that is free.
+_LAMP_PLACES = ((45.0, 30.0), (-45.0, 30.0), (0.0, 80.0), (180.0, 30.0), (90.0, -20.0))
+#: The cosine of the angle, 35 degrees, that lights are apart at least.
+_APART = 0.82
 
 
 def get(state: State, facts: Facts, path: str) -> Any:
@@ -72,15 +78,21 @@ def reset_one(state: State, facts: Facts, path: str) -> State:
 
 
 def add_lamp(state: State, facts: Facts) -> State:
-    """One light more, beside the viewer, on the side that is less lit. InputError if there are four."""
+    """One light more, where none is yet: beside the viewer, above, or behind. InputError if there are four."""
     lamps = filled(state, facts).lights or ()
     if len(lamps) >= MAX_LAMPS:
         raise InputError(f"a picture has up to {MAX_LAMPS} lights")
     camera = lamp_camera(state, facts)
-    sides = [(lamp.azimuth - camera.azimuth + 180) % 360 - 180 for lamp in lamps]
-    side = -45.0 if sum(side > 0 for side in sides) > len(sides) / 2 else 45.0
-    lamp = Lamp(azimuth=round(around(camera.azimuth + side)), elevation=30.0)
-    return replace(state, lights=(*lamps, lamp))
+    there = [direction(lamp.azimuth, lamp.elevation) for lamp in lamps]
+
+    def closeness(lamp: Lamp) -> float:
+        return max((float(direction(lamp.azimuth, lamp.elevation) @ each) for each in there), default=-1.0)
+
+    places = [
+        Lamp(azimuth=round(around(camera.azimuth + side)), elevation=elevation) for side, elevation in _LAMP_PLACES
+    ]
+    free = [lamp for lamp in places if closeness(lamp) < _APART]
+    return replace(state, lights=(*lamps, free[0] if free else min(places, key=closeness)))
 
 
 def remove_lamp(state: State, facts: Facts, number: int) -> State:

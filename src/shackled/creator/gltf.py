@@ -24,7 +24,7 @@ def check_gltf(path: Path, data: bytes) -> None:
     """InputError where a glTF or GLB file claims more than there is, or refers to what was not handed in with it."""
     document = _document(data)
     if document is None:
-        return  # whoever reads it will say what is wrong
+        raise InputError("it holds no glTF that can be read: its JSON is damaged, or missing")
     _check_sizes(document)
     _check_nodes(document)
     for kind in ("buffers", "images"):

@@ -48,7 +48,7 @@ def from_link(text: str) -> State:
     if not re.fullmatch(r"[0-9A-Za-z_-]+", text, re.ASCII):
         raise InputError("the link has characters that no link of a picture has; copy all of it, and nothing else")
     if text[0] != VERSION:
-        raise InputError(f"the link is of version {text[0]!r}, which is not known here; known is {VERSION}")
+        raise InputError(f"the link is damaged, or of another version: it begins with {text[0]!r}, not with {VERSION}")
     try:
         packed = base64.b64decode(text[1:] + "=" * (-(len(text) - 1) % 4), altchars=b"-_", validate=True)
         opener = zlib.decompressobj(-15, zdict=_DICTIONARY)

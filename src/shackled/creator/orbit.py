@@ -91,33 +91,17 @@ def lamp_on_disc(lamp: Lamp, camera: Orbit) -> tuple[float, float, bool]:
     return x, -y, z >= 0
 
 
-def lamp_from_disc(lamp: Lamp, camera: Orbit, x: float, y: float, near: bool = True) -> Lamp:
-    """The light put at a place of that disc; a place outside is brought to its rim."""
+def lamp_from_disc(lamp: Lamp, camera: Orbit, x: float, y: float) -> Lamp:
+    """The light put at a place of that disc. Beyond the rim it goes on round the far side: at two radii, and farther
+    out, it stands right behind.
+    """
     length = math.hypot(x, y)
-    if length > 1:
-        x, y = x / length, y / length
-    depth = math.sqrt(max(0.0, 1 - x * x - y * y))
+    near, radius = length <= 1, length if length <= 1 else max(2 - length, 0.0)
+    if length:
+        x, y = x * radius / length, y * radius / length
+    depth = math.sqrt(max(0.0, 1 - radius * radius))
     toward = np.array([x, -y, depth if near else -depth]) @ axes(camera.azimuth, camera.elevation, camera.roll)
     azimuth, elevation = angles(toward)
-    return replace(lamp, azimuth=tidy(azimuth), elevation=tidy(elevation))
-
-
-def drag_lamp(lamp: Lamp, camera: Orbit, dx: float, dy: float) -> Lamp:
-    """The light rolled along the sphere by a drag; it goes over the rim to the far side and back."""
-    right, up, _ = axes(camera.azimuth, camera.elevation, camera.roll)
-    way = math.hypot(dx, dy)
-    if not way:
-        return lamp
-    toward = direction(lamp.azimuth, lamp.elevation)
-    # about the axis in the plane of the picture that lies across the way
-    axis = (dx * up + dy * right) / way
-    angle = math.radians(TURN * way)
-    rolled = (
-        math.cos(angle) * toward
-        + math.sin(angle) * np.cross(axis, toward)
-        + (1 - math.cos(angle)) * (axis @ toward) * axis
-    )
-    azimuth, elevation = angles(rolled)
     return replace(lamp, azimuth=tidy(azimuth), elevation=tidy(elevation))
 
 

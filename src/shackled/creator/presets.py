@@ -113,7 +113,7 @@ PRESETS: tuple[Preset, ...] = (
     ),
     Preset(
         "flat",
-        "Flat colour",
+        "Unlit",
         "Its own colours, no light at all: the least gas.",
         Surface("unlit"),
         (),

@@ -22,7 +22,7 @@ from .store import Stored
 from .subject import Subject
 
 #: How many times as large a PNG may be.
-SCALES = (1, 2, 3, 4, 6, 8)
+SCALES = tuple(range(1, 9))
 #: Pixels a side, at most.
 MAX_PNG = 4096
 
@@ -103,7 +103,7 @@ def _content(kind: Kind, subject: Subject, chain: EmbeddedChain, scale: int) -> 
 
 def _png(image: Image, scale: int) -> bytes:
     if scale not in SCALES:
-        raise InputError(f"a PNG can be {', '.join(map(str, SCALES))} times as large, not {scale!r:.20}")
+        raise InputError(f"a PNG can be {SCALES[0]} to {SCALES[-1]} times as large, not {scale!r:.20}")
     if max(image.width, image.height) * scale > MAX_PNG:
         raise InputError(f"a PNG can have up to {MAX_PNG:,} pixels a side: choose a smaller scale than {scale}")
     return png(enlarged(image.pixels, scale), 6)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from ..json_text import read_json
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -41,7 +41,7 @@ def read_keystore(path: Path) -> str:
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"the keystore file {path} cannot be read: {getattr(error, 'strerror', 'no text')}") from None
     try:
-        keystore = json.loads(text)
+        keystore = read_json(text)
         found = isinstance(keystore, dict) and bool({"crypto", "Crypto"} & keystore.keys())
     except ValueError:
         found = False

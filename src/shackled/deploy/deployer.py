@@ -8,10 +8,20 @@ from dataclasses import dataclass
 from ..chain.address_book import AddressBook
 from ..chain.addresses import PROXY, show_address
 from ..chain.connection import Connection
-from ..errors import TransactionError
+from ..errors import (
+    NodeBusyError,
+    NodeTimeoutError,
+    NodeUnreachableError,
+    RenderError,
+    TransactionError,
+    WrongChainError,
+)
 from .contract import Deployment
 from .proxy import GAS, TRANSFER_GAS, deploy_proxy, missing_funds, proxy_stands
-from .transactor import Fees, Receipt, Transactor, current_fees, ether
+from .transactor import Fees, Receipt, Transactor, block_gas, current_fees, ether
+
+#: The newest instruction that the contracts use, in a program that does nothing: PUSH0 PUSH0 PUSH0 MCOPY STOP.
+NEWEST = bytes.fromhex("5f5f5f5e00")
 
 
 @dataclass(frozen=True)
@@ -58,11 +68,16 @@ class Deployer:
         self.book = AddressBook() if book is None else book
 
     def plan(self, wanted: Sequence[Deployment]) -> Plan:
-        """What of the contracts is there, and what the rest costs now. TransactionError if there is anything else."""
+        """What of the contracts is there, and what the rest costs now.
+
+        TransactionError if there is anything else, or a block cannot hold a contract; WrongChainError if the chain has
+        older rules than the contracts need.
+        """
         fees = current_fees(self.connection)
         there = [self.stands(each) for each in wanted]
         steps = []
         if not all(there):
+            self._check_chain([each for each, done in zip(wanted, there, strict=True) if not done])
             steps.append(self._proxy_step(fees))
         for each, done in zip(wanted, there, strict=True):
             gas = 0 if done else each.gas
@@ -118,6 +133,22 @@ class Deployer:
         """Writes into the address book where contracts are."""
         if standing:
             self.book.write(self.connection.chain_id, {each.name: each.address for each in standing})
+
+    def _check_chain(self, missing: Sequence[Deployment]) -> None:
+        """Whether contracts can be deployed, and used; else it would be found out when something was paid."""
+        try:
+            self.connection.request("eth_call", {"data": "0x" + NEWEST.hex()}, "latest")
+        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+            raise
+        except RenderError:
+            pass  # some nodes make no calls without a receiver
+        limit = block_gas(self.connection)
+        for each in missing:
+            if each.gas > limit:
+                raise TransactionError(
+                    f"{each.name} needs {each.gas:,} gas, and a block of chain {self.connection.chain_id} has "
+                    f"{limit:,}: it cannot be deployed there"
+                )
 
     def _proxy_step(self, fees: Fees) -> Step:
         if proxy_stands(self.connection):

@@ -54,6 +54,8 @@ def deploy_proxy(transactor: Transactor, agreed: Fees | None = None) -> list[Rec
     receipts = []
     missing = missing_funds(transactor.connection)
     if missing:
+        # a node that takes no such transaction shall say so before anything is paid
+        transactor.offer(SIGNED)
         receipts.append(transactor.send(SIGNER, value=missing, agreed=agreed))
     receipts.append(transactor.send_signed(SIGNED, "0x" + keccak256(SIGNED).hex(), COST))
     if not transactor.wait(lambda: proxy_stands(transactor.connection) or None):

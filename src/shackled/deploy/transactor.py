@@ -28,6 +28,8 @@ ETHER = 10**18
 GWEI = 10**9
 #: Seconds that a transaction may take to come into a block.
 PATIENCE = 180.0
+#: Seconds after which it is told what is waited for.
+LATE = 1.0
 #: What an estimate of gas is multiplied by, since the chain moves on: 21 / 20.
 MARGIN = (21, 20)
 #: A tip for those who make blocks, where a node suggests none, in wei.
@@ -70,6 +72,8 @@ class Transactor:
         """patience: seconds to wait for a receipt."""
         self.connection, self.patience = connection, patience
         self._account = account
+        #: Told, if there is anyone, what is waited for, as soon as it takes more than a second.
+        self.late: Callable[[str], None] | None = None
         #: Hosts have many nodes, and the next may not have heard of the last transaction yet.
         self._nonce = 0
         self.address = bytes.fromhex(str(account.address)[2:])
@@ -92,7 +96,7 @@ class Transactor:
         try:
             return self.connection.number("eth_estimateGas", self._call(to, data, value))
         except RevertError as error:
-            raise TransactionError(f"the transaction would fail: {refusal(error.data, 0)}") from None
+            raise TransactionError(f"the transaction would fail: {_why(error.data)}") from None
         except OutOfGasError:
             raise TransactionError("the transaction would fail: it needs more gas than the chain allows one") from None
         except NodeError as error:
@@ -137,7 +141,19 @@ class Transactor:
             known = any(words in said for words in ("already known", "known transaction", "already imported"))
             if not known and not isinstance(error, NodeTimeoutError | NodeUnreachableError):
                 raise self._rejected(error, cost) from None
+        except OutOfGasError:
+            raise TransactionError("the transaction was refused: its gas is not what the chain allows one") from None
         return self._follow(digest, transaction)
+
+    def offer(self, raw: bytes) -> None:
+        """Sends what somebody else signed and cannot pay yet. TransactionError if the node would not take it then."""
+        try:
+            self.connection.request("eth_sendRawTransaction", _hex(raw))
+        except NodeError as error:
+            if _unbound(error):
+                raise self._rejected(error, 0) from None
+        except RenderError:
+            pass
 
     def settle(self) -> None:
         """Waits until all transactions of the account are in blocks."""
@@ -149,7 +165,7 @@ class Transactor:
             ]
             return count[0] - count[1]
 
-        if not self.wait(lambda: waiting() <= 0 or None):
+        if not self.wait(lambda: waiting() <= 0 or None, f"transactions of {self.name} that are in no block yet"):
             raise TransactionError(
                 f"{self.name} has {waiting()} transactions that are in no block after {self.patience:g} s: "
                 "wait for them, or replace them, then try again"
@@ -160,7 +176,8 @@ class Transactor:
         return call if to is None else call | {"to": _hex(to)}
 
     def _follow(self, digest: str, transaction: dict[str, Any] | None) -> Receipt:
-        receipt = self.wait(lambda: self.connection.request("eth_getTransactionReceipt", digest))
+        what = f"a block that takes the transaction {digest}"
+        receipt = self.wait(lambda: self.connection.request("eth_getTransactionReceipt", digest), what)
         if receipt is None:
             raise TransactionError(
                 f"the transaction {digest} is in no block after {self.patience:g} s: run the same again later, "
@@ -184,14 +201,18 @@ class Transactor:
         try:
             self.connection.request("eth_call", call, hex(block - 1))
         except RevertError as error:
-            return f": {refusal(error.data, transaction['gas'])}"
+            return f": {_why(error.data, transaction['gas'])}"
         except RenderError as error:
             return f": {error}"
         return ""
 
-    def wait(self, ask: Callable[[], Any]) -> Any:
-        """What is answered as soon as it is not None; None if it takes too long. A node that fails is asked again."""
-        end, pause = time.monotonic() + self.patience, 0.05
+    def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
+        """What is answered as soon as it is not None; None if it takes too long. A node that fails is asked again.
+
+        what: is waited for, for people.
+        """
+        started, pause, told = time.monotonic(), 0.05, False
+        end = started + self.patience
         while True:
             failure: NodeError | None = None
             try:
@@ -200,6 +221,9 @@ class Transactor:
                     return answer
             except (NodeBusyError, NodeTimeoutError, NodeUnreachableError) as error:
                 failure = error
+            if self.late is not None and not told and time.monotonic() - started > LATE:
+                told = True
+                self.late(f"waiting for {what}")
             if time.monotonic() + pause > end:
                 if failure is not None:
                     raise failure
@@ -218,7 +242,7 @@ class Transactor:
             return TransactionError(f"{self.name} was used by another program meanwhile ({error}): run the same again")
         if "underpriced" in said or "less than block base fee" in said or "fee cap" in said or "gas price" in said:
             return TransactionError(f"gas has become more expensive meanwhile ({error}): run the same again")
-        if "replay-protected" in said or "eip-155" in said or "eip155" in said:
+        if _unbound(error):
             return TransactionError(
                 f"the {self.connection.name} refuses transactions that are not bound to a chain, as the one that "
                 "deploys the proxy: take another node of the same chain for that"
@@ -226,6 +250,21 @@ class Transactor:
         if type(error) is NodeError:
             return TransactionError(f"the transaction was refused: {error}")
         return error
+
+
+def _unbound(error: NodeError) -> bool:
+    """Whether a node takes only transactions that are bound to a chain (EIP-155)."""
+    said = str(error).lower()
+    return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
+
+
+def block_gas(connection: Connection) -> int:
+    """The gas that all transactions of a block may use."""
+    block = connection.request("eth_getBlockByNumber", "latest", False)
+    try:
+        return int(block["gasLimit"], 16)
+    except (TypeError, LookupError, ValueError):
+        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
 def current_fees(connection: Connection) -> Fees:
@@ -243,6 +282,11 @@ def current_fees(connection: Connection) -> Fees:
         tip = TIP
     # the base may rise by an eighth each block
     return Fees(int(base, 16) + tip, 2 * int(base, 16) + tip, tip)
+
+
+def _why(data: bytes, gas: int = 0) -> str:
+    """What a contract that reverted a transaction said."""
+    return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"
 
 
 def ether(wei: int) -> str:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import subprocess
 import sys
+import threading
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -44,18 +47,29 @@ class ClusterPlace:
             raise InputError(
                 "--cluster needs a package that is not installed: pip install 'shackled[cluster]'"
             ) from None
+
+        class QuietClient(Client):  # type: ignore[misc,unused-ignore]
+            def __del__(self) -> None:
+                """We close it, and one that could not be opened is not waited for."""
+
         self.gas, self._chain = gas, chain
         limited(chain, gas)
+        # what it reports of a lost connection, with a traceback, comes out as an error here
+        self._logger = logging.getLogger("distributed.client")
+        self._level = self._logger.level
+        self._logger.setLevel(logging.CRITICAL)
         self._local: subprocess.Popen[str] | None = None
         try:
+            if address:
+                _greet(address)
             found = address or self._start(jobs)
-            self._client: Client = Client(  # type: ignore[no-untyped-call]
+            self._client: Client = QuietClient(  # type: ignore[no-untyped-call]
                 found, timeout=PATIENCE, set_as_default=False
             )
             workers = self._check()
         except BaseException as error:
             self.close()
-            if isinstance(error, InputError) or not isinstance(error, OSError | ValueError | TypeError):
+            if isinstance(error, InputError | RenderError) or not isinstance(error, Exception):
                 raise
             raise RenderError(
                 f"no dask scheduler answers at {address or 'a port of this machine'}: {_line(error)}"
@@ -82,7 +96,9 @@ class ClusterPlace:
         except (InputError, RenderError):
             raise
         except Exception as error:
-            raise RenderError(f"the cluster failed: {_line(error)}") from None
+            lost = "connection-lost" in str(error)
+            what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
+            raise RenderError(f"the cluster failed: {what}") from None
         assert isinstance(answer, Piece)
         return answer
 
@@ -91,6 +107,7 @@ class ClusterPlace:
         if hasattr(self, "_client"):
             with suppress(Exception):
                 self._client.close(timeout=5)  # type: ignore[no-untyped-call]
+        self._logger.setLevel(self._level)
         local, self._local = self._local, None
         if local is not None:
             # the end of its input ends it
@@ -153,6 +170,36 @@ def _facts_function() -> Any:
             return None
 
     return facts
+
+
+def _greet(address: str) -> None:
+    """Shakes hands with a scheduler. An error, whatever it may be, if none is there: a client would wait for ever for
+    something else that says nothing.
+    """
+    from distributed.comm.core import connect
+    from distributed.security import Security
+
+    async def hands() -> None:
+        arguments = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
+        made = connect(address, timeout=PATIENCE, **arguments)  # type: ignore[no-untyped-call]
+        comm = await asyncio.wait_for(made, PATIENCE)
+        await comm.close()
+
+    def run() -> None:
+        try:
+            asyncio.run(hands())
+            ended.append(None)
+        except Exception as error:
+            ended.append(error)
+
+    ended: list[Exception | None] = []
+    # a notebook has a loop in its thread already
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(2 * PATIENCE)
+    error = ended[0] if ended else TimeoutError()
+    if error is not None:
+        raise OSError("it says nothing") if isinstance(error, TimeoutError) else error
 
 
 def _line(error: BaseException) -> str:

@@ -57,15 +57,16 @@ def render_frames(
     listener = listener or Listener()
     started = time.perf_counter()
     with ExitStack() as stack:
+        stack.callback(listener.ended)
         places = where.open(listener)
         for place in places:
             stack.callback(place.close)
-        stack.callback(listener.ended)
         expected = _estimate(frames[0], places, where)
         tiles = plan(frames[0], len(frames), places, expected, where.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
-        store = Store(keep, frames, count) if keep is not None and len(parts) > 1 else None
-        if store is not None:
+        # a single part may have to be cut too
+        store = Store(keep, frames, count) if keep is not None else None
+        if store is not None and len(parts) > 1:
             parts = _planned(store, parts, where)
         pixels = frames[0].width * frames[0].height
         gas = None if expected is None else len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
@@ -78,7 +79,7 @@ def render_frames(
             if store is not None and store.leave():
                 listener.warned(f"finished parts are kept in {store.folder}: the same command goes on from there")
             raise
-        name = _name(places)
+        name = _name(scheduler.used)
         seconds = time.perf_counter() - started
         images = [_assemble(n, scene, pieces, name, seconds / len(frames)) for n, scene in enumerate(frames)]
         return Finished(images, len(pieces), gas, scheduler.shares)

@@ -43,4 +43,8 @@ class Referee:
 
     def agrees(self, scene: Scene, tile: Rectangle, piece: Piece) -> bool:
         """Whether a part is right."""
-        return draw_part(self._chain, scene, tile, piece.lit_pixels is not None).same(piece)
+        return self.draw(scene, tile, piece.lit_pixels is not None).same(piece)
+
+    def draw(self, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        """The part as it should be. RenderError if the contracts refuse it."""
+        return draw_part(self._chain, scene, tile, count)

@@ -90,8 +90,7 @@ class Scheduler:
     def run(self, parts: Sequence[Part]) -> dict[Part, Piece]:
         """The finished parts; those given may have been cut further. An error ends all of it."""
         with self._changed:
-            for part in parts:
-                self._push(part)
+            self._put_first(parts)
         seats = [(bench, seat) for bench in self._benches for seat in range(bench.place.seats)]
         # daemons: a node that does not answer shall not keep the process from ending
         threads = [threading.Thread(target=self._sit, args=each, daemon=True) for each in seats]
@@ -113,7 +112,16 @@ class Scheduler:
     @property
     def shares(self) -> dict[str, int]:
         """How many parts each place did, of those that count."""
-        return {bench.place.name: bench.done for bench in self._benches}
+        found: dict[str, int] = {}
+        for bench in self._benches:
+            # one host may be asked with several keys
+            found[bench.place.name] = found.get(bench.place.name, 0) + bench.done
+        return found
+
+    @property
+    def used(self) -> list[Place]:
+        """The places, but for those that were left out before they did anything that counts."""
+        return [bench.place for bench in self._benches if bench.done or not bench.left]
 
     def _over(self) -> bool:
         return self._stopped or self._error is not None or not (self._pending or self._flying)
@@ -127,7 +135,7 @@ class Scheduler:
                 piece = bench.place.work(seat, self._frames[part.frame], part.tile, self._count)
                 checked = bench.place.distant and self._check(bench, part, piece)
             except BaseException as error:
-                failure = error
+                failure = self._judged(bench, part, error)
             with self._changed:
                 self._flying -= 1
                 try:
@@ -163,13 +171,13 @@ class Scheduler:
             if area(part.tile) <= bench.capacity:
                 self._pending.remove(part)
                 return part
-        if not self._pending:
-            return None
-        part = self._pending.popleft()
-        while area(part.tile) > bench.capacity and len(cut := halves(part.tile)) > 1:
-            part = Part(part.frame, cut[0])
-            self._pending.appendleft(Part(part.frame, cut[1]))
-        return part
+        while self._pending:
+            part = self._pending.popleft()
+            smaller = halves(part.tile)
+            if area(part.tile) <= bench.capacity or len(smaller) == 1:
+                return part
+            self._put_first([Part(part.frame, tile) for tile in smaller])
+        return None
 
     def _check(self, bench: Bench, part: Part, piece: Piece) -> bool:
         """Whether a part was checked. WrongAnswer if it is not what it should be."""
@@ -187,20 +195,37 @@ class Scheduler:
             try:
                 if random.choice(peers).place.work(0, scene, part.tile, self._count).same(piece):
                     return True
-            except NodeError:
+            except RenderError:
                 return False
         if not self._referee.agrees(scene, part.tile, piece):
             raise WrongAnswer("its picture is not what the contracts draw")
         return True
 
-    def _push(self, part: Part) -> None:
-        """Takes a part from the store, or else puts it in the queue."""
+    def _judged(self, bench: Bench, part: Part, error: BaseException) -> BaseException:
+        """What a place says, or WrongAnswer if it says of the contracts what they do not say here."""
+        genuine = isinstance(error, NodeError | OutOfGasError | WrongAnswer) or not isinstance(error, RenderError)
+        if genuine or self._referee is None or not bench.place.distant:
+            return error
+        try:
+            self._referee.draw(self._frames[part.frame], part.tile, self._count)
+        except Exception:
+            return error
+        return WrongAnswer(str(error))
+
+    def _put_first(self, parts: Sequence[Part]) -> None:
+        """Takes parts from the store, or else puts them at the head of the queue."""
+        for part in reversed(parts):
+            if not self._restored(part):
+                self._pending.appendleft(part)
+
+    def _restored(self, part: Part) -> bool:
+        """Whether an earlier run finished a part."""
         piece = self._store.read(part) if self._store is not None else None
         if piece is None:
-            self._pending.append(part)
-        else:
-            self._results[part] = piece
-            self._listener.advanced(area(part.tile))
+            return False
+        self._results[part] = piece
+        self._listener.advanced(area(part.tile))
+        return True
 
     def _finished(self, bench: Bench, part: Part, piece: Piece, checked: bool) -> None:
         bench.failures = bench.busy = bench.misses = 0
@@ -246,7 +271,7 @@ class Scheduler:
         others = [each for each in self._benches if each is not bench and not each.left]
         if not isinstance(error, OutOfGasError):
             # gas depends on what there is to see, but answers and time on the number of pixels
-            bench.capacity = min(bench.capacity, max(1, pixels // 2))
+            bench.capacity = min(bench.capacity, max(area(tile) for tile in halves(part.tile)))
         able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
         parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
         if len(parts) == 1 and not others:
@@ -255,12 +280,7 @@ class Scheduler:
                 "take fewer triangles (--max-triangles)"
             )
             return
-        for each in reversed(parts):
-            if self._store is not None and (piece := self._store.read(each)) is not None:
-                self._results[each] = piece
-                self._listener.advanced(area(each.tile))
-            else:
-                self._pending.appendleft(each)
+        self._put_first(parts)
         if others and bench.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
             self._leave(bench, error)
         elif able:

@@ -33,7 +33,9 @@ def folder_of(output: Path) -> Path:
 def remove_parts(folder: Path) -> None:
     """Takes away all that a store keeps in a folder, and the folder if nothing else is in it."""
     with suppress(OSError):
-        for path in (*folder.glob(f"*{SUFFIX}"), folder / PLAN):
+        # with a dot before and more behind: what was being written when the machine went down
+        halves = (*folder.glob(f".*{SUFFIX}.*"), *folder.glob(f".{PLAN}.*"))
+        for path in (*folder.glob(f"*{SUFFIX}"), folder / PLAN, *halves):
             path.unlink(missing_ok=True)
         folder.rmdir()
 

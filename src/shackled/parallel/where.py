@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..chain import Chain, open_node
+from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..errors import InputError, NodeError
 from .evm import limited
 from .listener import Listener
@@ -14,6 +15,8 @@ from .place import ChainPlace, Place
 from .processes import ProcessPlace
 
 MOST_JOBS = 256
+#: How often a node that is busy is asked while we get to know it.
+ATTEMPTS = 4
 
 
 @dataclass(frozen=True)
@@ -39,8 +42,8 @@ class Where:
         jobs, gas = self.jobs, self.gas_limit
         if jobs is not None and not (isinstance(jobs, int) and not isinstance(jobs, bool) and 1 <= jobs <= MOST_JOBS):
             raise InputError(f"--jobs must be from 1 to {MOST_JOBS}, not {jobs!r}")
-        if gas is not None and not (isinstance(gas, int) and gas >= 1):
-            raise InputError(f"--gas-limit must be a whole number of gas from 1, not {gas!r}")
+        if gas is not None and not (isinstance(gas, int) and 1 <= gas <= DEFAULT_GAS_LIMIT):
+            raise InputError(f"--gas-limit must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {gas!r}")
         if self.tile is not None and not all(isinstance(side, int) and side >= 1 for side in self.tile):
             raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
         if self.rpc and self.cluster is not None:
@@ -99,6 +102,9 @@ class Where:
 
     def _open_node(self, url: str) -> Place:
         node = open_node(url, self.address, self.timeout)
+        node.connection.attempts = ATTEMPTS
         limits = node.limits()
+        node.place("Renderer")  # an --address with something else is told before anything is rendered
+        node.connection.attempts = 1
         gas = limits.gas if self.gas_limit is None else min(limits.gas, self.gas_limit)
         return ChainPlace(node, self.count, distant=True, gas=gas, answer_bytes=limits.answer_bytes)

@@ -1,9 +1,9 @@
 """PNG files as contracts/src/studio/Png.sol makes them.
 
-Each pixel becomes a square of `scale` pixels, so that it stays crisp where pictures are enlarged smoothly. Rows are
-stored as differences: the first row of each square from the pixel at the left (filter Sub), the others from the row
-above (filter Up), which leaves nothing but zeros. So there are only two things to compress, the differences of pixels
-and runs of zeros, and one Huffman code, fitted to pictures of this renderer once and for all, does for every picture.
+Each pixel becomes a square of `scale` pixels, so that it stays crisp where pictures are enlarged smoothly. The first
+row of each square holds the pixels themselves (filter None), the others are like the row above (filter Up): zeros. A
+pixel is written as its three bytes, and a match that repeats them until another one comes. All bytes have codes of nine
+bits, so that nothing has to be looked up to find them; one code, fitted to pictures of this renderer, does for all.
 """
 
 from __future__ import annotations
@@ -11,28 +11,33 @@ from __future__ import annotations
 import struct
 import zlib
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-#: Bits of the code of each symbol, one digit (hexadecimal) each: 256 bytes, the end, 29 lengths of runs.
-CODE_LENGTHS = [
-    int(digit, 16)
-    for digit in (
-        "155788999999aaaaaaaaaaabbbbbbbbbbbbbbbcbbbcbcccccccccccccccccccccccccccccccccccccccccccccccccccc"
-        "cccccccbbbacccccccccccccccccccccccccccccccccccccccccccabbbcccccccccccccccccccccccccccccccccccccc"
-        "cccccccccccccccccccccbcbbbcbbbbbbbbbbbbbbbaaaaaaaaaaa99999987755cccccc4cccbcc6bcababcaabaaa773"
-    )
-]
+#: Bits of the code of each byte.
+LITERAL_LENGTH = 9
+#: Bits of the code of each symbol: 256 bytes, the end, 29 lengths of matches.
+CODE_LENGTHS = 256 * [LITERAL_LENGTH] + [int(digit, 16) for digit in "c4eeeee4eeead2d98a98a788887774"]
 END = 256
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
-#: In PNG: a pixel less the one at its left, less the one above it.
-SUB = 1
+#: In PNG: a row of pixels as they are, and of their differences from the row above.
+NONE = 0
 UP = 2
 
-#: A run of zeros in one go: a zero, and a match of up to 258 more at distance 1.
-LONGEST_RUN = 259
+#: Codes of the two distances: of the byte before, and of the pixel before.
+BYTE, PIXEL = "0", "1"
+#: The longest match.
+LONGEST = 258
+
+#: Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
+PART = 256
+#: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, as many pixels as fit into
+#: a word are written all if so many of them are not like those at their left.
+BLOCK = 8
+MANY = 4
 
 
 def encode_png(pixels: NDArray[np.uint8], scale: int = 1) -> bytes:
@@ -48,39 +53,42 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def _differences(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Each pixel less the one at its left."""
-    return np.diff(pixels, axis=1, prepend=np.zeros((len(pixels), 1, 3), np.uint8))
-
-
 def _filtered(pixels: NDArray[np.uint8], scale: int) -> bytes:
     """What is compressed."""
     rows = []
     size = 3 * pixels.shape[1] * scale
-    for row in _differences(pixels):
-        spread = np.zeros((len(row), scale, 3), np.uint8)
-        spread[:, 0] = row
-        rows.append(bytes([SUB]) + spread.tobytes() + (bytes([UP]) + bytes(size)) * (scale - 1))
+    for row in pixels:
+        rows.append(bytes([NONE]) + row.repeat(scale, 0).tobytes() + (bytes([UP]) + bytes(size)) * (scale - 1))
     return b"".join(rows)
 
 
 def _deflate(pixels: NDArray[np.uint8], scale: int) -> bytes:
     """One block with the code, in bits: "0" and "1" in the order of the stream."""
-    size = 3 * pixels.shape[1] * scale
+    width = pixels.shape[1]
+    above = literal(UP) + literal(0) + match(3 * width * scale - 1, BYTE)
     bits = [code_header()]
-    for row in _differences(pixels):
-        bits.append(literal(SUB))
-        zeros = 0
-        for red, green, blue in row.tolist():
-            if red | green | blue:
-                bits += [run(zeros), literal(red), literal(green), literal(blue)]
-                zeros = -3
-            zeros += 3 * scale
-            # what follows the first of the pixels of a square is zeros
-        bits.append(run(zeros))
-        bits += (scale - 1) * [literal(UP) + run(size)]
+    for row in pixels:
+        bits.append(literal(NONE))
+        for begin in range(0, width, PART):
+            part = row[begin : begin + PART]
+            places = [*_written(part, scale), len(part)]
+            for place, following in pairwise(places):
+                bits += [*map(literal, part[place].tolist()), match(3 * scale * (following - place) - 3, PIXEL)]
+        bits += (scale - 1) * [above]
     bits.append(codes()[END])
     return packed("".join(bits))
+
+
+def _written(part: NDArray[np.uint8], scale: int) -> list[int]:
+    """Which pixels are written; the others are like those at their left."""
+    written = np.append(True, (part[1:] != part[:-1]).any(1))
+    if 3 * LITERAL_LENGTH + len(match(3 * scale - 3, PIXEL)) == 32:
+        # the first pixel of a part is written anyhow
+        changed = np.append(False, written[1:])
+        for begin in range(0, len(part) - BLOCK + 1, BLOCK):
+            if changed[begin : begin + BLOCK].sum() >= MANY:
+                written[begin : begin + BLOCK] = True
+    return np.flatnonzero(written).tolist()
 
 
 def packed(bits: str) -> bytes:
@@ -94,21 +102,23 @@ def literal(value: int) -> str:
     return codes()[value]
 
 
-def run(zeros: int) -> str:
-    """The code of so many zeros."""
-    whole, rest = divmod(zeros, LONGEST_RUN)
-    return whole * short_run(LONGEST_RUN) + short_run(rest)
+def match(length: int, distance: str) -> str:
+    """The code of a repetition of so many bytes, none or at least 3, at one of the two distances."""
+    if not length:
+        return ""
+    # so many of the longest that at least 3 are left
+    longest, rest = divmod(length - 3, LONGEST)
+    return longest * (codes()[285] + distance) + short_match(rest + 3, distance)
 
 
 @cache
-def short_run(zeros: int) -> str:
-    """The code of up to LONGEST_RUN zeros: one, and a match of the others."""
-    if zeros <= 3:
-        return zeros * literal(0)
-    symbol, extra, first = next(row for row in reversed(_lengths()) if row[2] <= zeros - 1)
-    more = f"{zeros - 1 - first:0{extra}b}"[::-1] if extra else ""
-    # "0" is the code of the only distance that there is, which is 1
-    return literal(0) + codes()[symbol] + more + "0"
+def short_match(length: int, distance: str) -> str:
+    """The code of a repetition of 3 to 260 bytes."""
+    if length > LONGEST:
+        return short_match(length - 3, distance) + short_match(3, distance)
+    symbol, extra, first = next(row for row in reversed(_lengths()) if row[2] <= length)
+    more = f"{length - first:0{extra}b}"[::-1] if extra else ""
+    return codes()[symbol] + more + distance
 
 
 def _lengths() -> list[tuple[int, int, int]]:
@@ -141,7 +151,8 @@ def canonical(lengths: list[int]) -> list[str]:
 @cache
 def code_header() -> str:
     """What tells the code at the beginning of the block: the last one, of the kind with a code of its own."""
-    lengths = [*CODE_LENGTHS, 1]
+    # the distances 1 and 3 have a bit each, 2 has none
+    lengths = [*CODE_LENGTHS, 1, 0, 1]
     # the lengths of the codes, themselves as symbols: 16 repeats the one before 3 to 6 times
     symbols: list[tuple[int, str]] = []
     while lengths:
@@ -171,7 +182,7 @@ def code_header() -> str:
             "1",
             "01",
             _number(len(CODE_LENGTHS) - 257, 5),
-            _number(0, 5),
+            _number(2, 5),
             _number(last + 1 - 4, 4),
             *(_number(sizes[symbol], 3) for symbol in order[: last + 1]),
             *(texts[symbol] + more for symbol, more in symbols),

@@ -7,7 +7,6 @@ be read here, and the other way round. Leaves are hashed twice, so that no inner
 from __future__ import annotations
 
 import csv
-import json
 import re
 from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,6 +17,7 @@ from typing import Any
 
 from ..chain.addresses import keccak256, parse_address, show_address
 from ..errors import InputError
+from ..json_text import read_json
 
 FORMAT = "standard-v1"
 ENCODING = ["address", "uint256"]
@@ -138,7 +138,7 @@ def read_allow_list(path: str | Path) -> AllowList:
 
 def _from_json(text: str, where: str) -> AllowList:
     try:
-        document = json.loads(text)
+        document = read_json(text)
         kind, encoding, values = document["format"], document["leafEncoding"], document["values"]
         entries = [tuple(entry["value"]) for entry in values]
         tree = document["tree"]

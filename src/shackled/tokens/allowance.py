@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..chain.addresses import parse_address, show_address
 from ..errors import InputError
+from ..json_text import read_json
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -69,7 +69,7 @@ def sign_allowance(
 def read_allowance(path: Path) -> Allowance:
     """The permission of a file. InputError if it holds none."""
     try:
-        document = json.loads(path.read_text("utf-8"))
+        document = read_json(path.read_text("utf-8"))
         account, quantity, deadline, signature = (
             str(document[name]) for name in ("account", "quantity", "deadline", "signature")
         )
@@ -80,6 +80,7 @@ def read_allowance(path: Path) -> Allowance:
     if not (
         re.fullmatch("[0-9]{1,78}", quantity)
         and re.fullmatch("[0-9]{1,78}", deadline)
+        and max(int(quantity), int(deadline)) < 2**256
         and re.fullmatch("0x([0-9a-fA-F]{2}){1,1024}", signature)
     ):
         raise InputError(f"{path} holds no permission: its quantity, deadline or signature is damaged")

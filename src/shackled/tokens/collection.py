@@ -113,7 +113,7 @@ class Collection:
             name=self.name,
             symbol=call("symbol"),
             owner=self._address(call("owner")),
-            phase=call("phase"),
+            phase=self._phase(),
             minted=self.minted(),
             per_transaction=call("perTransaction"),
             allow_list_root=call("allowListRoot"),
@@ -122,6 +122,14 @@ class Collection:
             royalty=royalty,
             balance=self.connection.number("eth_getBalance", self.address, "latest"),
         )
+
+    def _phase(self) -> int:
+        phase = int(self.contract.call("phase"))
+        if phase >= len(PHASES):
+            raise NodeError(
+                f"the contract at {self.address} says that its sale is in phase {phase}, which there is not"
+            )
+        return phase
 
     def _of_token(self, function: str, token: int) -> Any:
         try:

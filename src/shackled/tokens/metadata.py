@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..errors import RenderError
+from ..json_text import read_json
 from .plain import plain
 
 #: Marketplaces cut off, or do not show, what is longer.
@@ -139,7 +140,9 @@ def _document(uri: str, what: str = "the tokenURI") -> dict[str, Any]:
     if media_type != "application/json":
         raise RenderError(f"{what} is of the type {media_type}, not application/json")
     try:
-        document = json.loads(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
+        document = read_json(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
+        # half of a character, and numbers beyond all, are taken by this reader and by few others
+        json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
         raise RenderError(f"{what} holds no JSON: {' '.join(str(error).split())[:100]}") from None
     if not isinstance(document, dict):

@@ -71,12 +71,17 @@ def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
 
 def header_of(collection: Collection, number: int) -> bytes:
     """The header of a block, whose hash the node says and we check."""
-    block = collection.connection.request("eth_getBlockByNumber", hex(number), False)
+    return encode_header(block_of(collection, number))
+
+
+def block_of(collection: Collection, number: int) -> dict[str, Any]:
+    """A block as the node tells it. NodeError if it does not have it."""
+    block: dict[str, Any] | None = collection.connection.request("eth_getBlockByNumber", hex(number), False)
     if block is None:
         raise NodeError(
             f"the {collection.connection.name} does not have block {number:,}; take one that keeps them all"
         )
-    return encode_header(block)
+    return block
 
 
 def _proofs(collection: Collection, forgotten: list[int]) -> Iterator[Step]:

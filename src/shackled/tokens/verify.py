@@ -24,6 +24,7 @@ from .immutables import immutable_places, immutable_values
 from .kept import kept_codes
 from .kinds import Kind
 from .metadata import Metadata, read_token_uri, shrink
+from .reveal import block_of
 
 #: EIP-712: what the domain of permissions is made of.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
@@ -101,8 +102,8 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
     uri: the `tokenURI`, if it was read already.
     """
     what = f"{collection.name} #{token}"
-    uri = collection.token_uri(token) if uri is None else uri
     try:
+        uri = collection.token_uri(token) if uri is None else uri
         metadata = read_token_uri(uri)
         if not collection.kind.hidden:
             return Check(f"{what}, {metadata.name}", _icon_failure(collection, token, metadata, local))
@@ -144,11 +145,11 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     number = collection.round_of(token)
     randomness = collection.contract.call("randomnessOf", number)
     block_number = collection.contract.call("blockOf", number)
-    block = collection.connection.request("eth_getBlockByNumber", hex(block_number), False)
+    block = block_of(collection, block_number)
     drawn = keccak256(
         randomness + parse_address(collection.address, "the collection").rjust(32, b"\0") + token.to_bytes(32, "big")
     )
-    if block is not None and bytes.fromhex(block["mixHash"][2:]) != randomness:
+    if bytes.fromhex(block["mixHash"][2:]) != randomness:
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
     return drawn, ""
 

@@ -17,6 +17,7 @@ from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, ope
 
 
 def allow_list(
+    context: typer.Context,
     file: Annotated[
         Path, typer.Argument(help="Lines account,quantity, or OpenZeppelin's tree as JSON.", metavar="FILE")
     ],
@@ -46,7 +47,9 @@ def allow_list(
             write_whole(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
         except OSError as error:
             raise InputError(f"{output} cannot be written: {error.strerror}") from None
-    if rpc is None:
+    source, nobody = context.get_parameter_source("rpc"), account is None and private_key_env is None
+    # the variable with the node alone does not say that something is to be sent
+    if rpc is None or (source is not None and source.name == "ENVIRONMENT" and nobody):
         return
     collection = open_named(which, rpc, chain_id)
     trusted = collection.terms().allow_list_signer if signer is None else address(signer, "--signer")
@@ -75,6 +78,10 @@ def permit(
     collection = open_named(which, rpc, chain_id)
     signer = open_signer(account, private_key_env)
     trusted = collection.terms().allow_list_signer
+    if not int(trusted, 16):
+        raise InputError(
+            "nobody signs permissions of this collection: the owner says who, shackled token allow-list FILE --signer"
+        )
     if str(signer.address) != trusted:
         raise InputError(f"permissions of this collection are signed by {trusted}, not by {signer.address}")
     permission = sign_allowance(collection, signer, allowed, quantity, int(time.time() + 86400 * lasting))

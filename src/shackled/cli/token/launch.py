@@ -73,7 +73,7 @@ def deploy(
     percent = number(royalty, "--royalty", 0, 10)
     if kind.hidden and (icons is not None or supply is not None):
         raise InputError("--icons and --supply are for icons")
-    of_each = (ICON_PRICE if wei is None else wei, supply or 100, 1 if reserve is None else reserve)
+    of_each = (ICON_PRICE if wei is None else wei, 100 if supply is None else supply, 1 if reserve is None else reserve)
     chosen = [] if kind.hidden else chosen_pieces(icons)
     if not kind.hidden:
         check_sale(chosen, *of_each)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import chain
 from pathlib import Path
 from typing import Annotated
 
@@ -140,13 +141,14 @@ def verify(
     local = local_chain()
     failures = 0
     wanted = range(collection.minted()) if not numbers else [collection.token(each).number for each in numbers]
-    for check in [*check_code(collection), *(check_token(collection, each, local) for each in wanted)]:
+    for check in chain(check_code(collection), (check_token(collection, each, local) for each in wanted)):
         failures += bool(check.failure)
         print(
             plain(
                 f"{'WRONG' if check.failure else 'ok':5}  {check.what}"
                 + (f": {check.failure}" if check.failure else "")
-            )
+            ),
+            flush=True,
         )
     if failures:
         raise RenderError(f"{failures} of the checks failed")

@@ -84,7 +84,9 @@ async def _put(visitor: Visitor, message: Message) -> None:
     value = message.get("value")
     of = control(path)
     if of.kind == "number" and isinstance(value, int | float) and not isinstance(value, bool) and not of.turn:
-        value = max(of.low, min(of.high, value))
+        asked, value = value, max(of.low, min(of.high, value))
+        if value != asked:
+            await visitor.tell({"note": f"{of.label} goes from {of.low:g} to {of.high:,g} {of.unit}".strip()})
     merge = path if of.kind in ("number", "color") else None
     visitor.change(change.put(visitor.state, visitor.facts, path, value), merge)
 

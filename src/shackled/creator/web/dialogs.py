@@ -11,14 +11,16 @@ from nicegui.element import Element
 
 from ...errors import InputError, RenderError
 from ..picture import StagePicture
-from ..takeaway import SCALES, Kind, kind_of
+from ..scene import filled
+from ..state import Size
+from ..takeaway import MAX_PNG, SCALES, Kind, kind_of
 from . import keys
 from .elements import Html, drawing, mark, push, push_icon, tag, words
 from .mint import offer_of
 from .visitor import Message, Visitor
 
-#: Files of the picture, each with a button of its own, by their kind; a PNG has one for each scale.
-PICTURES = ("png", "bmp", "svg", "scene", "file")
+#: Files of the picture, each with a button of its own, by their kind; PNG has one for each scale.
+PICTURES = ("bmp", "svg", "scene", "file")
 #: Pictures and scale of a turntable.
 TURNTABLES = ((24, 1), (24, 2), (60, 2))
 #: What is shown as text to copy, by its kind.
@@ -37,11 +39,11 @@ class Dialogs:
             Html(*_files(take))
             self._mint = tag("section")
             Html(*(_snippet(take, kind_of(name)) for name in SNIPPETS))
-        with _dialog("stages", "Gas, stage by stage", wide=True), tag("div", "box", tabindex="0"):
+        with _dialog("stages", "Gas, limits and stages", wide=True), tag("div", "box", tabindex="0"):
             self._fits = tag("section")
             self._pictures = tag("section")
             self._gas = tag("section")
-        with _dialog("keys", "Keys"):
+        with _dialog("keys", "Keys and pointer"):
             Html(_keys())
 
     async def takeaway(self, visitor: Visitor) -> None:
@@ -53,7 +55,7 @@ class Dialogs:
             {
                 "open": "takeaway",
                 "texts": {"link-note": note},
-                "attributes": {"take-file": {"hidden": None if note else ""}},
+                "attributes": {"take-file": {"hidden": None if note else ""}} | _scales(visitor),
             }
         )
         for kind in SNIPPETS:
@@ -62,7 +64,7 @@ class Dialogs:
             except (InputError, RenderError) as error:
                 text = str(error)
             if len(text) > SHOWN:
-                text = f"{text[:SHOWN]}…\n\n{len(text):,} characters; copying takes them all"
+                text = f"{text[:SHOWN]}…\n\n{len(text):,} characters; Copy and Save take them all"
             await visitor.tell({"texts": {f"snippet-{kind}": text}})
 
     def wallets(self, visitor: Visitor) -> None:
@@ -135,7 +137,7 @@ class Dialogs:
                         with tag("tr"):
                             words("th", fit.name, scope="row", title=fit.remark)
                             words("td", f"{fit.limit:,}", "number")
-                            words("td", f"{fit.share:.0%}", "number")
+                            words("td", f"{fit.share:,.0%}", "number")
                             words("td", "fits" if fit.fits else fit.reason or "too small", "yes" if fit.fits else "no")
 
     def _show_stages(self, pictures: Sequence[StagePicture]) -> None:
@@ -159,11 +161,27 @@ class Dialogs:
             with tag("table"), tag("tbody"):
                 for stage, used in gas.items():
                     with tag("tr"):
-                        words("th", stage, scope="row")
+                        words("th", stage[:1].upper() + stage[1:], scope="row")
                         words("td", f"{used:,}", "number")
                         words("td", f"{used / total:.1%}", "number")
                         with tag("td", "bar"):
                             tag("span").style(f"width:{100 * used / largest:.1f}%")
+                with tag("tr", "total"):
+                    words("th", "All", scope="row")
+                    words("td", f"{total:,}", "number")
+                    words("td", "", colspan="2")
+
+
+def _scales(visitor: Visitor) -> dict[str, dict[str, str | None]]:
+    """How large a PNG of each scale is; those that are too large cannot be had."""
+    size = filled(visitor.state, visitor.facts).size or Size()
+    return {
+        f"take-png-{scale}": {
+            "title": f"{scale * size.width} x {scale * size.height} pixels",
+            "hidden": "" if scale * max(size.width, size.height) > MAX_PNG else None,
+        }
+        for scale in SCALES
+    }
 
 
 def _traced(done: int, total: int) -> Message:
@@ -179,12 +197,20 @@ def _dialog(name: str, title: str, wide: bool = False) -> Element:
 
 @cache
 def _keys() -> Markup:
-    listed = [mark("div", mark("span", key.text), mark("kbd", key.shown)) for key in keys.KEYS]
+    told = [*keys.POINTER, *((key.text, key.shown) for key in keys.KEYS)]
+    listed = [mark("div", mark("span", text), mark("kbd", shown)) for text, shown in told]
     return mark("div", mark("div", *listed, class_="keys"), class_="box", tabindex="0")
 
 
 def _files(take: str) -> tuple[Markup, ...]:
-    pictures = [button for kind in map(kind_of, PICTURES) for button in _downloads(take, kind)]
+    png = kind_of("png")
+    scales = [
+        _download(f"{scale}x", f"{take}/png?scale={scale}", png, f"take-png-{scale}", f"PNG, {scale}x")
+        for scale in SCALES
+    ]
+    others = [
+        _download(kind.title, f"{take}/{kind.name}", kind, f"take-{kind.name}") for kind in map(kind_of, PICTURES)
+    ]
     turntables = [
         push(
             f"GIF, {frames} pictures, {scale}x",
@@ -206,7 +232,12 @@ def _files(take: str) -> tuple[Markup, ...]:
     link = mark("input", class_="field", id="link", readonly=True, aria_label="The link")
     copy_link = mark("button", drawing("link"), "Copy", type="button", class_="button", data_copy_link="")
     return (
-        mark("section", mark("h3", "The picture"), mark("div", *pictures, class_="takes")),
+        mark(
+            "section",
+            mark("h3", "The picture"),
+            mark("div", mark("span", "PNG", class_="quiet"), *scales, class_="scales"),
+            mark("div", *others, class_="scales"),
+        ),
         mark("section", mark("h3", "Turntable"), mark("div", *turntables, class_="scales"), job),
         mark(
             "section",
@@ -217,14 +248,7 @@ def _files(take: str) -> tuple[Markup, ...]:
     )
 
 
-def _downloads(take: str, kind: Kind) -> list[Markup]:
-    where = f"{take}/{kind.name}"
-    if kind.name == "png":
-        return [_download(f"{kind.title}, {scale}x", f"{where}?scale={scale}", kind) for scale in SCALES]
-    return [_download(kind.title, where, kind)]
-
-
-def _download(title: str, where: str, kind: Kind) -> Markup:
+def _download(title: str, where: str, kind: Kind, name: str, spoken: str | None = None) -> Markup:
     return mark(
         "a",
         title,
@@ -232,7 +256,8 @@ def _download(title: str, where: str, kind: Kind) -> Markup:
         href=where,
         download="",
         title=kind.help,
-        data_name=f"take-{kind.name}",
+        data_name=name,
+        aria_label=spoken,
         hidden=kind.name == "file",
     )
 
@@ -244,8 +269,9 @@ def _snippet(take: str, kind: Kind) -> Markup:
         "button", "Copy", type="button", class_="button small", data_copy=where, aria_label=f"Copy: {kind.title}"
     )
     save = mark("a", "Save", class_="button small", href=where, download="", aria_label=f"Save: {kind.title}")
+    pair = mark("span", copy, " ", save, class_="pair")
     return mark(
         "section",
-        mark("div", mark("h3", kind.title), mark("p", kind.help, class_="quiet"), copy, save, class_="snippet"),
+        mark("div", mark("h3", kind.title), mark("p", kind.help, class_="quiet"), pair, class_="snippet"),
         mark("div", text, class_="code"),
     )

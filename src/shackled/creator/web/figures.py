@@ -8,6 +8,10 @@ from ..fits import headline
 from ..picture import Frame
 from ..scene import Facts
 
+#: What is said where nothing of the object is left.
+_NONE = "nothing of the object is in sight"
+_LOST = f" · {_NONE}: F fits it"
+
 
 def figures(frame: Frame, facts: Facts, draft: bool) -> dict[str, Any]:
     """The message that shows the figures of a picture. draft: while it moves, which is smaller than what is wanted."""
@@ -22,9 +26,9 @@ def figures(frame: Frame, facts: Facts, draft: bool) -> dict[str, Any]:
         "triangles-label": f"Triangles drawn, of {facts.triangles:,}",
         "bytes": f"{frame.calldata_bytes:,}",
         "fits": fits[0].upper() + fits[1:],
-        "size": f"{size} pixels · {frame.seconds * 1000:.0f} ms in the EVM",
+        "size": f"{size} pixels · {frame.seconds * 1000:.0f} ms in the EVM{'' if frame.triangles != 0 else _LOST}",
     }
-    drawn = "" if frame.triangles is None else f"{frame.triangles:,} triangles, "
+    drawn = "" if frame.triangles is None else f"{frame.triangles:,} triangles, " if frame.triangles else f"{_NONE}, "
     return {
         "texts": texts,
         "attributes": {

@@ -50,6 +50,14 @@ KEYS: tuple[Key, ...] = (
     Key(("?",), "?", "These keys", {"open": "keys"}),
 )
 
+#: What a pointer does: for people, and how.
+POINTER: tuple[tuple[str, str], ...] = (
+    ("Turn the object", "drag"),
+    ("Shift it", "right drag, two fingers"),
+    ("Nearer, farther", "wheel, pinch"),
+    ("Move a light", "drag on its sphere"),
+)
+
 
 def table() -> dict[str, dict[str, Any]]:
     """The message of each key, by its name."""

@@ -61,6 +61,7 @@ def _top() -> tuple[Markup, ...]:
     name = mark("h1", mark("span", "Shackled ", class_="first"), "Creator")
     brand = mark("div", name, mark("p", "Every pixel computed by a smart contract"))
     return (
+        mark("a", "Skip to the picture", href="#view", class_="button main skip"),
         mark("div", Markup(LOGO), brand, class_="brand"),
         push_icon("undo", "Undo", "Undo (Ctrl Z)", data_name="undo", data_do={"do": "undo"}),
         push_icon("redo", "Redo", "Redo (Ctrl Shift Z)", data_name="redo", data_do={"do": "redo"}),
@@ -120,6 +121,7 @@ def _stage(has_node: bool) -> tuple[Markup, ...]:
         " triangles · ",
         mark("span", data_text="bytes"),
         " bytes",
+        mark("div", data_text="fits"),
         class_="strip",
         data_name="strip",
         aria_hidden="true",

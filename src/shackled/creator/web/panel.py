@@ -61,8 +61,9 @@ def row(of: Control, prefix: str = "") -> Markup:
     elif of.kind == "choice":
         inside = [mark("span", of.label, class_="name", aria_hidden="true"), _choice(of, spoken)]
     elif of.kind == "color":
-        box = mark("input", type="color", id=of.path, data_path=of.path, aria_label=spoken)
-        inside = [label, mark("div", box, class_="wide")]
+        box = mark("input", type="color", id=of.path, data_path=of.path, aria_label=spoken, data_none=of.none or None)
+        own = [mark("span", of.none, class_="own", aria_hidden="true")] if of.optional else []
+        inside = [label, mark("div", box, *own, class_="wide")]
     else:
         inside = [label, *_number(of, spoken)]
     return mark("div", *inside, reset, class_=f"row {of.kind}-row", data_row=of.path, title=of.help or None)
@@ -119,7 +120,7 @@ def _lamp(number: int) -> Markup:
         class_="sphere",
         data_number=number,
         aria_hidden="true",
-        title="Drag the light",
+        title="Drag the light; beyond the rim it goes behind",
     )
     remove = push("Remove", {"do": "remove-lamp", "number": number}, aria_label=f"Remove light {number + 1}")
     return mark(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import errno
 import io
 import json
 import logging
@@ -91,7 +92,12 @@ async def _announce(server: uvicorn.Server, address: str, browse: bool) -> None:
         await asyncio.sleep(0.01)
     print(f"the Creator is at {address} (Ctrl C ends it)", flush=True)
     if browse:
-        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        threading.Thread(target=_browse, args=(address,), daemon=True).start()
+
+
+def _browse(address: str) -> None:
+    if not webbrowser.open(address):
+        print(f"there is no browser that could be started here: open {address} in one", file=sys.stderr, flush=True)
 
 
 async def _first(pool: Pool, first: Path | Piece | None) -> Source:
@@ -126,12 +132,13 @@ def make_app(visitors: Visitors, first: Source, local: bool) -> ASGIApp:
 
     @ui.page("/", title="Shackled Creator", language="en-US")
     async def index(p: str = "") -> None:
-        greeting = ""
+        greeting, wanted = "", None
         state = State(first)
         if p:
             try:
-                state = from_link(p)
+                state = wanted = from_link(p)
                 await pool.open(state.source)
+                wanted = None
             except (InputError, RenderError) as error:
                 greeting, state = str(error), State(first)
         try:
@@ -139,6 +146,8 @@ def make_app(visitors: Visitors, first: Source, local: bool) -> ASGIApp:
         except InputError as error:
             ui.label(str(error))
             return
+        if wanted is not None and wanted.source.kind == "upload":
+            visitor.wanted, greeting = wanted, f"{greeting}, and the picture is as it was"
         visitor.greeting = greeting
         build(visitor)
 
@@ -238,8 +247,9 @@ def unpack(body: bytes) -> tuple[str, bytes]:
         return files[0]
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as archive:
-        for name, data in files:
-            archive.writestr(name.replace("\\", "/").rsplit("/", 1)[-1] or "file", data)
+        for name, data in sorted(files):
+            # of no date: the same files are the same upload, whenever and in whatever order they are handed in
+            archive.writestr(zipfile.ZipInfo(name.replace("\\", "/").rsplit("/", 1)[-1] or "file"), data)
     return "files.zip", stream.getvalue()
 
 
@@ -278,6 +288,8 @@ def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
             listening.bind((host, number))
         except OSError as error:
             listening.close()
+            if error.errno == errno.EADDRNOTAVAIL:
+                raise InputError(f"--host must be an address of this machine such as 127.0.0.1, not {host!r}") from None
             if number == wanted[-1]:
                 reason = error.strerror or str(error)
                 raise InputError(f"port {number} of {host} cannot be had: {reason}; choose another by --port") from None

@@ -21,9 +21,10 @@ ACCEPTED = ".obj,.mtl,.ply,.stl,.glb,.gltf,.bin,.off,.zip,.json,.toml"
 @cache
 def shelf() -> Markup:
     """A file, a search, and the shelves."""
+    open_ = mark("span", "Open", mark("span", " or drop", class_="drop"), " a file")
     return Markup("").join(
         (
-            mark("label", drawing("open"), "Open a file", class_="button", for_="file"),
+            mark("label", drawing("open"), open_, class_="button", for_="file"),
             mark(
                 "input",
                 class_="unseen",

@@ -70,6 +70,8 @@ class Visitor:
         self.waiting = Waiting()
         #: What is said when the page is there.
         self.greeting = ""
+        #: A picture whose file is not here: it comes back when somebody hands the file in.
+        self.wanted: State | None = None
         self._shown = Shown()
         self._send: Callable[[Message | bytes], Awaitable[None]] | None = None
         self._drawing: asyncio.Task[None] | None = None
@@ -144,6 +146,7 @@ class Visitor:
 
     def change(self, state: State, merge: Hashable | None = None) -> None:
         """Another state, and its picture; a quick one, if it is one of many that make a step."""
+        self.wanted = None
         self._moves += 1
         self.history.change(state, merge)
         if merge is None:
@@ -169,9 +172,9 @@ class Visitor:
         self.show(await self.pool.open(source))
 
     def show(self, facts: Facts) -> None:
-        """Another object, of which everything is known."""
-        self.facts = facts
-        self.change(State(facts.source))
+        """Another object, of which everything is known: as it comes, or as it was wanted before it was here."""
+        wanted, self.facts = self.wanted, facts
+        self.change(wanted if wanted is not None and wanted.source == facts.source else State(facts.source))
         self._draw_looks()
 
     async def go(self, state: State) -> None:
@@ -294,7 +297,7 @@ class Visitor:
     def _changes(self) -> Message:
         """What the page does not show yet as it is."""
         message = self._shown.changes(self.history, self.facts)
-        if not self._moving:
+        if not self._moving and self.wanted is None:
             link = self.link
             if link != self._shown.link:
                 self._shown.link = message["link"] = link

@@ -23,7 +23,9 @@ function connect() {
 }
 
 function send(message) {
-  if (socket?.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message));
+  const open = socket?.readyState === WebSocket.OPEN;
+  if (open) socket.send(JSON.stringify(message));
+  return open;
 }
 
 // movements are added up and sent once a frame
@@ -85,7 +87,7 @@ const showers = {
   open: (name) => { const dialog = document.getElementById(name); if (!dialog.open) dialog.showModal(); $("#link").value = location.href; if (name === "takeaway") findWallets(); },
   close: (name) => document.getElementById(name).close(),
   wallet: askWallet,
-  download: (url) => { const anchor = Object.assign(document.createElement("a"), { href: url, download: "" }); document.body.append(anchor); anchor.click(); anchor.remove(); },
+  download: (url) => take(url),
 };
 
 function show(message) {
@@ -138,6 +140,7 @@ function setValue(path, { value, changed, mixed }) {
     else if (input.type === "range") { if (input !== held) input.value = value === null ? input.max : place(input, value); fill(input); }
     else if (input !== document.activeElement || !typing) input.value = value ?? (input.type === "color" ? "#808080" : "");
     input.classList.toggle("none", value === null);
+    if (input.dataset.none) input.setAttribute("aria-description", value === null ? input.dataset.none : "");
   }
   const row = $(`[data-row="${CSS.escape(path)}"]`);
   row?.classList.toggle("changed", Boolean(changed));
@@ -178,16 +181,35 @@ document.addEventListener("focusout", () => { typing = false; });
 document.addEventListener("click", (event) => {
   const button = event.target.closest("[data-do], [data-open], [data-close], [data-copy], [data-copy-link], [data-theme-toggle], [data-tab]");
   if (event.target.tagName === "DIALOG") return event.target.close(); // beside the box
+  const file = event.target.closest("a[download]");
+  if (file && !file.href.startsWith("blob:")) { event.preventDefault(); take(file.href); }
   if (!button) return;
   const { dataset } = button;
-  if (dataset.do) send(JSON.parse(dataset.do));
+  if (dataset.do && !send(JSON.parse(dataset.do))) toast("The server does not answer", "alert");
   if (dataset.close !== undefined) button.closest("dialog")?.close();
   if (dataset.open) document.getElementById(dataset.open).showModal();
-  if (dataset.copy) copy(fetch(dataset.copy).then((answer) => answer.blob()).then((file) => file.text()));
+  if (dataset.copy) copy(fetch(dataset.copy).then((answer) => answer.text()));
   if (dataset.copyLink !== undefined) copy(Promise.resolve(location.href));
   if (dataset.themeToggle !== undefined) setTheme(dark() ? "light" : "dark");
   if (dataset.tab) tab(dataset.tab);
 });
+
+// a file, or why there is none: a link by itself would save the words as the file
+async function take(url) {
+  try {
+    const answer = await fetch(url);
+    if (!answer.ok) return toast((await answer.text()).slice(0, 400), "alert");
+    const name = /filename="([^"]+)"/.exec(answer.headers.get("content-disposition"))?.[1] ?? "picture";
+    const href = URL.createObjectURL(await answer.blob());
+    const anchor = Object.assign(document.createElement("a"), { href, download: name });
+    document.body.append(anchor);
+    anchor.click();
+    anchor.remove();
+    setTimeout(() => URL.revokeObjectURL(href), 60000);
+  } catch {
+    toast("The server does not answer", "alert");
+  }
+}
 
 // what is copied may still be on its way; browsers let nothing be copied long after a click, but promises
 async function copy(text) {
@@ -218,8 +240,11 @@ document.addEventListener("keydown", (event) => {
   if (event.target.dataset?.search !== undefined && event.key === "Enter") {
     const value = event.target.value.trim();
     const found = $$(".shelf-items button").filter((item) => item.offsetParent);
-    if (seed.test(value) || /^\d{1,4}$/.test(value)) send({ do: "seed", text: value });
-    else found[0]?.click();
+    // what has the form of a seed, or nearly so, the server judges
+    if (/^\d{1,4}$|^0x[0-9a-f]*$|^[0-9a-f]{16,}$/i.test(value)) {
+      send({ do: "seed", text: value });
+      if (seed.test(value)) { event.target.value = ""; search(event.target); }
+    } else if (value) found[0]?.click();
   }
 });
 
@@ -234,9 +259,12 @@ function setTheme(theme) {
 const pointers = new Map();
 let spread = 0;
 
-function parts(event, from) {
-  const height = $("#picture").getBoundingClientRect().height || 1;
-  return { x: (event.clientX - from.x) / height, y: (event.clientY - from.y) / height };
+// the way of a pointer in parts of the height of the picture; for turning, of its longer side, so that a wide and low
+// one does not spin
+function parts(event, from, turning) {
+  const { width, height } = $("#picture").getBoundingClientRect();
+  const all = (turning ? Math.max(width, height) : height) || 1;
+  return { x: (event.clientX - from.x) / all, y: (event.clientY - from.y) / all };
 }
 
 function hold(event) {
@@ -254,7 +282,8 @@ function distance() {
 function drag(event) {
   const from = pointers.get(event.pointerId);
   if (!from) return;
-  const by = parts(event, from);
+  const pans = pointers.size > 1 || event.shiftKey || event.buttons & 2;
+  const by = parts(event, from, !pans);
   pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
   if (pointers.size === 2) {
     move("pan", { x: by.x / 2, y: by.y / 2 }, ["x", "y"]);
@@ -264,7 +293,7 @@ function drag(event) {
       spread = now;
     }
   } else if (pointers.size === 1) {
-    move(event.shiftKey || event.buttons & 2 ? "pan" : "orbit", by, ["x", "y"]);
+    move(pans ? "pan" : "orbit", by, ["x", "y"]);
   }
 }
 function release(event) {

@@ -1,0 +1,47 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from shackled.json_text import MAX_NESTING, read_json
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("[]", []),
+        ('{"a": [1, {"b": "]]]"}]}', {"a": [1, {"b": "]]]"}]}),
+        ('"' + "[" * 1000 + '"', "[" * 1000),
+        ('["\\"' + "[" * 1000 + '\\\\", 2]', ['"' + "[" * 1000 + "\\", 2]),
+        ("[" + "[], " * 1000 + "[]]", [[]] * 1001),
+    ],
+)
+def test_what_is_json_is_read(text: str, value: object) -> None:
+    assert read_json(text) == value
+
+
+def test_nesting_has_a_limit() -> None:
+    read_json("[" * MAX_NESTING + "]" * MAX_NESTING)
+    for text in ("[" * 100_000, '{"a":' * 100_000, '["\\"[",' * 100_000, "[" * (MAX_NESTING + 1)):
+        with pytest.raises(ValueError, match="nested more than 200 deep"):
+            read_json(text)
+
+
+def test_what_is_cut_off_is_refused() -> None:
+    for text in ("", "[", '"', '"\\', '["a', "]", "]" * 1000 + "[" * 1000):
+        with pytest.raises(ValueError, match=r"."):
+            read_json(text)
+
+
+def test_no_text_ends_the_process() -> None:
+    """Where a package has raised the limit of recursion, as one for elliptic curves does."""
+    code = (
+        "import sys; sys.setrecursionlimit(10**6)\n"
+        "from shackled.json_text import read_json\n"
+        "for text in ('[' * 10**6, '{\"a\":' * 10**6):\n"
+        "    try:\n        read_json(text)\n    except ValueError:\n        print('refused')"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (found.returncode, found.stdout.split()) == (0, ["refused"] * 2)
