@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -25,7 +26,8 @@ def test_stopped_while_it_is_read_in(monkeypatch: pytest.MonkeyPatch, capsys: py
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_behind_the_output() -> None:
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_full_disk_behind_the_output(unbuffered: str) -> None:
     with Path("/dev/full").open("w", encoding="utf-8") as full:
         told = subprocess.run(
             [sys.executable, "-m", "shackled", "render", "shape.obj", "--size", "8", "--json"],
@@ -33,6 +35,7 @@ def test_a_full_disk_behind_the_output() -> None:
             stderr=subprocess.PIPE,
             text=True,
             timeout=60,
+            env=os.environ | {"PYTHONUNBUFFERED": unbuffered},
         )
     assert told.returncode == 1
     assert told.stderr == "shackled: No space left on device\n"

@@ -14,8 +14,8 @@ from shackled.creator.presets import PRESETS, apply, preset
 from shackled.creator.scene import describe, to_scene
 from shackled.creator.state import Size, Source, State
 
-SCENE = load("suzanne")
-FACTS = describe(Source("piece", "suzanne"), SCENE, "Suzanne")
+SCENE = load("teapot")
+FACTS = describe(Source("piece", "teapot"), SCENE, "Teapot")
 STATE = State(FACTS.source, size=Size(48, 48))
 
 

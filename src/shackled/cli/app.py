@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -55,6 +57,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     try:
         given = with_cluster(sys.argv[1:] if arguments is None else arguments)
         code = app(args=given, standalone_mode=False, prog_name="shackled")
+        # what is still kept back could not be told about once the interpreter ends
+        sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)
@@ -64,6 +68,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _fail("stopped", 1)
     except OSError as error:
         # as when the disk is full to which the output goes
+        _drop_output()
         where = f"{error.filename}: " if error.filename else ""
         return _fail(f"{where}{error.strerror or repr(error)}", 1)
     except Exception as error:
@@ -71,6 +76,15 @@ def run(arguments: Sequence[str] | None = None) -> int:
         if not hasattr(error, "format_message"):
             raise
         return _fail(error.format_message(), getattr(error, "exit_code", 2))
+
+
+def _drop_output() -> None:
+    """Forgets what standard output would not take, which the interpreter would try to write again at its end."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        with Path(os.devnull).open("w") as nowhere:
+            os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
 def _fail(message: object, code: int) -> int:
