@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -25,6 +26,14 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Node]:
         for name, account in zip(keys, accounts, strict=True):
             patch.setenv(name, account.key.hex())
         yield Node(started.url, [str(account.address) for account in accounts], keys)
+
+
+@pytest.fixture(scope="module")
+def allow_list(node: Node, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file for `--allow-list`: the second user may mint 2 tokens, the last one 7."""
+    path = tmp_path_factory.mktemp("list") / "friends.csv"
+    path.write_text(f"account,quantity\n{node.accounts[1]},2\n{node.accounts[9]},7\n")
+    return path
 
 
 @pytest.fixture

@@ -22,13 +22,6 @@ PRICE = 2 * 10**17
 
 
 @pytest.fixture(scope="module")
-def allow_list(node: Node, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("list") / "friends.csv"
-    path.write_text(f"account,quantity\n{node.accounts[ALICE]},2\n{node.accounts[9]},7\n")
-    return path
-
-
-@pytest.fixture(scope="module")
 def address(node: Node, allow_list: Path) -> str:
     """The collection: 12 tokens are for sale, the other 1,012 kept."""
     sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--allow-list", str(allow_list)]

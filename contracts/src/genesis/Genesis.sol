@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
-import {Quaternion} from "../math/Quaternion.sol";
-import {
-    Scene, Canvas, Camera, Background, Light, Material, Object, DIRECTIONAL, FLAT, CULL_BACKFACES, WIREFRAME
-} from "../scene/Scene.sol";
+import {Scene, Background} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Structures, SWARM} from "./Structures.sol";
@@ -14,6 +10,7 @@ import {Prisms, PrismMaker} from "./Prisms.sol";
 import {Scheme, Schemes, SUNSET, STONE_AND_GOLD, VIVID_ALABASTER, VIVID_INK} from "./Schemes.sol";
 import {Colors} from "./Colors.sol";
 import {PieceMesh} from "./PieceMesh.sol";
+import {PieceScene} from "./PieceScene.sol";
 
 /// @notice What a piece is called.
 /// @param structure How its prisms are arranged. chroma The scheme of its colours. pseudosymmetry Its mirrors.
@@ -42,9 +39,6 @@ contract Genesis {
     using Random for Seed;
 
     Renderer public immutable renderer;
-
-    /// @dev The side of a picture in pixels.
-    uint256 internal constant SIDE = 128;
 
     Tag internal constant WIRES = Tag.wrap(bytes32("wireframe") | bytes32(uint256(9)));
     Tag internal constant INVERSION = Tag.wrap(bytes32("invert") | bytes32(uint256(6)));
@@ -76,25 +70,25 @@ contract Genesis {
 
     /// @notice How a piece is drawn.
     function scene(bytes32 seed) external pure returns (Scene memory) {
-        return toScene(generate(seed));
+        return PieceScene.make(generate(seed));
     }
 
     /// @notice The picture of a piece.
     /// @return A Windows bitmap of 24 bits a pixel.
     function render(bytes32 seed) external view returns (bytes memory) {
-        answer(abi.encodeCall(Renderer.render, (toScene(generate(seed)))));
+        answer(abi.encodeCall(Renderer.render, (PieceScene.make(generate(seed)))));
     }
 
     /// @notice The picture of a piece.
     /// @return A `data:` URI of the bitmap.
     function renderDataURI(bytes32 seed) external view returns (string memory) {
-        answer(abi.encodeCall(Renderer.renderDataURI, (toScene(generate(seed)))));
+        answer(abi.encodeCall(Renderer.renderDataURI, (PieceScene.make(generate(seed)))));
     }
 
     /// @notice The picture of a piece.
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(bytes32 seed) external view returns (string memory) {
-        answer(abi.encodeCall(Renderer.renderSVG, (toScene(generate(seed)))));
+        answer(abi.encodeCall(Renderer.renderSVG, (PieceScene.make(generate(seed)))));
     }
 
     /// @dev Ends the call with what the renderer answers, or why it refuses, as it is: the compiler would copy a picture twice.
@@ -126,34 +120,5 @@ contract Genesis {
         found.wireframe = structure != SWARM && laid.seed.draw(WIRES, 1, 100) > 95;
         found.invert = chroma != SUNSET && chroma != STONE_AND_GOLD && chroma != VIVID_ALABASTER && chroma != VIVID_INK
             && laid.seed.draw(INVERSION, 1, 10) > 6;
-    }
-
-    /// @dev Seen from the front, lit from the left, its colours in full.
-    function toScene(Piece memory piece) private pure returns (Scene memory made) {
-        unchecked {
-            made.canvas = Canvas(SIDE, SIDE);
-            Camera memory camera = made.camera;
-            camera.target.z = -ONE;
-            camera.up.y = ONE;
-            // 1 / 2.145: a field of view of about 50 degrees
-            camera.halfHeight = Fixed.wrap(2002315756);
-            camera.near = ONE;
-            made.background = piece.background;
-            made.invert = piece.traits.invert ? 1 : 0;
-            made.ambientLight = 0xffffff;
-            made.lights = new Light[](1);
-            made.lights[0].kind = DIRECTIONAL;
-            made.lights[0].vector.x = Fixed.wrap(-50 << 32);
-            made.lights[0].color = 0xffffff;
-            made.objects = new Object[](1);
-            Object memory object = made.objects[0];
-            object.mesh = piece.mesh;
-            object.position.z = Fixed.wrap(-2500 << 32);
-            object.rotation = Quaternion(ZERO, ZERO, ZERO, ONE);
-            object.scale = ONE;
-            // 0.8 and 1.2
-            object.material = Material(FLAT, ONE, Fixed.wrap(3435973837), Fixed.wrap(5153960755), 10);
-            object.flags = (piece.culling ? CULL_BACKFACES : 0) + (piece.traits.wireframe ? WIREFRAME : 0);
-        }
     }
 }

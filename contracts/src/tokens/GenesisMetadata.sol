@@ -8,7 +8,7 @@ import {Genesis, Piece, Traits} from "../genesis/Genesis.sol";
 import {NoPrismToChoose} from "../genesis/Colors.sol";
 import {Png} from "../studio/Png.sol";
 import {Json} from "./Json.sol";
-import {PieceScene} from "./PieceScene.sol";
+import {PieceScene} from "../genesis/PieceScene.sol";
 import {Placeholder} from "./Placeholder.sol";
 
 /// @title GenesisMetadata: what the tokens of the Genesis collection show.
@@ -22,8 +22,7 @@ contract GenesisMetadata {
     string internal constant DESCRIPTION =
         "1024 pictures of 3D scenes. Scene, colours and every pixel are computed by contracts, from a seed that nobody could choose.";
 
-    /// @dev The side of a picture in pixels, and the side of the square that each becomes.
-    uint256 internal constant SIDE = 128;
+    /// @dev The side of the square that each pixel of a picture becomes.
     uint256 internal constant SCALE = 4;
 
     /// @notice What makes pieces of seeds, and pictures of pieces.
@@ -56,7 +55,7 @@ contract GenesisMetadata {
                 title(tokenId),
                 string.concat(DESCRIPTION, " Seed ", uint256(seed).toHexString(32), "."),
                 list(piece.traits),
-                picture(PieceScene.make(piece, SIDE))
+                picture(PieceScene.make(piece))
             )
         );
     }
@@ -121,7 +120,7 @@ contract GenesisMetadata {
     }
 
     function cover() private view returns (string memory) {
-        return picture(Placeholder.scene(SIDE));
+        return picture(Placeholder.scene(PieceScene.SIDE));
     }
 
     function picture(Scene memory scene) private view returns (string memory) {
