@@ -7,6 +7,10 @@ class InputError(ValueError):
     """Something that was handed in is wrong. The message is one line: what is wrong, where, and what would be right."""
 
 
+class InputWarning(UserWarning):
+    """Something that was handed in cannot be used, and is left out. The message is one line."""
+
+
 class FetchError(RuntimeError):
     """A file could not be fetched, or not kept. The message is one line."""
 

@@ -25,13 +25,7 @@ _allowed: list[str] = []
 _inside: str | None = None
 
 #: What readers import when they need it.
-_NEEDED = (
-    "fast_simplification",
-    "trimesh.exchange.gltf",
-    "trimesh.exchange.stl",
-    "trimesh.resolvers",
-    "trimesh.scene.transforms",
-)
+_NEEDED = ("fast_simplification",)
 
 #: Events that have no place in reading a file.
 _FORBIDDEN = (

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from shackled.errors import InputError
+from shackled.errors import InputError, InputWarning
 from shackled.scene.files import read_mesh, write_obj
+from shackled.scene.files.texture import TEXTURED
 from shackled.scene.mesh import DEFAULT_COLOR, Mesh
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -26,6 +27,10 @@ def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
 def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
     positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
     return positions
+
+
+def messages(told: pytest.WarningsRecorder) -> list[str]:
+    return [str(warning.message) for warning in told]
 
 
 def test_without_colors_it_is_grey(tmp_path: Path) -> None:
@@ -81,7 +86,11 @@ def test_materials_color_their_faces(tmp_path: Path) -> None:
 
 
 def test_faces_before_a_material_and_missing_materials_are_grey(tmp_path: Path) -> None:
-    mesh = read(tmp_path, "mtllib nowhere.mtl\n" + SQUARE + "f 1 2 3\nusemtl lost\nf 1 3 4\n")
+    with pytest.warns(InputWarning) as told:
+        mesh = read(tmp_path, "mtllib no where.mtl\n" + SQUARE + "f 1 2 3\nusemtl lost\nf 1 3 4\n")
+    assert messages(told) == [
+        f"{tmp_path / 'model.obj'}: its materials are left out: {tmp_path / 'no where.mtl'} does not exist"
+    ]
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
 
 
@@ -96,15 +105,57 @@ def test_textures_are_sampled(tmp_path: Path) -> None:
     image.putpixel((1, 0), (0, 0, 255))
     image.save(tmp_path / "wood.png")
     (tmp_path / "m.mtl").write_text("newmtl a\nKd 0.1 0.1 0.1\nmap_Kd -s 1 1 1 wood.png\n")
-    mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n")
+    with pytest.warns(InputWarning) as told:
+        mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n")
+    assert messages(told) == [f"{tmp_path / 'model.obj'}: {TEXTURED}"]
     assert corner_colors(mesh) == [[[255, 0, 0], [0, 0, 255], [255, 0, 0]]]
 
 
 def test_a_broken_texture_leaves_the_color(tmp_path: Path) -> None:
     (tmp_path / "wood.png").write_bytes(b"not a picture")
     (tmp_path / "m.mtl").write_text("newmtl a\nKd 0 1 0\nmap_Kd wood.png\n")
-    mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
+    with pytest.warns(InputWarning) as told:
+        mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
     assert corner_colors(mesh) == [[[0, 255, 0]] * 3]
+    assert messages(told) == [
+        f"{tmp_path / 'model.obj'}: a texture is left out: {tmp_path / 'wood.png'} is not an image that can be read"
+    ]
+
+
+def test_a_missing_texture_is_told_if_a_face_needs_it(tmp_path: Path) -> None:
+    (tmp_path / "m.mtl").write_text("newmtl a\nKd 0 1 0\nmap_Kd oak.png\nnewmtl b\nmap_Kd ash.png\n")
+    with pytest.warns(InputWarning) as told:
+        read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\n")
+    assert messages(told) == [f"{tmp_path / 'model.obj'}: a texture is left out: {tmp_path / 'oak.png'} does not exist"]
+
+
+def test_a_texture_of_one_color_loses_nothing(tmp_path: Path) -> None:
+    Image.new("RGB", (2, 2), (255, 0, 9)).save(tmp_path / "wood.png")
+    (tmp_path / "m.mtl").write_text("newmtl a\nmap_Kd wood.png\n")
+    mesh = read(tmp_path, "mtllib m.mtl\n" + TRIANGLE + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
+    assert corner_colors(mesh) == [[[255, 0, 9]] * 3]
+
+
+def test_normals_that_are_numbered_and_left_out(tmp_path: Path) -> None:
+    mesh = read(tmp_path, TRIANGLE + "f 1//1 2//1 3//1\n")
+    assert corner_positions(mesh) == [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]
+    assert mesh.normals is None
+
+
+@pytest.mark.parametrize("line_end", ["\r", "\r\n"])
+def test_line_ends_of_other_systems(tmp_path: Path, line_end: str) -> None:
+    text = (SQUARE + "# all\nf 1 2 \\\n3 4\n").replace("\n", line_end)
+    (tmp_path / "a.obj").write_bytes(text.encode())
+    assert len(np.asarray(read_mesh(tmp_path / "a.obj").faces)) == 2
+
+
+def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path) -> None:
+    """A square with a square corner cut out, from a corner that does not see all of it."""
+    mesh = read(tmp_path, "v 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 2 0 0\nf 6 1 2 3 4 5\n")
+    a, b, c = np.moveaxis(np.array(corner_positions(mesh)), 1, 0)
+    areas = np.cross(b - a, c - a)[:, 2] / 2
+    assert areas.min() >= 0
+    assert areas.sum() == 3
 
 
 def test_written_files_read_back(tmp_path: Path) -> None:
@@ -129,8 +180,12 @@ def test_written_files_read_back(tmp_path: Path) -> None:
         (TRIANGLE + "f 0 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (TRIANGLE + "f -4 1 2\n", "the face in line 4 names a vertex that does not exist; there are v lines 1 to 3"),
         (
-            TRIANGLE + "f 1 2 3\nf 1//1 2//1 3//1\n",
-            "the face in line 5 names a normal that does not exist; there are no vn lines",
+            TRIANGLE + "vn 0 0 1\nf 1 2 3\nf 1//1 2//1 3//2\n",
+            "the face in line 6 names a normal that does not exist; there are vn lines 1 to 1",
+        ),
+        (
+            "v 0 0 0\nv 1 0 0 1 nan 0\nv 0 1 0\nf 1 2 3\n",
+            "colour 1 must be three finite numbers, not [1.0, nan, 0.0]",
         ),
         (TRIANGLE + "f 1 2\n", "line 4 is not one of an OBJ file: 'f 1 2'"),
         (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),

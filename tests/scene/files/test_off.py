@@ -31,6 +31,16 @@ def test_counts_beside_the_header(tmp_path: Path) -> None:
     assert len(np.asarray(read(tmp_path, "OFF 4 1 0\n" + SQUARE + "3 0 1 2\n").faces)) == 1
 
 
+def test_the_first_count_may_stand_in_the_header(tmp_path: Path) -> None:
+    assert len(np.asarray(read(tmp_path, "OFF4 1 0 # a square\n" + SQUARE + "3 0 1 2\n").faces)) == 1
+
+
+def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path) -> None:
+    mesh = read(tmp_path, "OFF\n4 1 0\n0 2 0\n-1 0 0\n0 1 0\n1 0 0\n4 1 2 3 0\n")
+    a, b, c = np.moveaxis(np.asarray(mesh.positions)[np.asarray(mesh.faces)], 1, 0)
+    assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
+
+
 def test_face_colors_in_bytes(tmp_path: Path) -> None:
     mesh = read(tmp_path, "OFF\n4 3 0\n" + SQUARE + "3 0 1 2 255 0 10\n3 0 2 3 0 0 200 255\n3 1 2 3\n")
     assert corner_colors(mesh) == [[[255, 0, 10]] * 3, [[0, 0, 200]] * 3, [list(DEFAULT_COLOR)] * 3]

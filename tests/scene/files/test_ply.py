@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shackled.errors import InputError
+from shackled.errors import InputError, InputWarning
 from shackled.scene.files import read_mesh
 from shackled.scene.mesh import DEFAULT_COLOR, Mesh
 
@@ -31,6 +31,7 @@ def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
 
 
 VERTICES = "".join(f"{x} {y} {z}\n" for x, y, z in SQUARE)
+HEADER_LINES = "known are format, element and its count, then property and its type, and comment, obj_info, end_header"
 COLOR = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
 
 
@@ -46,6 +47,47 @@ def test_text(tmp_path: Path) -> None:
 def test_windows_line_ends(tmp_path: Path) -> None:
     text = (header("ascii", "", 1) + VERTICES + "4 0 1 2 3\n").replace("\n", "\r\n")
     assert len(np.asarray(read(tmp_path, text).faces)) == 2
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
+def test_line_ends_of_an_old_mac(tmp_path: Path, encoding: str) -> None:
+    content = header(encoding, "", 1).replace("\n", "\r").encode()
+    if encoding == "ascii":
+        content += (VERTICES + "4 0 1 2 3\n").replace("\n", "\r").encode()
+    else:
+        content += b"".join(struct.pack("<fff", *point) for point in SQUARE) + struct.pack("<Biiii", 4, 0, 1, 2, 3)
+    assert len(np.asarray(read(tmp_path, content).faces)) == 2
+
+
+def test_polygons_of_several_sizes_as_text(tmp_path: Path) -> None:
+    mesh = read(tmp_path, header("ascii", "", 2) + VERTICES + "\n3 0 1 2\n4 0 1 2 3\n")
+    assert len(np.asarray(mesh.faces)) == 3
+
+
+def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path) -> None:
+    """An arrow head, from a corner that does not see all of it."""
+    vertices = "0 2 0\n-1 0 0\n0 1 0\n1 0 0\n"
+    mesh = read(tmp_path, header("ascii", "", 1) + vertices + "4 1 2 3 0\n")
+    a, b, c = np.moveaxis(np.asarray(mesh.positions)[np.asarray(mesh.faces)], 1, 0)
+    assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
+
+
+def test_colors_of_vertices_come_first_if_all_faces_have_the_same(tmp_path: Path) -> None:
+    rows = "".join(f"{x} {y} {z} 1 2 3\n" for x, y, z in SQUARE)
+    faces = ["3 0 1 2 255 255 255\n", "3 0 2 3 255 255 255\n"]
+    text = header("ascii", COLOR, 2, COLOR) + rows
+    assert corner_colors(read(tmp_path, text + "".join(faces))) == [[[1, 2, 3]] * 3] * 2
+    faces[1] = faces[1].replace("255", "9")
+    assert corner_colors(read(tmp_path, text + "".join(faces))) == [[[255, 255, 255]] * 3, [[9, 9, 9]] * 3]
+
+
+def test_a_texture_is_told(tmp_path: Path) -> None:
+    text = header("ascii", "", 1).replace("made by hand", "TextureFile my wood.png") + VERTICES + "3 0 1 2\n"
+    with pytest.warns(InputWarning) as told:
+        read(tmp_path, text)
+    assert [str(warning.message) for warning in told] == [
+        f"{tmp_path / 'model.ply'}: its texture my wood.png is left out; of PLY files only colours are read"
+    ]
 
 
 @pytest.mark.parametrize(("encoding", "order"), [("binary_little_endian", "<"), ("binary_big_endian", ">")])
@@ -94,15 +136,29 @@ def test_normals_are_kept(tmp_path: Path) -> None:
         ("ply\nformat ascii 1.0\n", "its header has no line end_header"),
         ("ply\nend_header\n", "its header has no line format"),
         ("ply\nformat ascii 1.0\nelement vertex many\nend_header\n",
-         "its header has a line that means nothing: 'element vertex many'"),
+         "line 3 of its header is 'element vertex many'; {HEADER_LINES}"),
         ("ply\nformat ascii 1.0\nproperty float x\nend_header\n",
-         "its header has a line that means nothing: 'property float x'"),
+         "line 3 of its header is 'property float x'; {HEADER_LINES}"),
+        (header("ascii", "", 1).replace("comment made", "made"),
+         "line 3 of its header is 'made by hand'; {HEADER_LINES}"),
+        (header("ascii", "", 1) + VERTICES + "3 0 1 2 1 0 0\n",
+         "line 15 should hold an element face (a list vertex_indices after its length) and nothing else, "
+         "not '3 0 1 2 1 0 0'"),
+        (header("ascii", "", 2) + VERTICES + "3 0 1\n2 3 0 2 3\n",
+         "line 15 should hold an element face (a list vertex_indices after its length) and nothing else, not '3 0 1'"),
+        (header("ascii", "", 1) + VERTICES + "3 0 1 2\n\n3 0 2 3\n",
+         "line 17 is left over behind the elements of its header: '3 0 2 3'"),
+        (header("ascii", "", 1) + VERTICES + "3 0 1.5 2\n", "the numbers of vertices must be whole, not 1.5"),
+        (header("ascii", COLOR.replace("uchar", "float"), 1)
+         + VERTICES.replace("\n", " 0 nan 1\n") + "3 0 1 2\n",
+         "colour 0 must be three finite numbers, not [0.0, nan, 1.0]"),
         ("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n",
          "a mesh needs the elements vertex and face; this file has vertex"),
         (header("ascii", "", 1) + "0 0 0\n1 0 0\n", "it ends before its 4 elements vertex are complete"),
         (header("ascii", "", 2) + VERTICES + "3 0 1 2\n", "it ends before its 2 elements face are complete"),
         (header("binary_little_endian", "", 1) + "short", "it ends before its 4 elements vertex are complete"),
-        (header("ascii", "", 1) + VERTICES.replace("1 1", "1 x") + "3 0 1 2\n", "a value in it is not a number"),
+        (header("ascii", "", 1) + VERTICES.replace("1 1", "1 x") + "3 0 1 2\n",
+         "line 13 should hold an element vertex (x, y, z) and nothing else, not '1 x 0'"),
         (header("ascii", "", 1) + VERTICES.replace("1 1", "1 nan") + "3 0 1 2\n",
          "vertex 2 has a coordinate that is not a finite number: [1.0, nan, 0.0]"),
         (header("ascii", "", 1) + VERTICES + "3 0 1 4\n",
@@ -113,7 +169,8 @@ def test_normals_are_kept(tmp_path: Path) -> None:
 def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, content: str, message: str) -> None:
     with pytest.raises(InputError) as error:
         read(tmp_path, content)
-    assert str(error.value) == f"{tmp_path / 'model.ply'}: {message}"
+    told = message.replace("{HEADER_LINES}", HEADER_LINES)
+    assert str(error.value) == f"{tmp_path / 'model.ply'}: {told}"
 
 
 def test_a_count_without_bounds_ends_at_once(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.files.weld import fans, weld
+from shackled.scene.files.weld import weld
 
 SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 RED, BLUE = [255, 0, 0], [0, 0, 255]
@@ -45,9 +45,3 @@ def test_unused_vertices_are_left_out() -> None:
 def test_wrong_numbers_are_refused() -> None:
     with pytest.raises(InputError, match=r"^face 1 names the vertices \[0, 1, 4\], but they are numbered 0 to 3$"):
         weld(SQUARE, [[0, 1, 2], [0, 1, 4]])
-
-
-def test_fans_cut_polygons() -> None:
-    wanted = [[0, 1, 2, 0], [3, 4, 5, 1], [3, 5, 6, 1], [3, 6, 7, 1], [10, 11, 12, 3]]
-    assert fans([3, 5, 2, 3]).tolist() == wanted
-    assert fans([]).tolist() == []

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import stat
+import sys
+import tomllib
+import warnings
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from ...errors import InputError
+from ...errors import InputError, InputWarning
 
 #: No mesh that a contract takes comes near this size; beyond it a file would only fill the memory.
 MAX_BYTES = 256 * 2**20
+
+#: Calls and brackets, one in another; what Python allows by default.
+MAX_NESTING = 1000
 
 
 def read_bytes(path: Path) -> bytes:
@@ -32,8 +41,38 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file. Bytes that are no UTF-8, as in old comments, are replaced; binary data is refused."""
+    """The text of a file, with `unix_lines`. Bytes that are no UTF-8, as in old comments, are replaced; binary data is
+    refused.
+    """
     data = read_bytes(path)
     if b"\0" in data:
         raise InputError(f"{path} is not a text file, as a {path.suffix} file should be")
-    return data.decode("utf-8-sig", errors="replace")
+    return unix_lines(data.decode("utf-8-sig", errors="replace"))
+
+
+def unix_lines(text: str) -> str:
+    """The text with lines that end with \\n, be it from Unix, Windows or an old Mac."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
+    """The object that a text of a kind, .toml or .json, holds; `path` is for messages."""
+    limit = sys.getrecursionlimit()
+    try:
+        # some packages raise the limit so far that brackets nested too deep would end the process
+        sys.setrecursionlimit(min(limit, MAX_NESTING))
+        document = tomllib.loads(text) if kind == ".toml" else json.loads(text)
+    except RecursionError:
+        raise InputError(f"{path} is not valid {kind[1:].upper()}: its brackets lie in one another too deep") from None
+    except ValueError as error:
+        raise InputError(f"{path} is not valid {kind[1:].upper()}: {' '.join(str(error).split())}") from None
+    finally:
+        sys.setrecursionlimit(limit)
+    if not isinstance(document, Mapping):
+        raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
+    return document
+
+
+def warn(message: str) -> None:
+    """Tells of something that is left out; the message is one line that begins with the path."""
+    warnings.warn(message, InputWarning, stacklevel=2)

@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
-import sys
-import tomllib
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from ...errors import InputError
 from ..scene import Scene
 from ..staging import Look, stage
-from .content import read_text
+from .content import parse, read_text
 from .mesh_file import READERS, read_mesh
 from .original import is_original, original_scene
 from .scene_file import scene_of
 from .table import about
 
 SCENES = (".toml", ".json")
-
-#: Calls and brackets, one in another; what Python allows by default.
-MAX_NESTING = 1000
 
 
 def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
@@ -43,24 +35,8 @@ def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
         if path.is_dir():
             raise InputError(f"{path} is a directory; a mesh or scene file is needed: {known}")
         raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")
-    document = _document(path, extension)
+    document = parse(path, read_text(path), extension)
     with about(str(path)):
         if extension == ".json" and is_original(document):
             return original_scene(document)
         return scene_of(document, path.parent)
-
-
-def _document(path: Path, extension: str) -> Mapping[str, Any]:
-    text = read_text(path)
-    limit = sys.getrecursionlimit()
-    try:
-        # some packages raise the limit so far that brackets nested too deep would end the process
-        sys.setrecursionlimit(min(limit, MAX_NESTING))
-        document = tomllib.loads(text) if extension == ".toml" else json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{path} is not valid {extension[1:].upper()}: {' '.join(str(error).split())}") from None
-    finally:
-        sys.setrecursionlimit(limit)
-    if not isinstance(document, Mapping):
-        raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
-    return document

@@ -6,12 +6,13 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from ...errors import InputError
+from ...errors import InputError, InputWarning
 from ..mesh import Mesh
+from .gltf import read_gltf
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
-from .trimesh_file import read_gltf, read_stl
+from .stl import read_stl
 
 READERS: dict[str, Callable[[Path], Mesh]] = {
     ".obj": read_obj,
@@ -26,7 +27,8 @@ READERS: dict[str, Callable[[Path], Mesh]] = {
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """The mesh of a file, by its extension. Vertices that are equal in position, colour and normal are one.
 
-    InputError, one line that begins with the path, for anything that is wrong with the file.
+    An InputWarning tells what of the file is left out. InputError, one line that begins with the path, for anything
+    that is wrong with the file.
     """
     path = Path(path)
     extension = path.suffix.lower()
@@ -37,6 +39,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     except InputError as error:
         message = str(error)
         raise InputError(message if message.startswith(str(path)) else f"{path}: {message}") from None
+    except InputWarning:  # where warnings are errors
+        raise
     except Exception as error:  # what a library makes of a broken file may be of any class
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise InputError(f"{path} is not a {extension[1:].upper()} file that can be read: {reason}") from None

@@ -19,9 +19,10 @@ from PIL import Image
 from ...errors import InputError
 from ..mesh import DEFAULT_COLOR, Mesh
 from .colors import to_bytes
-from .content import read_text
-from .texture import sample
-from .weld import fans, weld
+from .content import read_text, warn
+from .polygons import cut
+from .texture import TEXTURED, is_varied, open_image, sample
+from .weld import weld
 
 ABSENT = -1
 
@@ -30,13 +31,14 @@ def read_obj(path: Path) -> Mesh:
     """The mesh of an OBJ file, all its groups and objects in one.
 
     The colour of a corner is that of its vertex (`v x y z r g b`), else the texture (`map_Kd`), else the diffuse colour
-    (`Kd`) of its material, else light grey. Materials or textures that cannot be found are left out.
+    (`Kd`) of its material, else light grey. Materials and textures that cannot be read are left out, of which an
+    InputWarning tells.
     """
     obj = _parse(path)
-    triangles = fans(obj.sizes)
-    corners, face = triangles[:, :3], triangles[:, 3]
     vertex, texcoord, normal = (np.array(column, dtype=np.int64) for column in (obj.vertex, obj.texcoord, obj.normal))
     positions, normals = _table(obj.positions, 3), _table(obj.normals, 3)
+    triangles = cut(positions, obj.sizes, vertex)
+    corners, face = triangles[:, :3], triangles[:, 3]
     has_normals = bool((normal != ABSENT).all())
     return weld(
         positions,
@@ -64,7 +66,7 @@ def write_obj(mesh: Mesh, path: str | Path) -> None:
 @dataclass(frozen=True)
 class _Material:
     color: tuple[float, float, float]
-    texture: Image.Image | None
+    texture: Path | None
 
 
 class _Obj:
@@ -73,7 +75,8 @@ class _Obj:
     The corners of all faces are numbered one after the other; vertex, texcoord and normal have an entry for each.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, path: Path) -> None:
+        self.path = path
         self.positions = array("d")
         self.vertex_colors: dict[int, list[float]] = {}
         self.texcoords = array("d")
@@ -93,9 +96,9 @@ def _table(values: array[float], width: int) -> NDArray[np.float64]:
 
 
 def _parse(path: Path) -> _Obj:
-    obj = _Obj()
+    obj = _Obj(path)
     material = 0
-    text = read_text(path).replace("\\\r\n", " ").replace("\\\n", " ")
+    text = read_text(path).replace("\\\n", " ")
     for number, line in enumerate(io.StringIO(text), 1):
         words = line.partition("#")[0].split()
         if not words:
@@ -119,7 +122,7 @@ def _parse(path: Path) -> _Obj:
             elif keyword == "usemtl":
                 material = obj.material_numbers.setdefault(" ".join(words[1:]), len(obj.material_numbers))
             elif keyword == "mtllib":
-                obj.materials.update(_read_materials(path.parent, line.split(None, 1)[1].strip()))
+                obj.materials.update(_read_materials(path, line.split(None, 1)[1].strip()))
         except (ValueError, IndexError):
             raise InputError(f"line {number} is not one of an OBJ file: {line.strip()[:60]!r}") from None
     _check_numbers(obj)
@@ -166,7 +169,7 @@ def _check_numbers(obj: _Obj) -> None:
         bad = np.flatnonzero(np.array(column) >= count)
         if not len(bad):
             continue
-        if keyword == "vt" and not count:  # some exporters number coordinates that they leave out
+        if keyword != "v" and not count:  # some exporters number coordinates and normals that they leave out
             column[:] = array("q", [ABSENT]) * len(column)
             continue
         line = obj.face_lines[int(np.searchsorted(np.cumsum(obj.sizes), bad[0], side="right"))]
@@ -186,35 +189,44 @@ def _colors(
     """(m, 3, 3): a colour for each corner of each triangle."""
     colors = np.empty((len(corners), 3, 3))
     colors[:] = DEFAULT_COLOR
+    textured = False
     for name, number in obj.material_numbers.items():
         if name not in obj.materials:
             continue
         found = obj.materials[name]
         faces = np.flatnonzero(material == number)
         colors[faces] = to_bytes(found.color, largest=1)
-        if found.texture is not None:
+        texture = None if found.texture is None or not len(faces) else _open_texture(obj.path, found.texture)
+        if texture is not None:
             faces = faces[(texcoord[corners[faces]] != ABSENT).all(axis=1)]
             coordinates = _table(obj.texcoords, 2)[texcoord[corners[faces]]]
-            colors[faces] = sample(found.texture, coordinates.reshape(-1, 2)).reshape(-1, 3, 3)
+            textured |= len(faces) > 0 and is_varied(texture)
+            colors[faces] = sample(texture, coordinates.reshape(-1, 2)).reshape(-1, 3, 3)
+    if textured:
+        warn(f"{obj.path}: {TEXTURED}")
     if obj.vertex_colors:
         colored = np.zeros(len(obj.positions) // 3, dtype=bool)
         colored[list(obj.vertex_colors)] = True
         vertex_colors = np.zeros((len(obj.positions) // 3, 3))
-        vertex_colors[colored] = to_bytes(list(obj.vertex_colors.values()))
+        vertex_colors[list(obj.vertex_colors)] = list(obj.vertex_colors.values())
+        vertex_colors = to_bytes(vertex_colors)
         has_own = colored[vertex[corners]]
         colors[has_own] = vertex_colors[vertex[corners]][has_own]
     return colors
 
 
-def _read_materials(folder: Path, names: str) -> dict[str, _Material]:
+def _read_materials(path: Path, names: str) -> dict[str, _Material]:
     """The materials of the files named in a `mtllib` line: one name, which may have spaces in it, or several."""
     materials: dict[str, _Material] = {}
-    for name in [names] if (folder / names).is_file() else names.split():
+    folder, several = path.parent, names.split()
+    one = (folder / names).is_file() or not any((folder / name).is_file() for name in several)
+    for name in [names] if one else several:
         try:
             text = read_text(folder / name.replace("\\", "/"))
-        except InputError:
-            continue
-        materials.update(_parse_materials(folder, text.splitlines()))
+        except InputError as error:
+            warn(f"{path}: its materials are left out: {error}")
+        else:
+            materials.update(_parse_materials(folder, text.split("\n")))
     return materials
 
 
@@ -236,13 +248,13 @@ def _parse_materials(folder: Path, lines: Iterable[str]) -> dict[str, _Material]
         elif keyword.lower() == "map_kd" and rest and name in materials:
             # options stand before the name: -s 1 1 1 wood.png
             image = rest.split()[-1] if rest.startswith("-") else rest
-            materials[name] = _Material(materials[name].color, _open_image(folder / image.replace("\\", "/")))
+            materials[name] = _Material(materials[name].color, folder / image.replace("\\", "/"))
     return materials
 
 
-def _open_image(path: Path) -> Image.Image | None:
+def _open_texture(path: Path, texture: Path) -> Image.Image | None:
     try:
-        with Image.open(path) as image:
-            return image.convert("RGB")
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        return open_image(texture, str(texture))
+    except InputError as error:
+        warn(f"{path}: a texture is left out: {error}")
         return None

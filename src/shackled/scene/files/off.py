@@ -13,9 +13,10 @@ from ...errors import InputError
 from ..mesh import DEFAULT_COLOR, Mesh
 from .colors import to_bytes
 from .content import read_text
-from .weld import fans, weld
+from .polygons import cut
+from .weld import weld
 
-_HEADER = re.compile(r"(?P<texture>ST)?(?P<color>C)?(?P<normal>N)?(?P<other>4?n?)OFF")
+_HEADER = re.compile(r"(?P<texture>ST)?(?P<color>C)?(?P<normal>N)?(?P<other>4?n?)OFF(?P<count>\d*)")
 
 _Line = tuple[int, list[str]]
 
@@ -33,7 +34,8 @@ def read_off(path: Path) -> Mesh:
         raise InputError(
             "an OFF file begins with OFF, COFF, NOFF or STOFF, and is text with three coordinates a vertex"
         )
-    lines[0] = (lines[0][0], lines[0][1][1:])
+    # the counts may follow at once
+    lines[0] = (lines[0][0], [*([header["count"]] if header["count"] else []), *lines[0][1][1:]])
     lines = [line for line in lines if line[1]]
     if not lines:
         raise InputError("the counts of vertices and faces are missing")
@@ -45,11 +47,10 @@ def read_off(path: Path) -> Mesh:
         )
     vertices = _numbers(lines[1 : 1 + vertex_count], 6 if header["normal"] else 3)
     polygons, face_colors = _faces(lines[1 + vertex_count : 1 + vertex_count + face_count])
-    triangles = fans([len(polygon) for polygon in polygons])
     positions = [vertex[:3] for vertex in vertices]
-    corners = np.asarray(
-        Mesh(positions, np.fromiter(chain.from_iterable(polygons), dtype=np.int64)[triangles[:, :3]]).faces
-    )
+    numbers = np.fromiter(chain.from_iterable(polygons), dtype=np.int64)
+    triangles = cut(positions, [len(polygon) for polygon in polygons], numbers)
+    corners = numbers[triangles[:, :3]]
     normals = np.array([vertex[3:6] for vertex in vertices])[corners] if header["normal"] else None
     behind = [vertex[6 if header["normal"] else 3 :] for vertex in vertices]
     if header["texture"]:

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from ...errors import InputError
 from ..mesh import Mesh
 from .colors import to_bytes
-from .content import read_bytes
-from .weld import fans, weld
+from .content import read_bytes, unix_lines, warn
+from .polygons import cut
+from .weld import weld
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -34,9 +35,15 @@ _LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
 def read_ply(path: Path) -> Mesh:
     """The mesh of a PLY file.
 
-    A corner has the colour of its face if faces have colours, else that of its vertex, else light grey.
+    A corner has the colour of its face if faces have colours, else that of its vertex, else light grey. Where all faces
+    have the same colour, those of vertices come first. An InputWarning tells of textures, which are left out.
     """
-    elements = {element.name: element for element in _read(read_bytes(path))}
+    header, source = _open(read_bytes(path))
+    for element in header.elements:
+        _read_element(element, source)
+    if isinstance(source, _Text):
+        source.finish()
+    elements = {element.name: element for element in header.elements}
     if "vertex" not in elements or "face" not in elements:
         raise InputError("a mesh needs the elements vertex and face; this file has " + (", ".join(elements) or "none"))
     vertex, face = elements["vertex"], elements["face"]
@@ -45,14 +52,16 @@ def read_ply(path: Path) -> Mesh:
     if positions is None or polygons is None:
         raise InputError("the element vertex needs x, y and z, the element face a list vertex_indices")
     sizes, numbers = polygons
-    triangles = fans(sizes)
-    corners = np.asarray(Mesh(positions, numbers[triangles[:, :3]]).faces)
+    triangles = cut(positions, sizes, numbers)
+    corners = numbers[triangles[:, :3]]
     face_colors, vertex_colors = face.colors(), vertex.colors()
     colors = None
-    if face_colors is not None:
+    if face_colors is not None and (vertex_colors is None or (face_colors != face_colors[0]).any()):
         colors = np.repeat(face_colors[triangles[:, 3]][:, None, :], 3, axis=1)
     elif vertex_colors is not None:
         colors = vertex_colors[corners]
+    if header.textures:
+        warn(f"{path}: its texture {', '.join(header.textures)} is left out; of PLY files only colours are read")
     normals = vertex.table("nx", "ny", "nz")
     return weld(positions, corners, colors, None if normals is None else normals[corners])
 
@@ -86,9 +95,14 @@ class _Element:
             if any(p.name == name and p.length is not None for p in self.properties):
                 rows = self.values[name]
                 if isinstance(rows, np.ndarray):
-                    return np.full(len(rows), rows.shape[1]), rows.reshape(-1).astype(np.int64)
-                sizes = np.array([len(row) for row in rows], dtype=np.int64)
-                return sizes, np.fromiter(chain.from_iterable(rows), dtype=np.int64)
+                    sizes, numbers = np.full(len(rows), rows.shape[1]), rows.reshape(-1)
+                else:
+                    sizes = np.array([len(row) for row in rows], dtype=np.int64)
+                    numbers = np.fromiter(chain.from_iterable(rows), dtype=np.float64)
+                bad = np.flatnonzero(numbers % 1 != 0)
+                if len(bad):
+                    raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
+                return sizes, numbers.astype(np.int64)
         return None
 
     def colors(self) -> NDArray[np.float64] | None:
@@ -100,71 +114,117 @@ class _Element:
         return None
 
 
-def _read(data: bytes) -> list[_Element]:
-    encoding, elements, start = _header(data)
-    source = _Text(data[start:]) if encoding == "ascii" else _Binary(data[start:], "<" if "little" in encoding else ">")
-    for element in elements:
-        _read_element(element, source)
-    return elements
+@dataclass
+class _Header:
+    encoding: str = ""
+    elements: list[_Element] = field(default_factory=list)
+    textures: list[str] = field(default_factory=list)
 
 
-def _header(data: bytes) -> tuple[str, list[_Element], int]:
-    """The encoding, the elements without their values, and where the values begin."""
-    encoding, elements, start = "", list[_Element](), 0
+def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
+    """The header, with elements that have no values yet, and where these are."""
+    header, start, number = _Header(), 0, 0
     if not data.startswith(b"ply"):
         raise InputError("a PLY file begins with the line ply")
-    while True:
-        end = data.find(b"\n", start)
+    line_end = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
+    line = ""
+    while line != "end_header":
+        end = data.find(line_end, start)
         if end < 0:
             raise InputError("its header has no line end_header")
         line = data[start:end].decode("ascii", errors="replace").strip()
-        start = end + 1
+        start, number = end + 1, number + 1
         try:
-            match line.split():
-                case ["format", name, _] if name in ("ascii", "binary_little_endian", "binary_big_endian"):
-                    encoding = name
-                case ["element", name, count] if int(count) >= 0:
-                    elements.append(_Element(name, int(count)))
-                case ["property", "list", length, kind, name]:
-                    elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
-                case ["property", kind, name]:
-                    elements[-1].properties.append(_Property(name, _TYPES[kind]))
-                case ["end_header"]:
-                    break
-                case ["ply"] | ["comment" | "obj_info", *_] | []:
-                    pass
-                case _:
-                    raise ValueError
+            _read_header_line(header, line)
         except (ValueError, KeyError, IndexError):
-            raise InputError(f"its header has a line that means nothing: {line[:60]!r}") from None
-    if not encoding:
+            raise InputError(
+                f"line {number} of its header is {line[:60]!r}; known are format, element and its count, then property "
+                "and its type, and comment, obj_info, end_header"
+            ) from None
+    if not header.encoding:
         raise InputError("its header has no line format")
-    return encoding, elements, start
+    if header.encoding == "ascii":
+        return header, _Text(data[start:], number)
+    return header, _Binary(data[start:], "<" if "little" in header.encoding else ">")
+
+
+def _read_header_line(header: _Header, line: str) -> None:
+    match line.split():
+        case ["format", name, _] if name in ("ascii", "binary_little_endian", "binary_big_endian"):
+            header.encoding = name
+        case ["element", name, count] if int(count) >= 0:
+            header.elements.append(_Element(name, int(count)))
+        case ["property", "list", length, kind, name]:
+            header.elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
+        case ["property", kind, name]:
+            header.elements[-1].properties.append(_Property(name, _TYPES[kind]))
+        case ["comment", "TextureFile", *words]:
+            header.textures.append(" ".join(words))
+        case ["ply"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
+            pass
+        case _:
+            raise ValueError
+
+
+_Field = tuple[str, str, int]
 
 
 class _Text:
-    """Numbers one after the other, divided by white space."""
+    """Lines of numbers, a line for each row of an element."""
 
-    def __init__(self, data: bytes) -> None:
-        self.words = data.split()
+    def __init__(self, data: bytes, before: int) -> None:
+        """`before`: how many lines of the file come before."""
+        self.lines = unix_lines(data.decode("ascii", errors="replace")).split("\n")
+        self.before = before
         self.at = 0
 
-    def rows(self, fields: list[tuple[str, str, int]], count: int) -> dict[str, NDArray[Any]] | None:
-        """`count` rows of these fields (name, type, how many numbers), or None if so many are not there."""
+    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
+        """`count` rows of these fields (name, type, how many numbers), or None if the lines are not of that form."""
         width = sum(size for _, _, size in fields)
-        words = self.words[self.at : self.at + width * count]
-        if len(words) < width * count:
+        rows = [line.split() for line in self.lines[self.at : self.at + count]]
+        if len(rows) < count or any(len(row) != width for row in rows):
             return None
         try:
-            table = np.array([float(word) for word in words]).reshape(count, width)
+            table = np.array([float(word) for row in rows for word in row]).reshape(count, width)
         except ValueError:
-            raise InputError("a value in it is not a number") from None
-        self.at += width * count
-        result, column = {}, 0
-        for name, _, size in fields:
-            result[name] = table[:, column : column + size]
-            column += size
-        return result
+            return None
+        self.at += count
+        starts = np.cumsum([0, *(size for _, _, size in fields)]).tolist()
+        return {name: table[:, at : at + size] for (name, _, size), at in zip(fields, starts, strict=False)}
+
+    def row(self, element: _Element) -> dict[str, list[float]]:
+        """The values of a line, by property."""
+        while self.at < len(self.lines) and not self.lines[self.at].strip():
+            self.at += 1
+        if self.at == len(self.lines):
+            raise _ended(element)
+        line, place = self.lines[self.at], f"line {self.before + self.at + 1}"
+        self.at += 1
+        words = line.split()
+        row, used = {}, 0
+        try:
+            for p in element.properties:
+                size = 1
+                if p.length is not None:
+                    size, used = int(words[used]), used + 1
+                row[p.name] = [float(word) for word in words[used : used + size]]
+                if len(row[p.name]) != size:
+                    raise ValueError
+                used += size
+            if used < len(words):
+                raise ValueError
+        except (ValueError, IndexError):
+            form = ", ".join(f"a list {p.name} after its length" if p.length else p.name for p in element.properties)
+            raise InputError(
+                f"{place} should hold an element {element.name} ({form}) and nothing else, not {line.strip()[:60]!r}"
+            ) from None
+        return row
+
+    def finish(self) -> None:
+        """Refuses what is left over."""
+        for number, line in enumerate(self.lines[self.at :], self.before + self.at + 1):
+            if line.strip():
+                raise InputError(f"line {number} is left over behind the elements of its header: {line.strip()[:60]!r}")
 
 
 class _Binary:
@@ -175,13 +235,33 @@ class _Binary:
         self.order = order
         self.at = 0
 
-    def rows(self, fields: list[tuple[str, str, int]], count: int) -> dict[str, NDArray[Any]] | None:
+    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
+        """`count` rows of these fields (name, type, how many numbers), or None if so many are not there."""
         row = np.dtype([(name, self.order + kind, (size,)) for name, kind, size in fields])
         if self.at + row.itemsize * count > len(self.data):
             return None
         table = np.frombuffer(self.data, row, count, self.at)
         self.at += row.itemsize * count
         return {name: table[name] for name, _, _ in fields}
+
+    def row(self, element: _Element) -> dict[str, list[float]]:
+        """The values of a row, by property."""
+        row = {}
+        for p in element.properties:
+            size = 1 if p.length is None else int(self._numbers(element, p.length, 1)[0])
+            row[p.name] = self._numbers(element, p.type, size)
+        return row
+
+    def _numbers(self, element: _Element, kind: str, size: int) -> list[float]:
+        found = self.table([("numbers", kind, size)], 1) if size >= 0 else None
+        if found is None:
+            raise _ended(element)
+        numbers: list[float] = found["numbers"][0].tolist()
+        return numbers
+
+
+def _ended(element: _Element) -> InputError:
+    return InputError(f"it ends before its {element.count} elements {element.name} are complete")
 
 
 def _read_element(element: _Element, source: _Text | _Binary) -> None:
@@ -190,10 +270,10 @@ def _read_element(element: _Element, source: _Text | _Binary) -> None:
         element.values = {p.name: [] for p in element.properties}
         return
     start = source.at
-    first = _read_row(element, source)
+    first = source.row(element)
     source.at = start
     # nearly always all lists of an element are of one length: then it is read as one table
-    table = source.rows(
+    table = source.table(
         [
             part
             for p in element.properties
@@ -210,28 +290,10 @@ def _read_element(element: _Element, source: _Text | _Binary) -> None:
             p.name: table[p.name][:, 0] if p.length is None else table[p.name] for p in element.properties
         }
         return
-    if not lists:
-        raise InputError(f"it ends before its {element.count} elements {element.name} are complete")
+    if not lists and isinstance(source, _Binary):
+        raise _ended(element)
     source.at = start
-    rows = [_read_row(element, source) for _ in range(element.count)]
+    rows = [source.row(element) for _ in range(element.count)]
     element.values = {
         p.name: [row[p.name][0] if p.length is None else row[p.name] for row in rows] for p in element.properties
     }
-
-
-def _read_row(element: _Element, source: _Text | _Binary) -> dict[str, list[float]]:
-    row = {}
-    for p in element.properties:
-        size = 1
-        if p.length is not None:
-            size = int(_one(element, source, p.length, 1)[0])
-        row[p.name] = _one(element, source, p.type, size)
-    return row
-
-
-def _one(element: _Element, source: _Text | _Binary, kind: str, size: int) -> list[float]:
-    values = source.rows([("value", kind, size)], 1) if size >= 0 else None
-    if values is None:
-        raise InputError(f"it ends before its {element.count} elements {element.name} are complete")
-    result: list[float] = values["value"][0].tolist()
-    return result

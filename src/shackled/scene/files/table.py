@@ -61,6 +61,13 @@ class Table:
             raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
         return float(value)
 
+    def whole(self, key: str, default: int | None = None) -> int:
+        """A whole number that is not negative; it must be there if there is no default."""
+        value: Any = self.values.get(key, default)
+        if not is_number(value) or value < 0 or value % 1:
+            raise InputError(f"{self.place(key)} must be a whole number, at least 0, not {value!r:.60}")
+        return int(value)
+
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """As many numbers as the default has."""
         value = self.values.get(key, default)

@@ -2,9 +2,37 @@
 
 from __future__ import annotations
 
+import warnings
+from pathlib import Path
+from typing import IO
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
+
+from ...errors import InputError
+
+#: What is to be told of a mesh whose textures are not of one colour.
+TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
+
+
+def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
+    """The image, as RGB. InputError, with its name, if there is none."""
+    try:
+        with (
+            warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
+            Image.open(source) as image,
+        ):
+            return image.convert("RGB")
+    except FileNotFoundError:
+        raise InputError(f"{name} does not exist") from None
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise InputError(f"{name} is not an image that can be read") from None
+
+
+def is_varied(image: Image.Image) -> bool:
+    """Whether an RGB image has more than one colour."""
+    return any(np.ptp(np.asarray(image), axis=(0, 1)))
 
 
 def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:

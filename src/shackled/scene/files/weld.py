@@ -43,17 +43,3 @@ def weld(
         None if colors is None else unique[:, 3:6],
         None if normals is None else unique[:, -3:],
     )
-
-
-def fans(sizes: ArrayLike) -> NDArray[np.int64]:
-    """(k, 4) int: the triangles of polygons, each as the numbers of three corners and of its polygon.
-
-    sizes: (n,) how many corners each polygon has; the corners of all polygons are numbered one after the other.
-    Polygons are cut as fans about their first corner, which is right for convex ones.
-    """
-    corners = np.asarray(sizes, dtype=np.int64)
-    triangles = np.maximum(corners - 2, 0)
-    polygon = np.repeat(np.arange(len(corners)), triangles)
-    first = (np.cumsum(corners) - corners)[polygon]
-    second = first + 1 + np.arange(len(polygon)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
-    return np.stack([first, second, second + 1, polygon], axis=1)

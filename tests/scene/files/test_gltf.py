@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from shackled.errors import InputError
+from shackled.errors import InputError, InputWarning
 from shackled.scene.files import read_mesh
+from shackled.scene.files.texture import TEXTURED
 from shackled.scene.mesh import DEFAULT_COLOR, Mesh
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
-ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
@@ -25,52 +25,6 @@ def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
 def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
     positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
     return positions
-
-
-def test_stl_in_binary(tmp_path: Path) -> None:
-    path = tmp_path / "model.stl"
-    triangle = struct.pack("<12fH", 0, 0, 1, *(float(c) for point in POINTS for c in point), 0)
-    path.write_bytes(bytes(80) + struct.pack("<I", 2) + 2 * triangle)
-    mesh = read_mesh(path)
-    assert corner_positions(mesh) == [[list(p) for p in POINTS]] * 2
-    assert len(np.asarray(mesh.positions)) == 3
-    assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
-    assert mesh.normals is None
-
-
-def test_stl_as_text_with_two_solids(tmp_path: Path) -> None:
-    path = tmp_path / "model.STL"
-    one = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
-    path.write_text(one + one.replace("vertex 1 0 0", "vertex 2 0 0"))
-    mesh = read_mesh(path)
-    assert len(np.asarray(mesh.faces)) == 2
-    assert len(np.asarray(mesh.positions)) == 4
-
-
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (
-            b"\x00\x01garbage" * 20,
-            ": it is neither text nor as long as a binary STL file of so many triangles would be",
-        ),
-        (
-            ASCII_STL.format("vertex 0 0 0\nvertex 1 zero 0\nvertex 0 1 0\n").encode(),
-            "is not a STL file that can be read: ",
-        ),
-        (bytes(84), ": it has no triangles"),
-        (bytes(80) + struct.pack("<I", 9) + bytes(50), ": it is neither text nor as long as a binary STL"),
-        (ASCII_STL.format("vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n").encode(), "not a finite number"),
-    ],
-)
-def test_broken_stl_is_told_in_one_line(tmp_path: Path, content: bytes, message: str) -> None:
-    path = tmp_path / "model.stl"
-    path.write_bytes(content)
-    with pytest.raises(InputError) as error:
-        read_mesh(path)
-    assert str(error.value).startswith(str(path))
-    assert message in str(error.value)
-    assert "\n" not in str(error.value)
 
 
 class Gltf:
@@ -181,7 +135,10 @@ def test_texture_is_sampled_from_its_top(tmp_path: Path) -> None:
     model.texture(image)
     model.attribute("TEXCOORD_0", np.array([[0, 0], [0, 1], [0, 0.5]], dtype=np.float32))
     model.material(baseColorTexture={"index": 0})
-    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 0, 0], [0, 0, 255], [128, 0, 128]]]
+    path = model.glb(tmp_path / "model.glb")
+    with pytest.warns(InputWarning) as told:
+        assert corner_colors(read_mesh(path)) == [[[255, 0, 0], [0, 0, 255], [128, 0, 128]]]
+    assert [str(warning.message) for warning in told] == [f"{path}: {TEXTURED}"]
 
 
 def test_nodes_put_parts_in_their_places(tmp_path: Path) -> None:
@@ -223,12 +180,22 @@ def test_broken_gltf_is_told_in_one_line(tmp_path: Path) -> None:
     not_finite.attribute("POSITION", np.array([[0, 0, 0], [1, 0, np.nan], [0, 1, 0]], dtype=np.float32))
     beside = Gltf().gltf(tmp_path / "lost.gltf", "missing.bin").read_bytes()
     for name, content, message in [
-        ("cut.glb", whole[:-30], "is not a GLB file that can be read: "),
-        ("garbage.glb", b"\x93garbage" * 40, "is not a GLB file that can be read: "),
-        ("text.gltf", b"{nothing}", "is not a GLTF file that can be read: "),
-        ("old.gltf", b'{"asset": {"version": "1.0"}}', "is not a GLTF file that can be read: only GLTF 2"),
-        ("beside.gltf", beside, "is not a GLTF file that can be read: "),
-        ("index.glb", wrong_index.glb(tmp_path / "a").read_bytes(), "face 0 names the vertices [0, 1, 7]"),
+        ("cut.glb", whole[:-30], ": it ends after 398 of its 428 bytes"),
+        ("start.glb", whole[:9], ": it ends within its header"),
+        ("chunk.glb", whole[:12] + b"\xff" + whole[13:], ": its chunk at byte 12 reaches beyond the end of the file"),
+        ("next.glb", whole[:4] + b"\x03" + whole[5:], ": it is of version 3 of GLB; version 2 is read"),
+        ("empty.glb", b"glTF" + struct.pack("<II", 2, 12), ": it has no JSON chunk"),
+        ("garbage.glb", b"\x93garbage" * 40, " is not valid JSON: "),
+        ("text.gltf", b"{nothing}", " is not valid JSON: "),
+        ("deep.gltf", b"[" * 100_000, " is not valid JSON: its brackets lie in one another too deep"),
+        ("other.gltf", b'{"size": 3}', ": it is no glTF file: asset, with the version of glTF, is missing"),
+        ("old.gltf", b'{"asset": {"version": "1.0"}}', ": asset.version is '1.0'; glTF 2.0 is read"),
+        ("beside.gltf", beside, f": buffers[0].uri: {tmp_path / 'missing.bin'} does not exist"),
+        (
+            "index.glb",
+            wrong_index.glb(tmp_path / "a").read_bytes(),
+            ": meshes[0].primitives[0].indices name vertex 7, but they are numbered 0 to 2",
+        ),
         ("none.glb", no_mesh.glb(tmp_path / "a").read_bytes(), ": it has no triangles"),
         ("nan.glb", not_finite.glb(tmp_path / "a").read_bytes(), "not a finite number"),
         (
@@ -246,11 +213,134 @@ def test_broken_gltf_is_told_in_one_line(tmp_path: Path) -> None:
         assert "\n" not in str(error.value)
 
 
-def test_nothing_is_printed(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_texture_is_told(tmp_path: Path) -> None:
     model = Gltf()
     model.document["images"] = [{"uri": "missing.png"}]
     model.document["textures"] = [{"source": 0}]
     model.attribute("TEXCOORD_0", np.zeros((3, 2), dtype=np.float32))
     model.material(baseColorTexture={"index": 0})
-    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 255, 255]] * 3]
-    assert capfd.readouterr() == ("", "")
+    path = model.glb(tmp_path / "model.glb")
+    with pytest.warns(InputWarning) as told:
+        assert corner_colors(read_mesh(path)) == [[[255, 255, 255]] * 3]
+    assert [str(warning.message) for warning in told] == [
+        f"{path}: a texture is left out: images[0].uri: {tmp_path / 'missing.png'} does not exist"
+    ]
+
+
+def test_the_part_of_a_texture_that_a_transform_takes(tmp_path: Path) -> None:
+    """The example of the extension: the lower left quarter of the image, turned by 90 degrees."""
+    model = Gltf()
+    image = Image.new("RGB", (4, 4))
+    image.paste((255, 0, 0), (0, 2, 2, 4))
+    image.putpixel((0, 3), (0, 255, 0))
+    model.texture(image)
+    model.attribute("TEXCOORD_0", np.array([[0.25, 0.25], [0.75, 0.25], [0.25, 0.75]], dtype=np.float32))
+    transform = {"offset": [0, 1], "rotation": np.pi / 2, "scale": [0.5, 0.5]}
+    model.material(baseColorTexture={"index": 0, "extensions": {"KHR_texture_transform": transform}})
+    model.document["extensionsRequired"] = ["KHR_texture_transform"]
+    with pytest.warns(InputWarning):
+        mesh = read_mesh(model.glb(tmp_path / "model.glb"))
+    assert corner_colors(mesh) == [[[0, 255, 0], [255, 0, 0], [255, 0, 0]]]
+
+
+def test_diffuse_color_of_the_older_material(tmp_path: Path) -> None:
+    model = Gltf()
+    model.material()
+    glossiness = {"diffuseFactor": [0, 0.2, 1, 1]}
+    model.document["materials"][0]["extensions"] = {"KHR_materials_pbrSpecularGlossiness": glossiness}
+    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[0, 51, 255]] * 3]
+
+
+def refusal(folder: Path, model: Gltf) -> str:
+    path = model.gltf(folder / "model.gltf")
+    with pytest.raises(InputError) as error:
+        read_mesh(path)
+    told = str(error.value)
+    assert told.startswith(f"{path}: ")
+    assert "\n" not in told
+    return told.removeprefix(f"{path}: ")
+
+
+def changed(**keys: Any) -> Gltf:
+    model = Gltf()
+    model.document |= keys
+    return model
+
+
+def test_what_a_document_lacks_is_named(tmp_path: Path) -> None:
+    accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}
+    view = {"buffer": 0, "byteLength": 36}
+    for model, message in [
+        (changed(asset={"version": "3.0"}), "asset.version is '3.0'; glTF 2.0 is read"),
+        (changed(asset={}), "asset.version is None; glTF 2.0 is read"),
+        (changed(asset={"version": "2.1", "minVersion": "2.1"}), "asset.minVersion is '2.1'; glTF 2.0 is read"),
+        (
+            changed(extensionsRequired=["EXT_mesh_gpu_instancing"]),
+            "it requires the extension EXT_mesh_gpu_instancing, which is not read; export it without",
+        ),
+        (
+            changed(accessors=[accessor | {"type": "VEC9"}]),
+            "accessors[0].type must be one of VEC3, not 'VEC9'",
+        ),
+        (
+            changed(accessors=[accessor | {"componentType": 5124}]),
+            "accessors[0].componentType must be one of 5120, 5121, 5122, 5123, 5125, 5126, not 5124",
+        ),
+        (
+            changed(accessors=[accessor | {"count": 1.5}]),
+            "accessors[0].count must be a whole number, at least 0, not 1.5",
+        ),
+        (changed(accessors=[accessor | {"count": 4}]), "accessors[0] needs 48 bytes of bufferViews[0], which has 36"),
+        (changed(accessors=[{"componentType": 5126, "count": 10**9, "type": "VEC3"}]),
+         "accessors[0] has 1,000,000,000 elements but no data"),
+        (changed(bufferViews=[view | {"byteOffset": 4}]), "bufferViews[0] needs 40 bytes of buffers[0], which has 36"),
+        (changed(bufferViews=[view | {"byteStride": 4}]),
+         "bufferViews[0].byteStride is 4, less than an element of 12 bytes"),
+        (changed(bufferViews=[]), "accessors[0].bufferView is 0, but there are 0 bufferViews, numbered from 0"),
+        (changed(nodes=[{"mesh": 1}]), "nodes[0].mesh is 1, but there are 1 meshes, numbered from 0"),
+        (changed(nodes=[{"matrix": [float("nan")] * 16, "mesh": 0}]), "nodes[0].matrix must be 16 numbers, not [nan, "),
+        (changed(nodes=[{"rotation": [0, 0, 0, 0], "mesh": 0}]), "nodes[0]: a rotation must not be the zero"),
+        (changed(nodes=[{"children": [0]}]), "nodes[0] hangs on several nodes, or on itself, which glTF does not"),
+        (changed(nodes=[{"children": [7]}]), "nodes[0].children[0] is 7, but there are 1 nodes, numbered from 0"),
+        (changed(scene=3), "scene is 3, but there are 1 scenes, numbered from 0"),
+        (changed(meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "mode": 7}]}]),
+         "meshes[0].primitives[0].mode must be from 0 to 6, not 7"),
+        (changed(meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "mode": 1}]}]), "it has no triangles"),
+        (changed(meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 0}]}]),
+         "accessors[0].type must be one of SCALAR, not 'VEC3'"),
+    ]:  # fmt: skip
+        assert refusal(tmp_path, model).startswith(message)
+
+
+def test_coordinates_beyond_floats_are_told_without_other_warnings(tmp_path: Path) -> None:
+    model = Gltf()
+    model.document["nodes"] = [{"children": [1], "scale": [1e299] * 3}, {"mesh": 0, "scale": [1e299] * 3}]
+    model.document["nodes"][0]["translation"] = [-1e299, 0, 0]
+    assert "coordinate that is not a finite number" in refusal(tmp_path, model)
+
+
+def test_files_beside_are_named(tmp_path: Path) -> None:
+    for uri, message in [
+        ("missing%20data.bin", f"buffers[0].uri: {tmp_path / 'missing data.bin'} does not exist"),
+        ("../a.bin", "buffers[0].uri is '../a.bin'; only files in the folder of the glTF file are read"),
+        ("http://127.0.0.1:9/a.bin", "buffers[0].uri is 'http://127.0.0.1:9/a.bin'; only files in the folder of the"),
+        ("data:;base64,A", "buffers[0].uri does not hold valid base64"),
+    ]:
+        path = Gltf().gltf(tmp_path / "model.gltf", uri)
+        with pytest.raises(InputError) as error:
+            read_mesh(path)
+        assert str(error.value).startswith(f"{path}: {message}")
+
+
+def test_nodes_deep_in_one_another(tmp_path: Path) -> None:
+    model = Gltf()
+    model.document["nodes"] = [{"children": [number + 1]} for number in range(5000)] + [{"mesh": 0}]
+    assert len(np.asarray(read_mesh(model.glb(tmp_path / "model.glb")).faces)) == 1
+
+
+def test_a_mesh_that_is_shown_too_often(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.scene.files.gltf.MAX_TRIANGLES", 9)
+    model = Gltf()
+    model.document["nodes"] = [{"mesh": 0}] * 10
+    model.document["scenes"] = [{"nodes": list(range(10))}]
+    assert refusal(tmp_path, model) == "it shows more than 9 triangles, the most that are read"
