@@ -160,6 +160,20 @@ def test_a_zip_of_a_mesh_with_its_texture(visitor: Visitor) -> None:
     frame = visitor.render(State(upload.source))
     pixels = np.asarray(PillowImage.open(io.BytesIO(frame.png))).astype(int)
     assert (pixels[..., 1] - pixels[..., 0]).max() > 100
+    assert upload.notes == ()
+
+
+def test_what_is_left_out_is_told(visitor: Visitor) -> None:
+    assert visitor.upload("My cube.obj", b"mtllib cube.mtl\n" + TRIANGLE).notes == (
+        "My cube.obj: its materials are left out: cube.mtl does not exist.",
+    )
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "/etc/no such file", "../../etc/passwd", "../../etc/nothing"])
+def test_what_is_told_does_not_depend_on_files_elsewhere(name: str, visitor: Visitor) -> None:
+    (note,) = visitor.upload("a.obj", f"mtllib {name}\n".encode() + TRIANGLE).notes
+    last = name.rpartition("/")[2]
+    assert note.endswith(f" cannot be read: {last} lies outside of the upload.")
 
 
 def test_too_many_triangles_are_simplified(visitor: Visitor, tmp_path: Path) -> None:

@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 
@@ -54,6 +56,19 @@ def test_triangles_without_common_vertices_are_connected_first() -> None:
     small = simplify(loose, 300)
     assert is_closed(small)
     assert len(np.asarray(small.faces)) <= 300
+
+
+def test_a_number_that_would_do_is_named() -> None:
+    tries = ((3, 1.0),)
+    with pytest.raises(InputError) as error:
+        simplify(sphere(), 400, tries)
+    told = re.fullmatch(
+        r"a mesh of 2112 triangles cannot be simplified to 400: (\d+) remain; (\d+) would do", str(error.value)
+    )
+    assert told is not None
+    remain, enough = int(told[1]), int(told[2])
+    assert 400 < remain == enough < 2112
+    assert len(np.asarray(simplify(sphere(), enough, tries).faces)) <= enough
 
 
 @pytest.mark.parametrize("limit", [1000, 200, 60])

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from .. import __version__
-from ..errors import FetchError, InputError, RenderError
+from ..errors import FetchError, InputError, InputWarning, RenderError
 from .arguments import with_cluster
 from .bench import bench
 from .creator import creator
@@ -53,7 +54,14 @@ def shackled(
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; the exit code. What went wrong is said in one line on stderr."""
+    """Runs the command; the exit code. What went wrong is said in one line on stderr, what is left out in another."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", InputWarning)
+        warnings.showwarning = _note(warnings.showwarning)
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     try:
         given = with_cluster(sys.argv[1:] if arguments is None else arguments)
         code = app(args=given, standalone_mode=False, prog_name="shackled")
@@ -78,6 +86,20 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _fail(error.format_message(), getattr(error, "exit_code", 2))
 
 
+def _note(show: Callable[..., object]) -> Callable[..., None]:
+    """Shows an InputWarning as a line of its own, each once, and others as before."""
+    told = set[str]()
+
+    def showwarning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if not issubclass(category, InputWarning):
+            show(message, category, *place, **more)
+        elif str(message) not in told:
+            told.add(str(message))
+            print(f"shackled: note: {_one_line(message)}", file=sys.stderr)
+
+    return showwarning
+
+
 def _drop_output() -> None:
     """Forgets what standard output would not take, which the interpreter would try to write again at its end."""
     try:
@@ -88,5 +110,11 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {' '.join(str(message).split())}", file=sys.stderr)
+    print(f"shackled: {_one_line(message)}", file=sys.stderr)
     return code
+
+
+def _one_line(message: object) -> str:
+    """What a terminal shows as one line: names of files may hold characters that steer it."""
+    text = " ".join(str(message).split())
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)

@@ -6,12 +6,13 @@ import hashlib
 import pickle
 import re
 import unicodedata
+import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, InputWarning
 from ..render import resize, simplify_scene
 from ..scene.files.load import SCENES, load
 from ..scene.files.mesh_file import READERS
@@ -46,8 +47,8 @@ def read_upload(name: str, data: bytes, limits: Limits) -> tuple[str, Stored, tu
         raise InputError(f"{title} is empty")
     if len(data) > limits.upload:
         raise InputError(f"{title} is larger than the {limits.upload / MEGABYTE:g} MB that are read")
-    scene = _load(title, extension, data, limits)
     notes: list[str] = []
+    scene = _load(title, extension, data, limits, notes)
     scene, simplified_to = _bounded(scene, title, limits, notes)
     largest = max(scene.width, scene.height)
     if largest > MAX_SIDE:
@@ -78,7 +79,7 @@ def clean_name(name: Any) -> str:
     return f"{stem}{dot}{extension[:10]}"
 
 
-def _load(title: str, extension: str, data: bytes, limits: Limits) -> Scene:
+def _load(title: str, extension: str, data: bytes, limits: Limits, notes: list[str]) -> Scene:
     with folder() as inside:
         # of a name that no message of a reader can be mistaken for
         path = inside / f"upload{extension}"
@@ -89,7 +90,12 @@ def _load(title: str, extension: str, data: bytes, limits: Limits) -> Scene:
                 path.write_bytes(data)
             if path.suffix.lower() in (".gltf", ".glb"):
                 check_gltf(path, path.read_bytes())
-            return load(path)
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always", InputWarning)
+                scene = load(path)
+            messages = [str(each.message) for each in told if issubclass(each.category, InputWarning)]
+            notes += [f"{_message(message, title, path, inside)}." for message in dict.fromkeys(messages)]
+            return scene
         except InputError as error:
             raise InputError(_message(str(error), title, path, inside)) from None
 

@@ -24,7 +24,7 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
 
     Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
     they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
-    forcefully. InputError where edges cannot be collapsed so far.
+    forcefully. InputError where edges cannot be collapsed so far; it names a number that would do.
     """
     if isinstance(max_triangles, bool) or not isinstance(max_triangles, int) or max_triangles < 1:
         raise InputError(
@@ -32,13 +32,11 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
         )
     if len(np.asarray(mesh.faces)) <= max_triangles:
         return mesh
-    positions, faces, colors = _connect(mesh)
-    for force, share in tries:
-        if len(faces) <= max_triangles:
-            break
-        positions, faces, colors = _collapse(positions, faces, colors, int(share * max_triangles), force)
+    positions, faces, colors = _simplified(mesh, max_triangles, tries)
     if not 0 < len(faces) <= max_triangles:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
+        if len(faces) and len(_simplified(mesh, len(faces), tries)[1]) <= len(faces):
+            found += f"; {len(faces)} would do"
         raise InputError(
             f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {max_triangles}: {found}"
         )
@@ -46,6 +44,16 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
 
 
 _Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
+
+
+def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
+    """The mesh after as many tries as it needs; it may have more triangles than it should, or none."""
+    surface = _connect(mesh)
+    for force, share in tries:
+        if len(surface[1]) <= max_triangles:
+            break
+        surface = _collapse(*surface, int(share * max_triangles), force)
+    return surface
 
 
 def _connect(mesh: Mesh) -> _Surface:

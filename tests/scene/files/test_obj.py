@@ -122,6 +122,17 @@ def test_a_broken_texture_leaves_the_color(tmp_path: Path) -> None:
     ]
 
 
+def test_several_files_of_materials_one_of_them_missing(tmp_path: Path) -> None:
+    (tmp_path / "a.mtl").write_text("newmtl a\nKd 1 0 0\n")
+    (tmp_path / "b.mtl").write_text("newmtl b\nKd 0 0 1\n")
+    with pytest.warns(InputWarning) as told:
+        mesh = read(tmp_path, "mtllib a.mtl lost.mtl b.mtl\n" + SQUARE + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n")
+    assert corner_colors(mesh) == [[[255, 0, 0]] * 3, [[0, 0, 255]] * 3]
+    assert messages(told) == [
+        f"{tmp_path / 'model.obj'}: its materials are left out: {tmp_path / 'lost.mtl'} does not exist"
+    ]
+
+
 def test_a_missing_texture_is_told_if_a_face_needs_it(tmp_path: Path) -> None:
     (tmp_path / "m.mtl").write_text("newmtl a\nKd 0 1 0\nmap_Kd oak.png\nnewmtl b\nmap_Kd ash.png\n")
     with pytest.warns(InputWarning) as told:

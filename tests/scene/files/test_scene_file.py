@@ -231,6 +231,7 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"camera": {"eye": [0, 0, 5]}},
          "camera.eye needs a camera.target; without both the camera is placed so that all is seen"),
         ({"camera": {"eye": [0, 0, 5], "target": [0, 0, 5]}}, "camera: eye and target are the same point"),
+        ({"camera": {"eye": [0, 0, 5], "target": [0, 0, 0], "up": [0, 0, 0]}}, "camera: up must not be (0, 0, 0)"),
         ({"camera": {"fov": 50, "half_height": 1}}, "camera.fov and half_height exclude each other"),
         ({"camera": {"fov": 180}},
          "camera: the field of view in degrees must be a finite number from 0.2 to 179.8, not 180.0"),

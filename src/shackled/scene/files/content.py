@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import stat
 import sys
 import tomllib
@@ -16,6 +17,8 @@ from ...errors import InputError, InputWarning
 #: No mesh that a contract takes comes near this size; beyond it a file would only fill the memory.
 MAX_BYTES = 256 * 2**20
 
+_AT_ONCE = getattr(os, "O_NONBLOCK", 0)
+
 #: Calls and brackets, one in another; what Python allows by default.
 MAX_NESTING = 1000
 
@@ -23,16 +26,19 @@ MAX_NESTING = 1000
 def read_bytes(path: Path) -> bytes:
     """Everything in a file that exists, is not empty and not above `MAX_BYTES`."""
     try:
-        status = path.stat()
-        if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
-            data = path.read_bytes()
+        # opened before anything is asked about it, so that a guard of opening guards all; without waiting for a pipe
+        with open(path, "rb", buffering=0, opener=lambda name, flags: os.open(name, flags | _AT_ONCE)) as file:
+            status = os.fstat(file.fileno())
+            if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
+                data = file.readall()
     except FileNotFoundError:
         raise InputError(f"{path} does not exist") from None
+    except IsADirectoryError:
+        raise InputError(f"{path} is a directory; a mesh or scene file is needed") from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if not stat.S_ISREG(status.st_mode):
-        kind = "a directory" if stat.S_ISDIR(status.st_mode) else "no regular file"
-        raise InputError(f"{path} is {kind}; a mesh or scene file is needed")
+        raise InputError(f"{path} is no regular file; a mesh or scene file is needed")
     if status.st_size > MAX_BYTES:
         raise InputError(f"{path} has {status.st_size / 2**20:.0f} MB; files up to {MAX_BYTES >> 20} MB are read")
     if not data.strip():

@@ -217,16 +217,21 @@ def _colors(
 
 def _read_materials(path: Path, names: str) -> dict[str, _Material]:
     """The materials of the files named in a `mtllib` line: one name, which may have spaces in it, or several."""
+    found: dict[str, str] = {}
+    missing: dict[str, InputError] = {}
+    for name in (names, *names.split()):
+        if name not in found and names not in found:
+            try:
+                found[name] = read_text(path.parent / name.replace("\\", "/"))
+            except InputError as error:
+                missing[name] = error
+    if found:
+        missing.pop(names, None)
+    for error in [missing[names]] if names in missing else missing.values():
+        warn(f"{path}: its materials are left out: {error}")
     materials: dict[str, _Material] = {}
-    folder, several = path.parent, names.split()
-    one = (folder / names).is_file() or not any((folder / name).is_file() for name in several)
-    for name in [names] if one else several:
-        try:
-            text = read_text(folder / name.replace("\\", "/"))
-        except InputError as error:
-            warn(f"{path}: its materials are left out: {error}")
-        else:
-            materials.update(_parse_materials(folder, text.split("\n")))
+    for text in found.values():
+        materials.update(_parse_materials(path.parent, text.split("\n")))
     return materials
 
 

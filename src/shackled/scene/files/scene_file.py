@@ -166,6 +166,8 @@ def _camera(keys: Table, look: Look, objects: list[Object]) -> Camera:
                 "orthographic" if orthographic else "perspective",
                 half_height,
             )
+            if not np.any(np.asarray(camera.up)):
+                raise InputError("up must not be (0, 0, 0)")
             if np.array_equal(np.asarray(camera.eye), np.asarray(camera.target)):
                 raise InputError("eye and target are the same point")
         else:
