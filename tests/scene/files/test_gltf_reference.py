@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.scene.files import gltf_reader
 
+import gltf_reader
 from shackled.scene.files import read_mesh
 from shackled.scene.mesh import DEFAULT_COLOR
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -81,7 +82,7 @@ def seen_here(path: Path) -> Array:
 
 
 def seen_by_trimesh(path: Path, colored: bool) -> Array:
-    mesh = trimesh.load(path, force="mesh", process=False)
+    mesh: Any = trimesh.load(path, force="mesh", process=False)
     colors = mesh.visual.vertex_colors[:, :3] if colored else np.full((len(mesh.vertices), 3), DEFAULT_COLOR)
     return in_order(mesh.vertices[mesh.faces], colors[mesh.faces].astype(float))
 

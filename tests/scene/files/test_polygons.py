@@ -24,7 +24,7 @@ def ring(corners: int) -> Array:
 
 def star(distances: list[float]) -> Array:
     turns = np.linspace(0, 2 * np.pi, len(distances), endpoint=False)
-    return np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1) * np.array(distances)[:, None]
+    return np.asarray(np.stack([np.cos(turns), np.sin(turns), 0 * turns], axis=1) * np.array(distances)[:, None])
 
 
 def vector_area(points: Array) -> Array:
@@ -44,7 +44,7 @@ def cut_areas(points: Array) -> Array:
 def check_filled(points: Array) -> None:
     """The triangles have the area of the polygon, and all turn as it does."""
     whole, areas = vector_area(points), cut_areas(points)
-    size = np.linalg.norm(whole)
+    size = float(np.linalg.norm(whole))
     np.testing.assert_allclose(areas.sum(axis=0), whole, atol=1e-9 * size)
     assert np.linalg.norm(areas, axis=1).sum() == pytest.approx(size, rel=1e-6)
 

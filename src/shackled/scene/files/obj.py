@@ -227,8 +227,8 @@ def _read_materials(path: Path, names: str) -> dict[str, _Material]:
                 missing[name] = error
     if found:
         missing.pop(names, None)
-    for error in [missing[names]] if names in missing else missing.values():
-        warn(f"{path}: its materials are left out: {error}")
+    for reason in [missing[names]] if names in missing else missing.values():
+        warn(f"{path}: its materials are left out: {reason}")
     materials: dict[str, _Material] = {}
     for text in found.values():
         materials.update(_parse_materials(path.parent, text.split("\n")))

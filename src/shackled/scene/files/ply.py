@@ -180,13 +180,12 @@ class _Text:
 
     def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
         """`count` rows of these fields (name, type, how many numbers), or None if the lines are not of that form."""
-        width = sum(size for _, _, size in fields)
-        rows = [line.split() for line in self.lines[self.at : self.at + count]]
-        if len(rows) < count or any(len(row) != width for row in rows):
-            return None
+        self._skip_blank()
         try:
-            table = np.array([float(word) for row in rows for word in row]).reshape(count, width)
+            table = np.loadtxt(self.lines[self.at : self.at + count], ndmin=2, comments=None)
         except ValueError:
+            return None
+        if table.shape != (count, sum(size for _, _, size in fields)):
             return None
         self.at += count
         starts = np.cumsum([0, *(size for _, _, size in fields)]).tolist()
@@ -194,8 +193,7 @@ class _Text:
 
     def row(self, element: _Element) -> dict[str, list[float]]:
         """The values of a line, by property."""
-        while self.at < len(self.lines) and not self.lines[self.at].strip():
-            self.at += 1
+        self._skip_blank()
         if self.at == len(self.lines):
             raise _ended(element)
         line, place = self.lines[self.at], f"line {self.before + self.at + 1}"
@@ -219,6 +217,10 @@ class _Text:
                 f"{place} should hold an element {element.name} ({form}) and nothing else, not {line.strip()[:60]!r}"
             ) from None
         return row
+
+    def _skip_blank(self) -> None:
+        while self.at < len(self.lines) and not self.lines[self.at].strip():
+            self.at += 1
 
     def finish(self) -> None:
         """Refuses what is left over."""

@@ -132,7 +132,7 @@ def placed(triangle: Triangle, world: Matrix) -> Triangle:
 def inverted(m: Matrix) -> tuple[Matrix, float]:
     def minor(i: int, j: int) -> float:
         (a, b), (c, d) = ([m[p][q] for q in range(3) if q != j] for p in range(3) if p != i)
-        return (a * d - b * c) * (-1) ** (i + j)
+        return (a * d - b * c) * (1 - 2 * ((i + j) % 2))
 
     determinant = sum(m[0][j] * minor(0, j) for j in range(3))
     return [[minor(j, i) / determinant for j in range(3)] for i in range(3)], determinant
