@@ -10,7 +10,7 @@ from ...errors import InputError
 from ..mesh import Mesh
 
 #: How many corners a polygon may have that no fan fills: the time that its cutting takes grows with their square.
-MAX_CORNERS = 1 << 14
+MAX_CORNERS = 1 << 13
 
 #: A fan may leave its polygon by this part of the polygon's area, as it does by rounding.
 _ROUNDING = 1e-9
@@ -29,7 +29,6 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
     polygon = triangles[:, 3]
     if not (sizes > 3).any():
         return triangles
-    starts = np.cumsum(sizes) - sizes
     with np.errstate(all="ignore"):
         a, b, c = np.moveaxis(points[vertices[triangles[:, :3]]], 1, 0)
         extent = np.zeros(len(sizes))
@@ -42,16 +41,27 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
         wrong = np.unique(polygon[along < -_ROUNDING * np.einsum("ij,ij->i", normals, normals)[polygon]])
     if not len(wrong):
         return triangles
-    parts = [triangles[~np.isin(polygon, wrong)]]
-    for number in wrong.tolist():
-        start, size = starts[number], sizes[number]
-        if size > MAX_CORNERS:
-            raise InputError(f"face {number} is no convex polygon and has {size} corners; up to {MAX_CORNERS} are cut")
-        outline = points[vertices[start : start + size]]
-        clipped = _clip((outline - outline[0]) / extent[number], normals[number])
-        if len(clipped):
-            parts.append(np.insert(start + clipped, 3, number, axis=1))
-    together = np.concatenate(parts)
+    if sizes[wrong].max() > MAX_CORNERS:
+        number = wrong[sizes[wrong].argmax()]
+        raise InputError(
+            f"face {number} is no convex polygon and has {sizes[number]} corners; up to {MAX_CORNERS} are cut"
+        )
+    starts = np.cumsum(sizes) - sizes
+    owner = np.repeat(wrong, sizes[wrong])
+    corners = np.flatnonzero(np.isin(np.repeat(np.arange(len(sizes)), sizes), wrong))
+    outlines = (points[vertices[corners]] - points[vertices[starts[owner]]]) / extent[owner, None]
+    flat = _flat(outlines, normals[owner])
+    clipped, start = [], 0
+    for size in sizes[wrong].tolist():
+        ears = mapbox_earcut.triangulate_float64(flat[start : start + size], np.array([size], dtype=np.uint32))
+        clipped.append(start + ears.astype(np.int64))
+        start += size
+    found = np.concatenate(clipped).reshape(-1, 3)
+    (ax, ay), (bx, by), (cx, cy) = np.moveaxis(flat[found], (0, 1, 2), (2, 0, 1))
+    backward = (bx - ax) * (cy - ay) < (by - ay) * (cx - ax)
+    found[backward] = found[backward, ::-1]
+    others = triangles[~np.isin(polygon, wrong)]
+    together = np.concatenate([others, np.concatenate([corners[found], owner[found[:, :1]]], axis=1)])
     return together[np.argsort(together[:, 3], kind="stable")]
 
 
@@ -65,15 +75,10 @@ def fans(sizes: ArrayLike) -> NDArray[np.int64]:
     return np.stack([first, second, second + 1, polygon], axis=1)
 
 
-def _clip(outline: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.int64]:
-    """(k, 3) int: the triangles of one polygon, turned as it is."""
-    # along the axis in which the polygon is seen largest, and from the side from which it runs counter-clockwise
-    axis = int(np.abs(normal).argmax())
-    across, up = ((axis + 1) % 3, (axis + 2) % 3) if normal[axis] > 0 else ((axis + 2) % 3, (axis + 1) % 3)
-    flat = np.ascontiguousarray(outline[:, [across, up]])
-    triangles = mapbox_earcut.triangulate_float64(flat, np.array([len(flat)], dtype=np.uint32))
-    result = triangles.astype(np.int64).reshape(-1, 3)
-    (ax, ay), (bx, by), (cx, cy) = np.moveaxis(flat[result], (0, 1, 2), (2, 0, 1))
-    backward = (bx - ax) * (cy - ay) < (by - ay) * (cx - ax)
-    result[backward] = result[backward, ::-1]
-    return result
+def _flat(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2): points seen along the axis nearest to their normal, from where their outline runs counter-clockwise."""
+    rows = np.arange(len(points))
+    axis = np.abs(normals).argmax(axis=1)
+    forward = normals[rows, axis] > 0
+    across, up = (axis + np.where(forward, 1, 2)) % 3, (axis + np.where(forward, 2, 1)) % 3
+    return np.stack([points[rows, across], points[rows, up]], axis=1)
