@@ -250,7 +250,8 @@ library Shading {
                 rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
                 let ra := sar(168, a)
                 ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
-                yes := lt(or(or(rb, rc), ra), 0x1000000000)
+                // more would not fit the lanes where colours are up to 20 times 255
+                yes := lt(or(or(rb, rc), ra), 0x100000000)
                 // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
                 b := mul(b, rb)
                 c := mul(c, rc)

@@ -31,8 +31,9 @@ from .words import LANES_24, LANES_32, MASK, ONES, divide, divide_signed, signed
 HALF_LEVEL = 0x200 * ONES
 LINE_BIAS = 0x000002000000000002000000000000020000000000
 
-#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
-WEIGHTED_BIAS = ((1 << 45) + (1 << 18)) * ONES
+#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away. It stands above the
+#: brightest that a flat face may have before its highlights, 20 * 255 levels, at three corners.
+WEIGHTED_BIAS = ((1 << 48) + (1 << 18)) * ONES
 
 #: Half the range of a lane of 85 bits, for vectors of Q20 and their sums of Q36.
 VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
@@ -150,9 +151,9 @@ def shade(attribute: int, x: int, y: int, r: Registers) -> int:
     else:
         r.fragment_place_x, r.fragment_place_y = x >> 16, y >> 16
         x = y = 0
-    color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_24
+    color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_32
     # lanes that were rounded below zero have lost the bit of the bias
-    color &= ((color >> 21) & ONES) * 0x1FFFFF
+    color &= ((color >> 24) & ONES) * 0xFFFFFF
     if r.mode & IS_LIT == 0:
         return color
     if r.mode & IS_DIFFUSE == 0:

@@ -204,7 +204,8 @@ def is_affine(a: int, b: int, c: int) -> bool:
         dz = change >> 168
         # |z_i - z_j| / z, Q20
         ratio = (dz if dz >= 0 else ~dz) * inverse >> 64
-        if ratio >= 1 << 36:
+        # more would not fit the lanes where colours are up to 20 times 255
+        if ratio >= 1 << 32:
             return False
         # its product with the difference of the colours (Q10): above the limit, it clears a bit
         guards &= (LIMITS + change * ratio) & (LIMITS - change * ratio)
