@@ -81,7 +81,7 @@ library FragmentShader {
             function highlights(depth, x, y) -> sum {
                 let length := rayLength(x, y)
                 // normal * ray
-                depth := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), depth)))
+                depth := add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), depth)))
                 for { let record := LIGHTS } 1 {} {
                     if sgt(mload(add(record, LIGHT_FACING)), 0) {
                         let half := sub(mul(mload(add(record, LIGHT_FACING)), length), depth)
@@ -203,7 +203,7 @@ library FragmentShader {
                 }
                 default {
                     switch and(mode, IS_SMOOTH)
-                    case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), attribute)))) }
+                    case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), attribute)))) }
                     default { interpolateNormal(second, third, x, y) }
                     attribute := light(attribute, x, y)
                     color := add(modulated(color, mload(FRAGMENT_LIGHT)), attribute)
@@ -421,7 +421,7 @@ library FragmentShader {
                 }
             }
             // normal * ray
-            let normalRay := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), shl(8, shr(168, word)))))
+            let normalRay := add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), shl(8, shr(168, word)))))
             let length := mload(add(vertex, 0x40))
             vertex := add(vertex, 0x60)
             for { let record := LIGHTS } 1 {} {

@@ -79,7 +79,7 @@ def gloss(square: int, r: Registers) -> int:
 def highlights(depth: int, x: int, y: int, r: Registers) -> int:
     """The highlights of directional lights on a flat face, lanes of Q10."""
     length = ray_length(x, y, r)
-    normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 47)
+    normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 95)
     total = 0
     for light in r.lights:
         if light.facing > 0:
@@ -159,7 +159,7 @@ def shade(attribute: int, x: int, y: int, r: Registers) -> int:
     if r.mode & IS_DIFFUSE == 0:
         return color + highlights(depth, x, y, r)
     if r.mode & IS_SMOOTH == 0:
-        r.fragment_normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 47)
+        r.fragment_normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 95)
     else:
         # the interpolated normal, Q24
         second >>= 8
@@ -362,7 +362,7 @@ def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
             (length << 1) * ((length << 24) - (light.x * x + light.y * y + (light.z << 24))) for light in r.lights
         ]
     length = vertex.ray_length
-    normal_ray = r.face_facing + (signed(r.face_facing_slope * (word >> 168 << 8)) >> 47)
+    normal_ray = r.face_facing + (signed(r.face_facing_slope * (word >> 168 << 8)) >> 95)
     total = 0
     for light, place in zip(r.lights, vertex.places, strict=True):
         if light.facing > 0:
