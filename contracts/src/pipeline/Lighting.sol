@@ -10,6 +10,9 @@ import {View} from "./View.sol";
 import {Mesh} from "../scene/Mesh.sol";
 import "./Registers.sol";
 
+/// @dev The scale that makes Q24 of a unit vector: see storeMeshVector.
+int256 constant DIRECTION = 1 << 40;
+
 // What the fragment shader needs to know of lights and material, prepared once for the scene, an object, or a face.
 library Lighting {
     /// @notice Lights in camera space.
@@ -102,7 +105,6 @@ library Lighting {
             uint256 strength = material.shininess * uint256(material.specular.raw());
             bool point;
             for (uint256 i; i != lights.length; ++i) if (lights[i].kind == POINT) point = true;
-            store(HAS_POINT_LIGHT, point ? 1 : 0);
             if (point) strength += 2 * uint256(material.diffuse.raw());
             strength *= lights.length;
             if (view_.orthographic) store(REACH, point ? 0 : 1 << 60);
@@ -134,26 +136,28 @@ library Lighting {
             int256 scale = object.scale.raw();
             if (scale == 0) return;
             storeSigned(SCALE, scale);
-            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 32) / loadSigned(NEAR));
+            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 64) / loadSigned(NEAR));
             Vector memory position = object.position;
-            if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), 1 << 24);
-            else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), (1 << 48) / scale);
+            if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), DIRECTION);
+            else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), scale);
             Light[] calldata lights = scene.lights;
             uint256 record = LIGHTS;
             for (uint256 i; i != lights.length; ++i) {
                 Vector memory v = lights[i].vector;
-                if (lights[i].kind == POINT) storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(v.sub(position)), (1 << 48) / scale);
-                else storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(normalize(v)), 1 << 24);
+                if (lights[i].kind == POINT) storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(v.sub(position)), scale);
+                else storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(normalize(v)), DIRECTION);
                 record += LIGHT_SIZE;
             }
         }
     }
 
-    function storeMeshVector(uint256 pointer, Vector memory v, int256 factor) private pure {
+    /// @dev A vector divided by the scale of the mesh, Q32, rounded toward zero; by DIRECTION for a unit vector as Q24. Coordinates of up to
+    /// 2^60 leave room for the shift.
+    function storeMeshVector(uint256 pointer, Vector memory v, int256 scale) private pure {
         unchecked {
-            storeSigned(pointer, (v.x.raw() * factor) >> 32);
-            storeSigned(pointer + 32, (v.y.raw() * factor) >> 32);
-            storeSigned(pointer + 64, (v.z.raw() * factor) >> 32);
+            storeSigned(pointer, (v.x.raw() << 32) / scale);
+            storeSigned(pointer + 32, (v.y.raw() << 32) / scale);
+            storeSigned(pointer + 64, (v.z.raw() << 32) / scale);
         }
     }
 
@@ -203,7 +207,6 @@ library Lighting {
         unchecked {
             uint256 length = sqrt(setFaceNormal(face));
             mode = load(OBJECT_MODE);
-            store(FACE_REACH, load(REACH));
             uint256 light = load(AMBIENT);
             uint256 end = load(LIGHTS_END);
             for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
@@ -252,18 +255,36 @@ library Lighting {
             int256 y = loadSigned(record + LIGHT_MESH_Y) - loadSigned(FACE_CORNER_Y);
             int256 z = loadSigned(record + LIGHT_MESH_Z) - loadSigned(FACE_CORNER_Z);
             int256 lambert = loadSigned(FACE_NORMAL_X) * x + loadSigned(FACE_NORMAL_Y) * y + loadSigned(FACE_NORMAL_Z) * z;
-            lambert = length == 0 ? int256(0) : ((lambert * loadSigned(SCALE)) >> 16) / int256(length);
+            lambert = length == 0 ? int256(0) : ((lambert * loadSigned(SCALE)) >> 32) / int256(length);
             storeSigned(record + LIGHT_FACING, lambert);
-            if (lambert <= 0) return 0;
-            // the light turns as well, by as much as V where it is as near as the eye
-            uint256 total = uint256(lambert) + load(FACE_DISTANCE);
-            uint256 reach = load(REACH) * uint256(lambert) / total * uint256(lambert) / total;
-            if (reach < load(FACE_REACH)) store(FACE_REACH, reach);
-            return IS_LIT | IS_DIFFUSE;
+            return lambert > 0 ? IS_LIT | IS_DIFFUSE : 0;
         }
     }
 
-    /// @notice Stores the normal of a face (twice its area long, in units of the mesh) and its first corner (Q16).
+    /// @notice REACH for the face, on which point lights shine.
+    /// @dev Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the front; where
+    /// the face is seen at an angle, by more, since a pixel is a longer way on it.
+    /// @param farthest The depth of its farthest vertex.
+    function pointReach(uint256 farthest) internal pure returns (uint256) {
+        unchecked {
+            // of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
+            uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
+            uint256 height = type(uint256).max;
+            uint256 end = load(LIGHTS_END);
+            for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
+                uint256 facing = load(record + LIGHT_FACING);
+                if (load(record + LIGHT_IS_POINT) != 0 && int256(facing) > 0 && facing < height) height = facing;
+            }
+            int256 plane = loadSigned(FACE_FACING_SLOPE) * loadSigned(DEPTH_SCALE);
+            uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 151;
+            // the cosine of the angle at the vertex is about eyeHeight / distance, and larger elsewhere: take a third more
+            eyeHeight = 4 * eyeHeight / 3;
+            if (eyeHeight < distance) height = height * eyeHeight / distance;
+            return load(REACH) * height / (height + distance) * height / (height + distance);
+        }
+    }
+
+    /// @notice Stores the normal of a face (twice its area long, in units of the mesh) and its first corner (Q32).
     /// @return square The square of the normal, Q32.
     function setFaceNormal(uint256 face) private pure returns (uint256 square) {
         assembly ("memory-safe") {
@@ -277,9 +298,9 @@ library Lighting {
             }
             face := calldataload(add(mload(MESH_FACES), mul(6, face)))
             let px, py, pz := corner(shr(240, face))
-            mstore(FACE_CORNER_X, shl(16, px))
-            mstore(FACE_CORNER_Y, shl(16, py))
-            mstore(FACE_CORNER_Z, shl(16, pz))
+            mstore(FACE_CORNER_X, shl(32, px))
+            mstore(FACE_CORNER_Y, shl(32, py))
+            mstore(FACE_CORNER_Z, shl(32, pz))
             let ax, ay, az := corner(and(shr(224, face), 0xffff))
             ax := sub(ax, px)
             ay := sub(ay, py)

@@ -20,6 +20,9 @@ from .vector import Matrix, Vector, normalize, subtract, transposed_times
 from .view import View
 from .words import LANES_32, MASK, ONES, color_lanes, divide_signed, signed
 
+#: The scale that makes Q24 of a unit vector in the space of the mesh.
+DIRECTION = 1 << 40
+
 
 def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> None:
     """Lights in camera space."""
@@ -79,7 +82,6 @@ def set_reach(view: View, lights: tuple[Light, ...], material: Material, registe
     focal = view.focal >> 32
     strength = material.shininess * material.specular
     point = any(light.kind == POINT for light in lights)
-    registers.has_point_light = point
     if point:
         strength += 2 * material.diffuse
     strength *= len(lights)
@@ -116,23 +118,22 @@ def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, regi
         return
     registers.scale = obj.scale
     if not view.orthographic:
-        registers.scale_per_near = divide_signed(obj.scale << 32, registers.near)
+        registers.scale_per_near = divide_signed(obj.scale << 64, registers.near)
 
-    def to_mesh(v: Vector, factor: int) -> Vector:
+    def to_mesh(v: Vector, scale: int) -> Vector:
         x, y, z = transposed_times(rotation, v)
-        return (x * factor) >> 32, (y * factor) >> 32, (z * factor) >> 32
+        return divide_signed(x << 32, scale), divide_signed(y << 32, scale), divide_signed(z << 32, scale)
 
-    place_factor, direction_factor = (1 << 48) // obj.scale, 1 << 24
     if view.orthographic:
-        eye = to_mesh(view.forward, direction_factor)
+        eye = to_mesh(view.forward, DIRECTION)
     else:
-        eye = to_mesh(subtract(view.eye, obj.position), place_factor)
+        eye = to_mesh(subtract(view.eye, obj.position), obj.scale)
     registers.eye_x, registers.eye_y, registers.eye_z = eye
     for record, light in zip(registers.lights, scene.lights, strict=True):
         if light.kind == POINT:
-            v = to_mesh(subtract(light.vector, obj.position), place_factor)
+            v = to_mesh(subtract(light.vector, obj.position), obj.scale)
         else:
-            v = to_mesh(normalize(light.vector), direction_factor)
+            v = to_mesh(normalize(light.vector), DIRECTION)
         record.mesh_x, record.mesh_y, record.mesh_z = v
 
 
@@ -179,7 +180,6 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
     r = registers
     length = sqrt(set_face_normal(mesh, face, r))
     mode = r.object_mode
-    r.face_reach = r.reach
     total = r.ambient
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
     for record in r.lights:
@@ -216,21 +216,33 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
     y = record.mesh_y - r.face_corner_y
     z = record.mesh_z - r.face_corner_z
     lambert = r.face_normal_x * x + r.face_normal_y * y + r.face_normal_z * z
-    record.facing = divide_signed(signed(lambert * r.scale) >> 16, length)
-    if record.facing <= 0:
-        return 0
-    # the light turns as well, by as much as V where it is as near as the eye
-    total = record.facing + r.face_distance
-    reach = ((r.reach * record.facing) & MASK) // total
-    reach = ((reach * record.facing) & MASK) // total
-    r.face_reach = min(r.face_reach, reach)
-    return IS_LIT | IS_DIFFUSE
+    record.facing = divide_signed(signed(lambert * r.scale) >> 32, length)
+    return IS_LIT | IS_DIFFUSE if record.facing > 0 else 0
+
+
+def point_reach(farthest: int, registers: Registers) -> int:
+    """The square of the distance, in sub-pixels, over which the light of point lights on the face is as good as linear.
+
+    Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the
+    front; where the face is seen at an angle, by more, since a pixel is a longer way on it. `farthest` is the depth of
+    its farthest vertex.
+    """
+    r = registers
+    # of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
+    distance = (r.depth_scale >> 16) // (farthest + 1) + 1
+    height = min(record.facing for record in r.lights if record.is_point and record.facing > 0)
+    eye_height = abs(r.face_facing_slope * r.depth_scale) >> 151
+    # the cosine of the angle at the vertex is about eye_height / distance, and larger elsewhere: take a third more
+    eye_height = 4 * eye_height // 3
+    if eye_height < distance:
+        height = height * eye_height // distance
+    return r.reach * height // (height + distance) * height // (height + distance)
 
 
 def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
     """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square."""
     p, a, b = (mesh.positions[number] for number in mesh.faces[face])
-    registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 16 for component in p)
+    registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 32 for component in p)
     ax, ay, az = a[0] - p[0], a[1] - p[1], a[2] - p[2]
     bx, by, bz = b[0] - p[0], b[1] - p[1], b[2] - p[2]
     registers.face_normal_x = x = ay * bz - az * by

@@ -34,6 +34,9 @@ GUARDS = 0x00400000000000004000000000000040000000000000
 LIMITS = 0x00400003000000004000030000000040000300000000
 #: Bits of a lane that only a colour above 255 has.
 ABOVE_255 = 0xFC000000000000FC000000000000FC0000
+#: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
+#: rounded, and eight steps of Q10 more, since interpolation is off by one at most.
+NEARLY_ABOVE = 0x208 * ONES
 
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
@@ -44,8 +47,6 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     mode = r.object_mode
     crossing = IS_CROSSING if triangle.outside else 0
     if mode & IS_FLAT:
-        if r.has_point_light:
-            r.face_distance = (r.depth_scale >> 16) // (1 + (min(attributes_a, attributes_b, attributes_c) >> 168))
         mode = lighting.set_face(mesh, triangle.face, r)
         if mode & IS_DIFFUSE == 0 and r.face_light != ONES << 16:
             attributes_a = lit(attributes_a, r.face_light)
@@ -54,7 +55,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     if (
         mode & IS_DIFFUSE == 0
         and is_affine(attributes_a, attributes_b, attributes_c)
-        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.face_reach)
+        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.reach)
     ):
         r.lane_bias = COLOR_BIAS
         if mode & IS_LIT:
@@ -62,7 +63,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
             attributes_b = vertex_highlights(attributes_b, b, r)
             attributes_c = vertex_highlights(attributes_c, c, r)
         # colours above 255 need a loop that keeps them there
-        saturates = (attributes_a | attributes_b | attributes_c) & ABOVE_255 != 0
+        saturates = any((word + NEARLY_ABOVE) & ABOVE_255 for word in (attributes_a, attributes_b, attributes_c))
         r.mode = saturates | crossing
     else:
         barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, r)
@@ -168,7 +169,7 @@ def block_size(square: int, mode: int, nearest: int, farthest: int, registers: R
     """
     reach = square * farthest // (10 * (nearest - farthest) + 1) * farthest // (nearest + 1)
     if mode & IS_LIT:
-        reach = min(reach, 2 * registers.face_reach)
+        reach = min(reach, 2 * (lighting.point_reach(farthest, registers) if mode & IS_DIFFUSE else registers.reach))
     return min(max(sqrt(reach) >> 8, 1), 16)
 
 
@@ -201,7 +202,8 @@ def is_affine(a: int, b: int, c: int) -> bool:
         dz = change >> 168
         # |z_i - z_j| / z, Q20
         ratio = (dz if dz >= 0 else ~dz) * inverse >> 64
-        if ratio >= 1 << 36:
+        # more would not fit the lanes where colours are up to 20 times 255
+        if ratio >= 1 << 32:
             return False
         # its product with the difference of the colours (Q10): above the limit, it clears a bit
         guards &= (LIMITS + change * ratio) & (LIMITS - change * ratio)
