@@ -9,6 +9,7 @@ from fast_simplification import replay_simplification
 from fast_simplification import simplify as collapse_edges
 from numpy.typing import NDArray
 
+from ..checks import integer
 from ..errors import InputError
 from .mesh import Mesh
 
@@ -26,22 +27,21 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
     forcefully. InputError where edges cannot be collapsed so far.
     """
-    if isinstance(max_triangles, bool) or not isinstance(max_triangles, int) or max_triangles < 1:
+    most = integer(max_triangles)
+    if most is None or most < 1:
         raise InputError(
             f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
         )
-    if len(np.asarray(mesh.faces)) <= max_triangles:
+    if len(np.asarray(mesh.faces)) <= most:
         return mesh
     positions, faces, colors = _connect(mesh)
     for force, share in tries:
-        if len(faces) <= max_triangles:
+        if len(faces) <= most:
             break
-        positions, faces, colors = _collapse(positions, faces, colors, int(share * max_triangles), force)
-    if not 0 < len(faces) <= max_triangles:
+        positions, faces, colors = _collapse(positions, faces, colors, int(share * most), force)
+    if not 0 < len(faces) <= most:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
-        raise InputError(
-            f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {max_triangles}: {found}"
-        )
+        raise InputError(f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {most}: {found}")
     return Mesh(positions, faces, colors)
 
 

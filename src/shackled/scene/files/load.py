@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
-import sys
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ...errors import InputError
+from ...json_text import read_json, read_toml
 from ..scene import Scene
 from ..staging import Look, stage
 from .content import read_text
@@ -20,9 +18,6 @@ from .scene_file import scene_of
 from .table import about
 
 SCENES = (".toml", ".json")
-
-#: Calls and brackets, one in another; what Python allows by default.
-MAX_NESTING = 1000
 
 
 def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
@@ -52,15 +47,10 @@ def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
 
 def _document(path: Path, extension: str) -> Mapping[str, Any]:
     text = read_text(path)
-    limit = sys.getrecursionlimit()
     try:
-        # some packages raise the limit so far that brackets nested too deep would end the process
-        sys.setrecursionlimit(min(limit, MAX_NESTING))
-        document = tomllib.loads(text) if extension == ".toml" else json.loads(text)
-    except (ValueError, RecursionError) as error:
+        document = read_toml(text) if extension == ".toml" else read_json(text)
+    except ValueError as error:
         raise InputError(f"{path} is not valid {extension[1:].upper()}: {' '.join(str(error).split())}") from None
-    finally:
-        sys.setrecursionlimit(limit)
     if not isinstance(document, Mapping):
         raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
     return document
