@@ -7,6 +7,14 @@ class InputError(ValueError):
     """Something that was handed in is wrong. The message is one line: what is wrong, where, and what would be right."""
 
 
+class OutputError(OSError):
+    """A file could not be written: the disk is full, for instance. The message is one line."""
+
+    def __str__(self) -> str:
+        """What, and why."""
+        return f"{self.filename} cannot be written: {self.strerror or 'no reason is given'}"
+
+
 class FetchError(RuntimeError):
     """A file could not be fetched, or not kept. The message is one line."""
 
