@@ -110,7 +110,7 @@ def test_names_of_any_length_that_a_disk_takes(tmp_path: Path) -> None:
         assert (tmp_path / name).read_bytes() == b"1"
     with pytest.raises(InputError, match="File name too long"):
         write_output(tmp_path / ("n" * 256), b"1")
-    with pytest.raises(InputError, match=r"the picture .* cannot be written: File name too long"):
+    with pytest.raises(InputError, match=r"nnn cannot be written: File name too long"):
         check_output_file(tmp_path / ("n" * 300), "picture")
 
 

@@ -47,8 +47,11 @@ def make_output_folder(path: Path) -> None:
 
 def check_output_folder(path: Path) -> Path:
     """The path, if it is a folder, or nothing yet; otherwise InputError."""
-    if path.exists() and not path.is_dir():
-        raise InputError(f"{path} is a file, not a folder to write to")
+    try:
+        if path.exists() and not path.is_dir():
+            raise InputError(f"{path} is a file, not a folder to write to")
+    except OSError as error:
+        raise _failure(path, error) from None
     return path
 
 
@@ -62,7 +65,7 @@ def check_output_file(path: Path, what: str) -> Path:
         if not folder.is_dir():
             raise InputError(f"the folder {folder} of the {what} {path.name} does not exist")
     except OSError as error:
-        raise InputError(f"the {what} {path} cannot be written: {error.strerror}") from None
+        raise _failure(path, error) from None
     if not is_special and not os.access(folder, os.W_OK):
         raise InputError(f"the {what} {path} cannot be written: nothing can be written to its folder")
     return path
