@@ -53,15 +53,15 @@ def workload_of(scene: Scene) -> Workload:
 def _counting() -> Iterator[dict[str, int]]:
     """Counts what the rasterizer hands on while the context is open."""
     counts = {"rows": 0, "tested": 0}
-    draw_triangle, draw = rasterizer.draw_triangle, fragment_shader.draw
+    spans_of, draw = rasterizer.spans_of, fragment_shader.draw
 
-    def count_rows(triangle: Any, top: int, bottom: int, *rest: Any) -> None:
-        counts["rows"] += bottom - top
-        draw_triangle(triangle, top, bottom, *rest)
+    def count_rows(triangle: Any, registers: Any) -> Iterator[list[fragment_shader.Span]]:
+        counts["rows"] += min(triangle.bottom, registers.band_bottom) - max(triangle.top, registers.band_top)
+        return spans_of(triangle, registers)
 
     def count_pixels(spans: list[fragment_shader.Span], registers: Any) -> None:
         counts["tested"] += sum(end - begin for _, begin, end, *_ in spans)
         draw(spans, registers)
 
-    with patch.object(rasterizer, "draw_triangle", count_rows), patch.object(fragment_shader, "draw", count_pixels):
+    with patch.object(rasterizer, "spans_of", count_rows), patch.object(fragment_shader, "draw", count_pixels):
         yield counts

@@ -16,7 +16,7 @@ from shackled.reference import encode_bmp
 
 
 def picture(pixels: np.ndarray) -> Image:
-    return Image(pixels, encode_bmp(pixels), 10, 2, 1, 1, "nowhere", 0.1)
+    return Image(pixels, encode_bmp(pixels), 10, 2, "nowhere", 0.1)
 
 
 RNG = np.random.default_rng(5)
@@ -42,6 +42,38 @@ def test_a_gif_has_one_palette() -> None:
     assert len(colors) <= 256
     error = np.abs(np.stack(frames(data)).astype(int) - MANY.pixels).mean()
     assert error < 25
+
+
+def test_a_palette_of_exactly_256_colours_is_exact() -> None:
+    # all greys, near one another, in two frames
+    greys = np.arange(256, dtype=np.uint8).reshape(16, 16, 1).repeat(3, axis=2)
+    film = Animation([picture(greys[:8]), picture(greys[8:])])
+    assert (np.stack(frames(film.encode(".gif"))) == film.pixels).all()
+    rng = np.random.default_rng(8)
+    for count, is_exact in ((255, True), (256, True), (257, False)):
+        chosen = rng.permutation(1 << 24)[:count]
+        pixels = np.stack([chosen >> 16, chosen >> 8 & 255, chosen & 255], axis=1).astype(np.uint8)[None]
+        (found,) = frames(Animation([picture(pixels)]).encode(".gif"))
+        assert (found == pixels).all() == is_exact
+
+
+def test_formats_with_and_without_a_dot() -> None:
+    assert FEW.encode("gif") == FEW.encode(".GIF")
+    assert FEW.encode("png") == FEW.encode(".png")
+    for wrong in (".bmp", "webp", "", None):
+        with pytest.raises(InputError, match=r"^the format must be one of \.gif \.png, not "):
+            FEW.encode(wrong)  # type: ignore[arg-type]
+
+
+def test_it_shows_itself_in_a_line() -> None:
+    assert repr(FEW) == "<Animation of 4 frames, 9 x 6, 40 gas>"
+    assert repr(Animation(FEW.frames[:1])) == "<Animation of 1 frame, 9 x 6, 10 gas>"
+
+
+def test_frames_of_one_size_are_needed() -> None:
+    for wrong in ([], [FEW.frames[0], MANY.frames[0]]):
+        with pytest.raises(InputError, match="all of one size"):
+            Animation(wrong)
 
 
 def test_frames_that_are_alike_take_their_time() -> None:

@@ -7,6 +7,7 @@ import os
 import xml.etree.ElementTree as ElementTree
 from base64 import b64decode
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from shackled import Camera, Image, InputError, Light, Mesh, Object, RenderError, Scene, render
+from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
+from shackled.chain import CallResult, ContractChain, open_chain
+from shackled.chain.embedded import PyEvmChain, PyrevmChain
 from shackled.image import check_output, decode_bmp
 from shackled.scene.codec import encode
 
@@ -117,6 +119,48 @@ def test_unknown_formats(image: Image, tmp_path: Path, name: str) -> None:
     assert not list(tmp_path.iterdir())
 
 
+def test_formats_with_and_without_a_dot(image: Image) -> None:
+    for name in ("png", "bmp", "svg", "gif"):
+        assert image.encode(name) == image.encode(f".{name}") == image.encode(f".{name.upper()}")
+    assert image.encode("bmp") == image.bmp
+    for wrong in ("jpg", ".webp", "", ".", "png.png", None, 3):
+        with pytest.raises(InputError, match=r"^the format must be one of \.png \.bmp \.svg \.gif, not "):
+            image.encode(wrong)  # type: ignore[arg-type]
+
+
+def test_it_shows_itself_in_a_line(image: Image) -> None:
+    assert repr(image) == f"<Image 37 x 21, {image.gas:,} gas, {image.chain}>"
+    assert repr(replace(image, gas=None)) == f"<Image 37 x 21, {image.chain}>"
+
+
+def test_what_is_no_path(image: Image) -> None:
+    for save in (image.save, Animation([image]).save):
+        with pytest.raises(InputError, match=r"saved to a path, not to <_io\.BytesIO"):
+            save(io.BytesIO())  # type: ignore[arg-type]
+
+
+def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its counts too are known, and the gas is that of `render`."""
+    made: list[bytes] = []
+
+    def counted(to: bytes, data: bytes, gas_limit: int) -> CallResult:
+        made.append(data[:4])
+        return run(to, data, gas_limit)
+
+    chain = PyrevmChain() if find_spec("pyrevm") else PyEvmChain()
+    expected = chain.count(SCENE)
+    run = chain._run
+    monkeypatch.setattr(chain, "_run", counted)
+    image = render(SCENE, chain=chain)
+    assert (image.triangles, image.lit_pixels) == expected
+    assert made == [artifact("Renderer").selectors["render"]]
+    made.clear()
+    image = render(SCENE, chain=chain, tile=(37, 7))
+    assert (image.triangles, image.lit_pixels) == expected
+    assert [each for each in made if each == artifact("Renderer").selectors["renderTile"]] == made
+    assert len(made) == 3
+
+
 def test_a_folder_that_cannot_be_written_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It is told before anything is rendered."""
     monkeypatch.setattr("os.access", lambda path, mode: False)
@@ -140,7 +184,7 @@ def test_nothing_is_left_of_a_failed_write(image: Image, tmp_path: Path, monkeyp
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", refuse)
-    with pytest.raises(InputError, match="cannot be written: No space left on device"):
+    with pytest.raises(OutputError, match=r"a\.png cannot be written: No space left on device"):
         image.save(tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes() == b"before"
     assert len(list(tmp_path.iterdir())) == 1

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from shackled.json_text import MAX_NESTING, read_json
+from shackled.json_text import MAX_NESTING, read_json, read_toml
 
 
 @pytest.mark.parametrize(
@@ -45,3 +45,39 @@ def test_no_text_ends_the_process() -> None:
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (found.returncode, found.stdout.split()) == (0, ["refused"] * 2)
+
+
+#: Brackets in strings and comments of TOML, which nest nothing.
+MANY = "[" * 300
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        (f'a = "{MANY}"', {"a": MANY}),
+        (f"a = '{MANY}' # {MANY}", {"a": MANY}),
+        (f'a = """{MANY}\n"{MANY}"" \\""" """', {"a": f'{MANY}\n"{MANY}"" """ '}),
+        (f"a = '''it's {MANY}'''", {"a": f"it's {MANY}"}),
+        ("a = [1, [2, {b = 3}]]", {"a": [1, [2, {"b": 3}]]}),
+        ("[[t]]\n" * 300, {"t": [{}] * 300}),
+    ],
+)
+def test_what_is_toml_is_read(text: str, value: object) -> None:
+    assert read_toml(text) == value
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"a = {MANY}",
+        "a = " + "{b = " * 300,
+        # a quote or two more may stand before those that end a string
+        f'a = ["""b"""", {MANY}',
+        f"a = ['''b''''', {MANY}",
+        f'a = ["b\\"", {MANY}',
+        ".".join(["a"] * 300) + " = 1",
+    ],
+)
+def test_toml_nesting_has_a_limit(text: str) -> None:
+    with pytest.raises(ValueError, match="nested more than 200 deep"):
+        read_toml(text)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
+import shackled.whole_file
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, render
 from shackled.chain import open_chain
 from shackled.cli.app import run
@@ -122,6 +124,30 @@ def test_the_command_takes_the_look_of_render(tmp_path: Path) -> None:
     assert run(["render", "teapot", "-o", str(tmp_path / "whole.png"), *look]) == 0
     with PillowImage.open(tmp_path / "6-picture.png") as one, PillowImage.open(tmp_path / "whole.png") as other:
         assert (np.asarray(one.convert("RGB")) == np.asarray(other.convert("RGB"))).all()
+
+
+def test_a_full_disk_leaves_no_part_of_a_picture(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write = shackled.whole_file.write_whole
+
+    def full(path: Path, data: bytes) -> None:
+        if path.stem == "3-triangles":
+            # as much as there was room for
+            monkeypatch.setattr(os, "replace", refuse)
+        write(path, data)
+
+    def refuse(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(shackled.whole_file, "write_whole", full)
+    assert run(["stages", "cube", "-o", str(tmp_path / "s"), "--size", "16"]) == 1
+    assert capsys.readouterr().err.endswith("3-triangles.png cannot be written: No space left on device\n")
+    left = sorted((tmp_path / "s").iterdir())
+    assert [path.name for path in left] == ["1-vertices.png", "2-projected.png"]
+    for path in left:
+        with PillowImage.open(path) as picture:
+            picture.load()
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 from importlib.metadata import PackageNotFoundError, version
 
 from .animation import Animation
-from .errors import InputError, RenderError
+from .errors import InputError, OutputError, RenderError
 from .image import Image
 from .load import load
 from .render import render, turntable
@@ -30,6 +30,7 @@ __all__ = [
     "Material",
     "Mesh",
     "Object",
+    "OutputError",
     "RenderError",
     "Scene",
     "__version__",

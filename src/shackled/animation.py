@@ -15,19 +15,18 @@ from PIL import Image as PillowImage
 
 from .checks import number
 from .errors import InputError
-from .image import Image
-from .whole_file import write_whole
+from .image import Image, as_path, check_extension
+from .palette import indexed
+from .scene.value import plural
+from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
 #: What `Animation.save` can write, by extension; a name without one is a folder.
 FORMATS = (".gif", ".png")
 #: Milliseconds that a frame is shown.
 DURATION = 80
-MOST_COLORS = 256
-#: Frames that are looked at to choose the colours of a GIF.
-SAMPLED = 16
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Animation:
     """Frames as a contract made them, all of one size; the last leads over to the first."""
 
@@ -36,6 +35,15 @@ class Animation:
 
     def __post_init__(self) -> None:
         check_duration(self.duration)
+        sizes = {frame.pixels.shape for frame in self.frames}
+        if len(sizes) != 1:
+            raise InputError(f"an animation is made of one frame or more, all of one size, not of {len(sizes)} sizes")
+
+    def __repr__(self) -> str:
+        """A line."""
+        gas = "" if self.gas is None else f", {self.gas:,} gas"
+        first = self.frames[0]
+        return f"<Animation of {plural(len(self.frames), 'frame')}, {first.width} x {first.height}{gas}>"
 
     @property
     def gas(self) -> int | None:
@@ -54,11 +62,12 @@ class Animation:
 
     def encode(self, extension: str) -> bytes:
         """The bytes of a file: ".gif" (256 colours for all frames together, the nearest where there are more) or ".png"
-        (an APNG, exact).
+        (an APNG, exact). InputError for any other.
         """
+        extension = check_extension(extension, FORMATS)
         stream = io.BytesIO()
         if extension == ".gif":
-            pictures = _shared_palette([frame.pixels for frame in self.frames])
+            pictures = indexed([frame.pixels for frame in self.frames])
             options: dict[str, Any] = {"format": "GIF", "optimize": False, "disposal": 1}
         else:
             pictures = [PillowImage.fromarray(frame.pixels) for frame in self.frames]
@@ -68,17 +77,17 @@ class Animation:
         return stream.getvalue()
 
     def save(self, path: str | Path) -> None:
-        """Writes a file, in the format of its extension, whole or not at all; or a folder of numbered PNG files."""
+        """Writes a file, in the format of its extension, whole or not at all; or a folder of numbered PNG files.
+
+        InputError where the path is wrong, OutputError where the disk is full or fails.
+        """
         path = check_animation(path)
-        try:
-            if path.suffix:
-                write_whole(path, self.encode(path.suffix.lower()))
-                return
-            path.mkdir(exist_ok=True)
-            for name, frame in zip(frame_names(len(self.frames)), self.frames, strict=True):
-                write_whole(path / name, frame.encode(".png"))
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from None
+        if path.suffix:
+            write_output(path, self.encode(path.suffix))
+            return
+        make_output_folder(path)
+        for name, frame in zip(frame_names(len(self.frames)), self.frames, strict=True):
+            write_output(path / name, frame.encode(".png"))
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, bytes]:
         return {"image/png": self.encode(".png")}
@@ -97,41 +106,11 @@ def frame_names(count: int) -> list[str]:
 
 def check_animation(path: str | Path) -> Path:
     """The path, if an animation can be saved there."""
-    path = Path(path)
+    path = as_path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
         raise InputError(f"the turntable {path} must end in .gif or .png, or in nothing for a folder of pictures")
-    if path.exists() and path.is_dir() == bool(path.suffix):
-        raise InputError(f"{path} is there already, and is no {'file' if path.suffix else 'folder'}")
-    if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} of the turntable {path.name} does not exist")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"the turntable {path} cannot be written: nothing can be written to its folder")
-    return path
-
-
-def colors(frames: Sequence[NDArray[np.uint8]]) -> int:
-    """How many colours there are in all frames."""
-    return len(_distinct(frames))
-
-
-def _shared_palette(frames: Sequence[NDArray[np.uint8]]) -> list[PillowImage.Image]:
-    """The frames in one palette of at most 256 colours: a colour that does not move does not flicker then."""
-    found = _distinct(frames)
-    if len(found) <= MOST_COLORS:
-        colors = np.stack([found >> 16, found >> 8 & 255, found & 255], axis=1).astype(np.uint8).tobytes()
-    else:
-        step = -(-len(frames) // SAMPLED)
-        sample = PillowImage.fromarray(np.concatenate(frames[::step]))
-        colors = bytes(sample.quantize(MOST_COLORS, dither=PillowImage.Dither.NONE).getpalette() or [])
-    palette = PillowImage.new("P", (1, 1))
-    palette.putpalette(colors)
-    return [PillowImage.fromarray(f).quantize(palette=palette, dither=PillowImage.Dither.NONE) for f in frames]
-
-
-def _distinct(frames: Sequence[NDArray[np.uint8]]) -> NDArray[np.int64]:
-    """The colours 0xRRGGBB of all frames."""
-    each = [np.unique(frame.reshape(-1, 3).astype(np.int64) @ [1 << 16, 1 << 8, 1]) for frame in frames]
-    return np.unique(np.concatenate(each))
+    is_file = path.suffix or not os.path.lexists(path)
+    return check_output_file(path, "turntable") if is_file else check_output_folder(path)
 
 
 def _sum(numbers: Sequence[int | None]) -> int | None:

@@ -11,6 +11,14 @@ class InputWarning(UserWarning):
     """Something that was handed in cannot be used, and is left out. The message is one line."""
 
 
+class OutputError(OSError):
+    """A file could not be written: the disk is full, for instance. The message is one line."""
+
+    def __str__(self) -> str:
+        """What, and why."""
+        return f"{self.filename} cannot be written: {self.strerror or 'no reason is given'}"
+
+
 class FetchError(RuntimeError):
     """A file could not be fetched, or not kept. The message is one line."""
 

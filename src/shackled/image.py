@@ -6,6 +6,7 @@ import base64
 import io
 import os
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -13,31 +14,31 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from .errors import InputError, RenderError
-from .whole_file import write_whole
+from .palette import indexed
+from .scene.scene import Scene
+from .whole_file import check_output_file, write_output
 
 #: What `Image.save` can write, by extension.
 FORMATS = (".png", ".bmp", ".svg", ".gif")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Image:
     """A picture as a contract made it.
 
     pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned.
     gas, intrinsic_gas: of the execution, and what a transaction costs before it; None where none is counted.
-    triangles, lit_pixels: triangles that survived culling and clipping, pixels that any of them covers; None if they
-        were not counted.
     chain: where it was made. seconds: how long the call took.
+    scene: what it shows; None if that is not known.
     """
 
     pixels: NDArray[np.uint8]
     bmp: bytes
     gas: int | None
     intrinsic_gas: int | None
-    triangles: int | None
-    lit_pixels: int | None
     chain: str
     seconds: float
+    scene: Scene | None = None
 
     @property
     def width(self) -> int:
@@ -49,29 +50,44 @@ class Image:
         """In pixels."""
         return int(self.pixels.shape[0])
 
+    @property
+    def triangles(self) -> int | None:
+        """How many survived culling and clipping; None if the scene is not known."""
+        return self._counts[0]
+
+    @property
+    def lit_pixels(self) -> int | None:
+        """How many any of the triangles covers; None if the scene is not known."""
+        return self._counts[1]
+
+    @cached_property
+    def _counts(self) -> tuple[int, int] | tuple[None, None]:
+        # what `renderCounted` returns, without a second call
+        from .reference import count
+
+        return (None, None) if self.scene is None else count(self.scene)
+
     def encode(self, extension: str) -> bytes:
         """The bytes of a file: ".png", ".bmp" (as the contract made it), ".svg" (the BMP in a frame that scales without
-        smoothing) or ".gif" (at most 256 colours; the nearest where there are more).
+        smoothing) or ".gif" (at most 256 colours; the nearest where there are more). InputError for any other.
         """
+        extension = check_extension(extension, FORMATS)
         if extension == ".bmp":
             return self.bmp
         if extension == ".svg":
             return self._svg().encode()
-        picture = PillowImage.fromarray(self.pixels)
-        if extension == ".gif":
-            picture = picture.quantize(256, dither=PillowImage.Dither.NONE)
+        picture = indexed([self.pixels])[0] if extension == ".gif" else PillowImage.fromarray(self.pixels)
         stream = io.BytesIO()
         picture.save(stream, extension.removeprefix("."))
         return stream.getvalue()
 
     def save(self, path: str | Path) -> None:
-        """Writes a file, in the format of its extension; it is there whole or not at all."""
+        """Writes a file, in the format of its extension; it is there whole or not at all.
+
+        InputError where the path is wrong, OutputError where the disk is full or fails.
+        """
         path = check_output(path)
-        content = self.encode(path.suffix.lower())
-        try:
-            write_whole(path, content)
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from None
+        write_output(path, self.encode(path.suffix))
 
     def _svg(self) -> str:
         # character by character what the contract's renderSVG returns
@@ -82,22 +98,35 @@ class Image:
             f' href="data:image/bmp;base64,{data}"/></svg>'
         )
 
+    def __repr__(self) -> str:
+        gas = "" if self.gas is None else f"{self.gas:,} gas, "
+        return f"<Image {self.width} x {self.height}, {gas}{self.chain}>"
+
     def _repr_png_(self) -> bytes:
         return self.encode(".png")
 
 
 def check_output(path: str | Path) -> Path:
     """The path, if a picture can be saved there."""
-    path = Path(path)
+    path = as_path(path)
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"the picture {path} must end in one of {' '.join(FORMATS)}")
-    if path.is_dir():
-        raise InputError(f"{path} is a folder, not the file of a picture")
-    if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} of the picture {path.name} does not exist")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"the picture {path} cannot be written: nothing can be written to its folder")
-    return path
+    return check_output_file(path, "picture")
+
+
+def as_path(path: object) -> Path:
+    """A path. InputError for anything else, such as a stream."""
+    if not isinstance(path, str | os.PathLike):
+        raise InputError(f"a picture is saved to a path, not to {path!r:.60}; encode() gives the bytes")
+    return Path(path)
+
+
+def check_extension(extension: object, formats: tuple[str, ...]) -> str:
+    """One of the formats, given as "png", ".png" or ".PNG"."""
+    found = f".{extension.removeprefix('.').lower()}" if isinstance(extension, str) else None
+    if found not in formats:
+        raise InputError(f"the format must be one of {' '.join(formats)}, not {extension!r:.60}")
+    return found
 
 
 def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:

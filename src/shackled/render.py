@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
+from .checks import integer
 from .errors import InputError
 from .image import Image, decode_bmp
 from .scene.scene import Scene
@@ -79,24 +80,22 @@ def turntable(
 
     turned = full_turn(_prepared(scene, size, max_triangles), frames)
     where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile)
-    return Animation(render_frames(turned, where, count=False).images, duration)
+    return Animation(render_frames(turned, where).images, duration)
 
 
 def render_whole(scene: Scene, chain: Chain) -> Image:
-    """The picture of a scene by one call, and its counts by another."""
+    """The picture of a scene, by one call."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
     seconds = time.perf_counter() - started
-    triangles, lit_pixels = chain.count(scene)
     return Image(
         pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
         bmp=drawing.bmp,
         gas=drawing.gas,
         intrinsic_gas=drawing.intrinsic_gas,
-        triangles=triangles,
-        lit_pixels=lit_pixels,
         chain=chain.name,
         seconds=seconds,
+        scene=scene,
     )
 
 
@@ -141,7 +140,8 @@ def _where(
 
 def _pair(value: int | tuple[int, int], name: str) -> tuple[int, int]:
     try:
-        first, second = (value, value) if isinstance(value, int) else value
+        side = integer(value)
+        first, second = value if side is None else (side, side)  # type: ignore[misc]
     except (TypeError, ValueError):
         raise InputError(f"{name} must be one number or (width, height), not {value!r}") from None
     return first, second

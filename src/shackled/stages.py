@@ -164,7 +164,7 @@ def filled(o: Object) -> Object:
     split = Mesh(
         np.asarray(o.mesh.positions)[faces].reshape(-1, 3),
         np.arange(faces.size).reshape(-1, 3),
-        np.rint(colors).reshape(-1, 3),
+        np.rint(colors).astype(np.uint8).reshape(-1, 3),
     )
     return replace(o, mesh=split, material=UNLIT)
 

@@ -2,23 +2,103 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from pathlib import Path
 
+from .errors import InputError, OutputError
+
+#: Bytes of a file's name that are repeated in that of the file that takes its place; names have 255 at most.
+NAME = 200
+#: What is wrong with a path, and not with the disk.
+WRONG_PATH = {
+    errno.EACCES,
+    errno.EISDIR,
+    errno.ELOOP,
+    errno.ENAMETOOLONG,
+    errno.ENOENT,
+    errno.ENOTDIR,
+    errno.EPERM,
+    errno.EROFS,
+}
+
+
+def write_output(path: Path, data: bytes) -> None:
+    """Writes a file that somebody has named, as `write_whole` does.
+
+    InputError where the path is wrong, OutputError where the disk is full or fails.
+    """
+    try:
+        write_whole(path, data)
+    except OSError as error:
+        raise _failure(path, error) from None
+
+
+def make_output_folder(path: Path) -> None:
+    """Makes a folder that somebody has named, and those above it, unless they are there. Errors as `write_output`."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise InputError(f"{path} is a file, not a folder to write to") from None
+    except OSError as error:
+        raise _failure(path, error) from None
+
+
+def check_output_folder(path: Path) -> Path:
+    """The path, if it is a folder, or nothing yet; otherwise InputError."""
+    try:
+        if path.exists() and not path.is_dir():
+            raise InputError(f"{path} is a file, not a folder to write to")
+    except OSError as error:
+        raise _failure(path, error) from None
+    return path
+
+
+def check_output_file(path: Path, what: str) -> Path:
+    """The path, if a file can be written there; `what` is the word for it in messages. Otherwise InputError."""
+    try:
+        if path.is_dir():
+            raise InputError(f"{path} is a folder, not the file of a {what}")
+        is_special = path.exists() and not path.is_file()
+        folder = path.parent if not path.is_symlink() else Path(os.path.realpath(path)).parent
+        if not folder.is_dir():
+            raise InputError(f"the folder {folder} of the {what} {path.name} does not exist")
+    except OSError as error:
+        raise _failure(path, error) from None
+    if not is_special and not os.access(folder, os.W_OK):
+        raise InputError(f"the {what} {path} cannot be written: nothing can be written to its folder")
+    return path
+
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Writes a file in place of any that is there. OSError if it cannot be written; then nothing has changed."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
+    """Writes a file in place of any that is there. OSError if it cannot be written; then no file has changed.
+
+    A symbolic link stays, and the file to which it leads is written. Pipes and devices are written to.
+    """
+    is_there = path.exists()
+    if is_there and not path.is_file():
+        path.write_bytes(data)
+        return
+    target = Path(os.path.realpath(path, strict=is_there))
+    if target.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    prefix = f".{os.fsdecode(os.fsencode(target.name)[:NAME])}."
+    with tempfile.NamedTemporaryFile(dir=target.parent, prefix=prefix, delete=False) as file:
         try:
             file.write(data)
             file.flush()
             os.chmod(file.name, 0o666 & ~_umask())
             file.close()
-            os.replace(file.name, path)
+            os.replace(file.name, target)
         except BaseException:
             os.unlink(file.name)
             raise
+
+
+def _failure(path: Path, error: OSError) -> InputError | OutputError:
+    failure = OutputError(error.errno, error.strerror, str(path))
+    return InputError(str(failure)) if error.errno in WRONG_PATH else failure
 
 
 def _umask() -> int:

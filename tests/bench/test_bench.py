@@ -73,6 +73,31 @@ def test_each_writes_figures_a_table_and_a_plot(made: Path, name: str) -> None:
     assert brightness.max() < 200
 
 
+def test_without_a_name_all_are_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    made: list[str] = []
+
+    class Nothing:
+        def save(self, name: str, folder: Path) -> list[Path]:
+            made.append(name)
+            return [folder / name]
+
+    monkeypatch.setattr(bench, "run", lambda name, lab: Nothing())
+    for options in ([], ["--all"], ["--quick"]):
+        made.clear()
+        assert run(["bench", "-o", str(tmp_path), *options]) == 0
+        assert made == list(EXPERIMENTS)
+    made.clear()
+    assert run(["bench", "canvas", "-o", str(tmp_path)]) == 0
+    assert made == ["canvas"]
+    capsys.readouterr()
+    assert run(["bench"]) == 0
+    listed = capsys.readouterr().out
+    assert made == ["canvas"]
+    assert all(name in listed for name in EXPERIMENTS)
+
+
 # ---- scenes ----
 
 
@@ -270,5 +295,5 @@ def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     report = Report("Title", ["a"], [[1], [None]], "text", lambda figure: None)
     assert report.csv() == 'a\n1\n""\n'
-    with pytest.raises(InputError, match="nothing can be written to the folder"):
+    with pytest.raises(InputError, match=r"folder cannot be written: Not a directory"):
         report.save("name", tmp_path / "file" / "folder")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,7 +14,7 @@ from typing import NoReturn
 import pytest
 
 from shackled import cli
-from shackled.cli.app import run
+from shackled.cli.app import run as run_command
 
 
 def test_stopped_while_it_is_read_in(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -31,12 +33,12 @@ def test_what_is_left_out_is_a_note_on_stderr(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("a.obj").write_text("mtllib a.mtl\nmtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    assert run(["render", "a.obj", "--size", "8", "--json"]) == 0
+    assert run_command(["render", "a.obj", "--size", "8", "--json"]) == 0
     assert capsys.readouterr().err == "shackled: note: a.obj: its materials are left out: a.mtl does not exist\n"
 
 
 def test_characters_that_steer_a_terminal_are_not_sent_to_it(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["render", "a\x1b[31m.obj"]) == 2
+    assert run_command(["render", "a\x1b[31m.obj"]) == 2
     assert capsys.readouterr().err == "shackled: a\\x1b[31m.obj does not exist\n"
 
 
@@ -54,3 +56,96 @@ def test_a_full_disk_behind_the_output(unbuffered: str) -> None:
         )
     assert told.returncode == 1
     assert told.stderr == "shackled: No space left on device\n"
+
+
+STARTUP = """
+import sys
+class Stop:
+    def find_spec(self, name, *_):
+        if name == "numpy":
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Stop())
+from shackled_command import main
+main()
+"""
+
+
+def test_stopped_while_the_package_is_read_in() -> None:
+    """That is before the package can do anything about it."""
+    told = subprocess.run([sys.executable, "-c", STARTUP], capture_output=True, text=True, timeout=60)
+    assert (told.returncode, told.stdout, told.stderr) == (1, "", "shackled: stopped\n")
+
+
+@pytest.mark.skipif(not shutil.which("sh"), reason="there is no sh here")
+def test_closed_outputs() -> None:
+    def told(*arguments: str) -> subprocess.CompletedProcess[str]:
+        line = " ".join([sys.executable, "-m", "shackled", *arguments])
+        return subprocess.run(["sh", "-c", line], capture_output=True, text=True, timeout=60)
+
+    for arguments in (["shape.obj"], ["shape.obj", "--json"], ["shape.obj", "--jobs", "2"]):
+        done = told("render", *arguments, "--size", "8", "-o", "a.bmp", ">&-")
+        assert (done.returncode, done.stdout) == (0, "")
+        assert "Traceback" not in done.stderr
+        # nothing was printed into the picture
+        assert Path("a.bmp").stat().st_size == 54 + 8 * 24
+        Path("a.bmp").unlink()
+    assert told("gas", "shape.obj", "--size", "8", "--no-stages", ">&-", "2>&-").returncode == 0
+    # what belongs to stderr does not come to stdout
+    done = told("render", "shape.obj", "--near", "1e30", "--size", "8", "--json", "2>&-")
+    assert json.loads(done.stdout)["lit_pixels"] == 0
+
+
+def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:
+    for command in ([], ["render"], ["token", "mint"]):
+        assert run_command([*command, "-h"]) == 0
+        short = capsys.readouterr().out
+        assert run_command([*command, "--help"]) == 0
+        assert capsys.readouterr().out == short != ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["render", "shape.obj", "--size", "8", "-o", "full.png"],
+        ["render", "shape.obj", "--size", "8", "--turntable", "2", "-o", "full.gif"],
+        ["genesis", "7", "-o", "full.bmp"],
+        ["gas", "shape.obj", "--size", "8", "--profile", "full.svg"],
+    ],
+    ids=" ".join,
+)
+def test_a_full_disk_behind_a_file(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    if arguments[0] == "gas":
+        pytest.importorskip("eth", reason="a profile needs py-evm")
+    name = arguments[-1]
+    Path(name).symlink_to("/dev/full")
+    assert run_command(arguments) == 1
+    output, messages = capsys.readouterr()
+    assert output == ""
+    assert messages.splitlines()[-1] == f"shackled: {name} cannot be written: No space left on device"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["render", "shape.obj", "-o", f"{'n' * 300}.png"],
+        ["render", "shape.obj", "--turntable", "2", "-o", f"{'n' * 300}.gif"],
+        ["render", "shape.obj", "--turntable", "2", "-o", "n" * 300],
+        ["genesis", "7", "-o", f"{'n' * 300}.png"],
+        ["stages", "shape.obj", "--size", "8", "-o", "n" * 300],
+        ["bench", "deploy", "-o", "n" * 300],
+        ["gas", "shape.obj", "--profile", f"{'n' * 300}.svg"],
+    ],
+    ids=lambda arguments: f"{arguments[0]} {len(arguments)} {arguments[-1][-4:]}",
+)
+def test_names_that_are_too_long_are_wrong_usage(
+    arguments: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = list(folder.iterdir())
+    assert run_command(arguments) == 2
+    output, messages = capsys.readouterr()
+    assert output == ""
+    assert messages.startswith("shackled: ")
+    assert messages.endswith("cannot be written: File name too long\n")
+    assert messages.count("\n") == 1
+    assert list(folder.iterdir()) == before

@@ -221,7 +221,7 @@ def test_a_broken_book_is_told_first(node: Anvil, book: Path, deploy: Command) -
 def test_a_folder_that_cannot_be_written_is_told_first(node: Anvil, deploy: Command) -> None:
     told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--standard-json", "shape.obj")
     assert told.code == 2
-    assert "the folder shape.obj cannot be written to" in told.err
+    assert "shape.obj is a file, not a folder to write to" in told.err
     assert int(node.rpc("eth_blockNumber"), 16) == 0
 
 

@@ -162,11 +162,21 @@ def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> No
 def test_without_a_tracer_it_says_what_to_install(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    whole = report(capsys, "--no-stages")
     monkeypatch.setattr(trace, "find_spec", lambda name: None)
-    message = error(capsys, 2)
-    assert "pip install py-evm" in message
-    assert "--no-stages" in message
-    assert report(capsys, "--no-stages")["gas"] > 0
+    assert report(capsys, "--no-stages") == whole
+    advice = "gas by stage needs the package py-evm: pip install 'shackled[profile]'\n"
+    assert run(["gas", "shape.obj", "--json", "--size", "20x12"]) == 0
+    output, messages = capsys.readouterr()
+    assert json.loads(output) == whole
+    assert messages == advice
+    assert run(["gas", "shape.obj", "--size", "20x12"]) == 0
+    output, messages = capsys.readouterr()
+    assert f"{whole['gas']:,} of the execution, exact" in output
+    assert "where it fits" in output
+    assert messages.endswith(advice)
+    assert "shackled[profile]" in error(capsys, 2, "--profile", "a.svg")
+    assert not Path("a.svg").exists()
 
 
 @needs_anvil

@@ -6,13 +6,14 @@ import hashlib
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from shackled import __version__, load, render
+from shackled import Scene, __version__, load, render
 from shackled.cli.app import run
 
 
@@ -219,6 +220,61 @@ def test_wrong_usage_is_one_line(
     assert messages.count("\n") == 1
     assert message in messages
     assert sorted(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["shape.obj", "--near", "1e30"],
+        ["point.obj"],
+        ["empty.json", "--json"],
+        ["shape.obj", "--near", "1e30", "--tile", "8"],
+        ["shape.obj", "--near", "1e30", "--turntable", "2", "-o", "a.gif"],
+    ],
+    ids=" ".join,
+)
+def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    Path("point.obj").write_text("v 1 1 1\nf 1 1 1\n", "utf-8")
+    Path("empty.json").write_text("{}", "utf-8")
+    assert run(["render", *arguments, "--size", "16"]) == 0
+    output, messages = capsys.readouterr()
+    assert messages.splitlines()[-1] == "nothing of the scene is seen: the picture shows its background only"
+    if "--json" in arguments:
+        assert json.loads(output)["lit_pixels"] == 0
+
+
+def test_the_seconds_are_those_that_were_waited(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from shackled import image, reference
+
+    count, write = reference.count, image.write_output
+
+    def slow_count(scene: Scene) -> tuple[int, int]:
+        time.sleep(0.2)
+        return count(scene)
+
+    def slow_write(path: Path, data: bytes) -> None:
+        time.sleep(0.2)
+        write(path, data)
+
+    monkeypatch.setattr(reference, "count", slow_count)
+    monkeypatch.setattr(image, "write_output", slow_write)
+    for options in ([], ["--tile", "8"]):
+        started = time.perf_counter()
+        assert run(["render", "shape.obj", "--size", "16", "--json", *options]) == 0
+        waited = time.perf_counter() - started
+        assert 0.4 <= json.loads(capsys.readouterr().out)["seconds"] <= waited
+
+
+def test_a_gif_of_256_colours_is_exact(capsys: pytest.CaptureFixture[str]) -> None:
+    for bottom, told in (((255, 255, 255), False), ((255, 255, 254), True)):
+        scene = {"size": [1, 512], "background": {"top": [0, 0, 0], "bottom": bottom}}
+        Path("grey.json").write_text(json.dumps(scene), "utf-8")
+        assert run(["render", "grey.json", "-o", "grey.gif"]) == 0
+        assert ("a GIF holds 256 colours" in capsys.readouterr().err) == told
+        assert run(["render", "grey.json", "-o", "grey.png"]) == 0
+        assert (pixels("grey.gif") == pixels("grey.png")).all() != told
 
 
 def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) -> None:

@@ -19,6 +19,7 @@ from nodes import anvil, needs_anvil
 from shackled.cli.app import run
 from shackled.cli.arguments import with_cluster
 from shackled.parallel.part import Piece
+from shackled.whole_file import write_whole
 
 PATIENCE = 60
 
@@ -99,7 +100,7 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--turntable", "1"], "the number of frames of a turntable must be a finite number from 2 to 720"),
         (["--turntable", "3", "-o", "a.svg"], "must end in .gif or .png, or in nothing for a folder"),
         (["--turntable", "3", "-o", "missing/a.gif"], "the folder missing of the turntable a.gif does not exist"),
-        (["--turntable", "3", "-o", "shape"], "shape is there already, and is no folder"),
+        (["--turntable", "3", "-o", "shape"], "shape is a file, not a folder to write to"),
         (["--turntable", "3", "--duration", "5"], "the duration of a frame in milliseconds must be"),
         (["--duration", "50"], "--duration is about a --turntable"),
         (["--tile", "0"], "--tile must be a side such as 128 or WIDTHxHEIGHT"),
@@ -221,12 +222,14 @@ def marked(mark: str) -> set[int]:
 def test_a_picture_that_cannot_be_written_keeps_its_parts(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(path: Path, data: bytes) -> None:
-        raise OSError(28, "No space left on device")
+    def full_but_for_parts(path: Path, data: bytes) -> None:
+        if path.suffix == ".png":
+            raise OSError(28, "No space left on device")
+        write_whole(path, data)
 
     with monkeypatch.context() as patched:
-        patched.setattr("shackled.image.write_whole", full)
-        assert run(["render", "shape.obj", "--size", "48", "--tile", "48x12"]) == 2
+        patched.setattr("shackled.whole_file.write_whole", full_but_for_parts)
+        assert run(["render", "shape.obj", "--size", "48", "--tile", "48x12"]) == 1
     lines = capsys.readouterr().err.splitlines()
     assert lines[1:] == [
         "shackled: finished parts are kept in shape.png.parts: the same command goes on from there",

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from shackled import InputError, RenderError, Scene, load
+from shackled import OutputError, RenderError, Scene, load
 from shackled.chain import open_chain
 from shackled.errors import (
     NodeBusyError,
@@ -278,8 +278,8 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         raise OSError(28, "No space left on device")
 
     store = Store(tmp_path / "parts", [SCENE], True)
-    monkeypatch.setattr("shackled.parallel.store.write_whole", full)
-    with pytest.raises(InputError, match="No space left on device"):
+    monkeypatch.setattr("shackled.whole_file.write_whole", full)
+    with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)
 
 

@@ -52,6 +52,16 @@ def test_what_is_damaged_is_not_there(store: Store, damage: bytes) -> None:
         assert store.read(PARTS[0]) is None
 
 
+def test_a_flipped_bit_is_not_taken(store: Store) -> None:
+    """Of a pixel: the file is a whole part otherwise, and would be another picture."""
+    store.write(PARTS[0], PIECE)
+    (file,) = store.folder.glob("*.part")
+    data = bytearray(file.read_bytes())
+    data[-1] ^= 1
+    file.write_bytes(data)
+    assert store.read(PARTS[0]) is None
+
+
 def test_plans(store: Store) -> None:
     assert store.read_plan() is None
     store.write_plan(PARTS)
@@ -79,7 +89,7 @@ def test_only_its_own_files_are_removed(store: Store) -> None:
 
 def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
     (tmp_path / "a.png.parts").write_text("", "utf-8")
-    with pytest.raises(InputError, match=r"a.png.parts, where finished parts are kept, cannot be made"):
+    with pytest.raises(InputError, match=r"a.png.parts is a file, not a folder to write to"):
         Store(folder_of(tmp_path / "a.png"), [SCENE], True)
     remove_parts(folder_of(tmp_path / "a.png"))
     assert (tmp_path / "a.png.parts").is_file()

@@ -217,6 +217,17 @@ def test_a_light_infinitely_far_away_keeps_its_direction() -> None:
     assert np.allclose(light / np.linalg.norm(light), np.array([1, 2, -1]) / 6**0.5)
 
 
+def test_a_far_light_does_not_cost_the_meshes_their_precision() -> None:
+    """Scaled so that a light a million times as far fits too, little would be left of what is seen."""
+    alone, near, far = (
+        fit(scene_of(TRIANGLE, lights=lights)).objects[0].scale
+        for lights in ([], *([Light("point", (distance, 0, 0))] for distance in (1e9, 1e15)))
+    )
+    print(alone, near, far)
+    assert near == far
+    assert alone <= 4096 * far
+
+
 def test_directions_of_any_length_are_sent() -> None:
     scene = scene_of(lights=[Light("directional", (1e-200, 0, 0)), Light("directional", (0, -1e200, 0))])
     fitted = fit(replace(scene, objects=[replace(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))

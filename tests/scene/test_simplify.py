@@ -42,6 +42,16 @@ def test_colors_stay_where_they_are() -> None:
     assert (colors[positions[:, 1] < -0.1] == (0, 0, 255)).all()
 
 
+def test_a_vertex_takes_the_colour_of_the_nearest() -> None:
+    """Not of any of those that became one: a gradient over a sphere is still one."""
+    whole = sphere()
+    height = np.asarray(whole.positions)[:, 1]
+    levels = np.rint(127.5 + 127.5 * height / np.abs(height).max())
+    small = simplify(Mesh(whole.positions, whole.faces, np.stack([levels] * 3, axis=1).astype(np.uint8)), 100)
+    expected = 127.5 + 127.5 * np.asarray(small.positions)[:, 1] / np.abs(height).max()
+    assert np.abs(np.asarray(small.colors)[:, 0] - expected).max() < 12
+
+
 def test_a_mesh_that_is_small_enough_is_returned_as_it_is() -> None:
     whole = sphere()
     assert simplify(whole, len(np.asarray(whole.faces))) is whole

@@ -11,7 +11,7 @@ from pictures import chain
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
 from shackled.scene.rotation import from_euler, rotate
-from shackled.scene.turning import full_turn, middle, turn
+from shackled.scene.turning import FILLED, full_turn, middle, turn
 
 #: A bar that points at the viewer: turned, it is much wider.
 BAR = Mesh(
@@ -64,6 +64,24 @@ def test_everything_stays_in_the_picture(projection: str) -> None:
         widest = max(widest, int(mask.any(axis=0).sum()))
     # and is no smaller than it must be
     assert widest > 25
+
+
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_a_margin_stays_around_what_turns(projection: str) -> None:
+    """The widest of all frames fills as much of the picture as may be filled, or as the first one did."""
+    start = scene(projection=projection)
+    start = replace(start, camera=replace(start.camera, half_height=0.1 if projection == "perspective" else 1.0))
+    tight = replace(start, camera=replace(start.camera, half_height=start.camera.half_height * reach(start) / 0.97))
+    for each, share in ((start, FILLED), (tight, 0.97)):
+        assert max(reach(turned) for turned in full_turn(each, 16)) == pytest.approx(share, abs=1e-9)
+
+
+def reach(each: Scene) -> float:
+    """The part of the half width or half height of the picture that is filled, of a camera that looks along -z."""
+    o, camera = each.objects[0], each.camera
+    points = np.asarray(o.position) + rotate(o.rotation, np.asarray(o.mesh.positions)) - np.asarray(camera.eye)
+    distance = -points[:, 2] if camera.projection == "perspective" else np.ones(len(points))
+    return float((np.abs(points[:, :2]).max(axis=1) / distance).max() / camera.half_height)
 
 
 def test_a_camera_that_sees_enough_stays() -> None:

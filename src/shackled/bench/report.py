@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from PIL import Image as PillowImage
 
-from ..errors import InputError
+from ..whole_file import make_output_folder, write_output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -51,12 +51,9 @@ class Report:
             stream = io.BytesIO()
             picture.save(stream, "png", optimize=True)
             files[f"{name}-{end}.png"] = stream.getvalue()
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            for file, content in files.items():
-                (folder / file).write_bytes(content)
-        except OSError as error:
-            raise InputError(f"nothing can be written to the folder {folder}: {error.strerror}") from None
+        make_output_folder(folder)
+        for file, content in files.items():
+            write_output(folder / file, content)
         return [folder / file for file in files]
 
     def csv(self) -> str:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import NoReturn
 
 
 def main() -> NoReturn:
     """The entry point."""
+    for name in ("stdout", "stderr"):
+        # one that was closed before the start
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
     try:
         # to read all of it in takes a moment, in which people may think again
         from .app import run

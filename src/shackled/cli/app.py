@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from .. import __version__
-from ..errors import FetchError, InputError, InputWarning, RenderError
+from ..errors import FetchError, InputError, InputWarning, OutputError, RenderError
 from .arguments import with_cluster
 from .bench import bench
 from .creator import creator
@@ -28,7 +28,11 @@ from .token import token
 #: What typer makes of a keyboard interrupt.
 INTERRUPTED = 130
 
-app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+app = typer.Typer(
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 app.command()(render)
 app.command()(gas)
 app.command()(bench)
@@ -70,7 +74,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)
-    except (RenderError, FetchError) as error:
+    except (RenderError, FetchError, OutputError) as error:
         return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)

@@ -8,16 +8,20 @@ from typing import Annotated
 import typer
 
 from ..errors import InputError
+from ..whole_file import check_output_folder
 
 
 def bench(
     names: Annotated[
-        list[str] | None, typer.Argument(help="Experiments; without any, they are listed.", metavar="[NAME]...")
+        list[str] | None,
+        typer.Argument(
+            help="Experiments; without any, all are made, or listed if there is no -o.", metavar="[NAME]..."
+        ),
     ] = None,
     output: Annotated[
         str | None, typer.Option("--output", "-o", help="The folder for CSV, plots and tables.", metavar="DIR")
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="All experiments.")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="All experiments, as without a NAME.")] = False,
     quick: Annotated[bool, typer.Option("--quick", help="A few small scenes, to see that it works.")] = False,
     processes: Annotated[
         int | None, typer.Option("--processes", min=1, help="How many; else one for each core.", metavar="N")
@@ -26,19 +30,17 @@ def bench(
     """Make the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Lab, check_plots, run
 
-    if not names and not everything:
+    if not names and not everything and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
-        print("\nshackled bench NAME ... -o DIR makes them, shackled bench --all -o DIR all.")
+        print("\nshackled bench NAME ... -o DIR makes them, shackled bench -o DIR all.")
         return
-    chosen = list(EXPERIMENTS) if everything else list(dict.fromkeys(names or []))
+    chosen = list(EXPERIMENTS) if everything or not names else list(dict.fromkeys(names))
     for name in chosen:
         if name not in EXPERIMENTS:
             raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
     if output is None:
         raise InputError("the experiments need a folder to write to: -o DIR")
-    folder = Path(output)
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f"{folder} is a file, not a folder to write to")
+    folder = check_output_folder(Path(output))
     check_plots()
     with Lab(quick, processes) as lab:
         written = [path for name in chosen for path in run(name, lab).save(name, folder)]

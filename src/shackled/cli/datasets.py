@@ -170,7 +170,7 @@ def gallery(
     """Draw all pieces by the contracts: a page that stands alone, or a contact sheet. What was drawn once is kept."""
     from ..datasets.drawing import draw_all
     from ..datasets.gallery import page, sheet
-    from ..whole_file import write_whole
+    from ..whole_file import write_output
 
     wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]
@@ -191,8 +191,5 @@ def gallery(
     drawings = {drawing.name: drawing for drawing in bar}
     for path in paths:
         html = path.suffix.lower() == ".html"
-        try:
-            write_whole(path, page(shown, drawings).encode() if html else sheet(shown, drawings))
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from None
+        write_output(path, page(shown, drawings).encode() if html else sheet(shown, drawings))
         print(f"{path}: {len(drawings if not html else shown):,} pieces")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -17,9 +18,9 @@ from ..gas.flame_graph import flame_graph
 from ..gas.profile import Profile
 from ..gas.report import make_report
 from ..gas.speedscope import speedscope
-from ..gas.trace import require_tracer
+from ..gas.trace import TRACER, can_trace
 from ..load import locate
-from ..whole_file import write_whole
+from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_profile, print_report
 from .look import Changes, load_changed
@@ -64,7 +65,7 @@ def gas(
         ),
     ] = None,
     stages: Annotated[
-        bool, option("--stages/--no-stages", "Gas by stage, which takes a slow EVM some seconds, or not.")
+        bool, option("--stages/--no-stages", "Gas by stage, which takes a slow EVM (py-evm) some seconds, or not.")
     ] = True,
     gas_price: Annotated[float, option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
     eth_price: Annotated[float | None, option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
@@ -83,16 +84,19 @@ def gas(
         _check_price(eth_price, "--eth-price", "US dollars an ether")
     if path is not None and not stages:
         raise InputError("--profile is made of what --no-stages leaves out: give one of them")
-    if stages:
-        _require_tracer()
+    traced = stages and can_trace()
+    if path is not None and not traced:
+        raise InputError(f"--profile needs {TRACER}")
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_changed(locate(input), changes)
     with Progress(quiet=as_json) as progress:
-        report = make_report(scene, place, lower, upper, stages, progress.step, progress.traced, node)
+        report = make_report(scene, place, lower, upper, traced, progress.step, progress.traced, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         _write_profile(path, report.profile, input)
+    if stages and not traced:
+        print(f"gas by stage needs {TRACER}", file=sys.stderr)
     if as_json:
         more: dict[str, Any] = {} if path is None else {"profile": str(path)}
         if node is not None and counted is not None:
@@ -118,22 +122,11 @@ def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> N
     return None
 
 
-def _require_tracer() -> None:
-    try:
-        require_tracer()
-    except InputError as error:
-        raise InputError(f"{error}; --no-stages leaves them out") from None
-
-
 def _check_profile(name: str) -> Path:
     path = Path(name)
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"--profile writes {' or '.join(FORMATS)} files, not {name!r}")
-    if not path.parent.is_dir():
-        raise InputError(f"--profile: the folder {path.parent} of {path.name} does not exist")
-    if path.is_dir():
-        raise InputError(f"--profile: {name!r} is a folder")
-    return path
+    return check_output_file(path, "profile")
 
 
 def _check_price(value: float, name: str, unit: str) -> None:
@@ -146,7 +139,4 @@ def _write_profile(path: Path, profile: Profile, name: str) -> None:
         text = json.dumps(speedscope(profile, name), separators=(",", ":")) + "\n"
     else:
         text = flame_graph(profile, name)
-    try:
-        write_whole(path, text.encode())
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from None
+    write_output(path, text.encode())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import sys
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,12 +13,13 @@ from typing import Annotated, Any
 
 import typer
 
-from ..animation import DURATION, MOST_COLORS, Animation, check_animation, check_duration, colors
+from ..animation import DURATION, Animation, check_animation, check_duration
 from ..chain import CHAINS, open_chain
 from ..datasets import Piece
 from ..errors import InputError
 from ..image import Image, check_output
 from ..load import locate
+from ..palette import MOST_COLORS, colors
 from ..parallel import Where, render_frames
 from ..parallel.store import folder_of, remove_parts
 from ..render import render_whole
@@ -118,6 +120,8 @@ def render(
         open_chain(chain)
     scene = load_changed(source, changes)
     made = _made(scene, where, turntable, shown, path)
+    if not any(frame.lit_pixels for frame in made.frames):
+        print("nothing of the scene is seen: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette(made)
     if as_json:
@@ -133,11 +137,17 @@ def _from_environment(context: typer.Context, parameter: str) -> bool:
 
 @dataclass(frozen=True)
 class Made:
-    """A picture, or the frames of a turntable. calls: how many made it; None for a picture by a single call here."""
+    """A picture, or the frames of a turntable.
+
+    calls: how many made it; None for a picture by a single call here. seconds: from the scene to the file.
+    triangles, lit_pixels: None for a turntable.
+    """
 
     frames: Sequence[Image]
     calls: int | None
     seconds: float
+    triangles: int | None = None
+    lit_pixels: int | None = None
 
     def total(self, name: str) -> int | None:
         """The sum of a number over all frames; None if one does not have it."""
@@ -147,15 +157,17 @@ class Made:
 
 def _made(scene: Scene, where: Where, turntable: int | None, duration: int, path: Path) -> Made:
     """Renders the scene, and writes the file."""
+    started = time.perf_counter()
     if turntable is None and where.alone:
         with LateBar("rendering"):
             image = render_whole(scene, open_chain(where.chain))  # type: ignore[arg-type]
+            triangles, lit_pixels = image.triangles, image.lit_pixels
         image.save(path)
-        return Made([image], None, image.seconds)
+        return Made([image], None, time.perf_counter() - started, triangles, lit_pixels)
     scenes = [scene] if turntable is None else full_turn(scene, turntable)
     keep = folder_of(path)
     listener = JobProgress()
-    job = render_frames(scenes, where, count=turntable is None, listener=listener, keep=keep)
+    job = render_frames(scenes, where, listener=listener, keep=keep)
     try:
         with LateBar("writing"):
             if turntable is None:
@@ -167,7 +179,9 @@ def _made(scene: Scene, where: Where, turntable: int | None, duration: int, path
             listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
         raise
     remove_parts(keep)
-    return Made(job.images, job.calls, sum(image.seconds for image in job.images))
+    image = job.images[0]
+    counts = (image.triangles, image.lit_pixels) if turntable is None else (None, None)
+    return Made(job.images, job.calls, time.perf_counter() - started, *counts)
 
 
 def _report(made: Made, input: str, path: Path) -> dict[str, Any]:
@@ -178,8 +192,8 @@ def _report(made: Made, input: str, path: Path) -> dict[str, Any]:
         "input": input,
         "width": image.width,
         "height": image.height,
-        "triangles": made.total("triangles"),
-        "lit_pixels": made.total("lit_pixels"),
+        "triangles": made.triangles,
+        "lit_pixels": made.lit_pixels,
         "gas": made.total("gas"),
         "intrinsic_gas": made.total("intrinsic_gas"),
         "seconds": round(made.seconds, 6),
@@ -192,13 +206,12 @@ def _report(made: Made, input: str, path: Path) -> dict[str, Any]:
 
 def _words(made: Made, path: Path) -> str:
     image, count = made.frames[0], len(made.frames)
-    triangles, lit_pixels = made.total("triangles"), made.total("lit_pixels")
     gas, intrinsic_gas = made.total("gas"), made.total("intrinsic_gas")
     rows = {
         "picture": f"{path}, {f'{count} frames of ' if count > 1 else ''}{image.width} x {image.height} pixels",
     }
-    if triangles is not None and lit_pixels is not None:
-        rows["drawn"] = f"{triangles:,} triangles, {lit_pixels:,} lit pixels"
+    if made.triangles is not None and made.lit_pixels is not None:
+        rows["drawn"] = f"{made.triangles:,} triangles, {made.lit_pixels:,} lit pixels"
     rows["gas"] = "none is counted"
     if gas is not None and intrinsic_gas is not None:
         sent = "the scene" if made.calls in (None, 1) else f"the scene {made.calls} times"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import Annotated
 
@@ -9,8 +10,8 @@ import typer
 from PIL import Image as PillowImage
 
 from ..chain import CHAINS, open_chain
-from ..errors import InputError
 from ..load import locate
+from ..whole_file import check_output_folder, make_output_folder, write_output
 from .look import Changes, load_changed
 from .look_options import with_look
 
@@ -28,17 +29,14 @@ def stages(
     """Draw what each stage of the pipeline makes of a scene: six pictures, and all in one strip."""
     from ..stages import draw_stages, strip
 
-    folder = Path(output)
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f"{folder} is a file, not a folder to write to")
+    folder = check_output_folder(Path(output))
     made = draw_stages(load_changed(locate(input), changes), open_chain(chain))
     pictures = {stage.name: PillowImage.fromarray(stage.pixels) for stage in made} | {"strip": strip(made)}
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, picture in pictures.items():
-            picture.save(folder / f"{name}.png", optimize=True)
-    except OSError as error:
-        raise InputError(f"nothing can be written to the folder {folder}: {error.strerror}") from None
+    make_output_folder(folder)
+    for name, picture in pictures.items():
+        stream = io.BytesIO()
+        picture.save(stream, "png", optimize=True)
+        write_output(folder / f"{name}.png", stream.getvalue())
     for stage in made:
         print(f"{folder / stage.name}.png: {stage.title.lower()}, {stage.detail}")
     print(folder / "strip.png")

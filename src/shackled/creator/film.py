@@ -18,7 +18,7 @@ Pixels = NDArray[np.uint8]
 def film(frames: Sequence[bytes], milliseconds: int, scale: int = 1) -> bytes:
     """A GIF of pictures of one size, given as PNG; each is shown so long. scale: each pixel becomes a square."""
     shown = [enlarged(np.asarray(PillowImage.open(io.BytesIO(frame)).convert("RGB")), scale) for frame in frames]
-    images = [Image(pixels, b"", None, None, 0, 0, "", 0.0) for pixels in shown]
+    images = [Image(pixels, b"", None, None, "", 0.0) for pixels in shown]
     return Animation(images, milliseconds).encode(".gif")
 
 

@@ -8,8 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..chain.addresses import show_address
-from ..errors import InputError
-from ..whole_file import write_whole
+from ..whole_file import make_output_folder, write_output
 from .contract import Deployment
 
 SUMMARY = "contracts.json"
@@ -38,11 +37,8 @@ def write_verification(folder: Path, chain_id: int, standing: Sequence[Deploymen
         )
     summary = json.dumps({"chainId": chain_id, "contracts": contracts}, indent=2) + "\n"
     written = []
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, data in {**inputs, SUMMARY: summary.encode()}.items():
-            write_whole(folder / name, data)
-            written.append(folder / name)
-    except OSError as error:
-        raise InputError(f"the folder {folder} cannot be written to: {error.strerror}") from None
+    make_output_folder(folder)
+    for name, data in {**inputs, SUMMARY: summary.encode()}.items():
+        write_output(folder / name, data)
+        written.append(folder / name)
     return written

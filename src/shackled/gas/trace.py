@@ -52,10 +52,13 @@ class Frame:
         return sum(sum(costs.values()) for costs in self.costs.values())
 
 
-def require_tracer() -> None:
-    """InputError unless there is an EVM that can be traced."""
-    if not find_spec("eth"):
-        raise InputError("gas by stage and line needs the package py-evm: pip install py-evm")
+#: What tracing needs, for messages.
+TRACER = "the package py-evm: pip install 'shackled[profile]'"
+
+
+def can_trace() -> bool:
+    """Whether there is an EVM that can be traced."""
+    return find_spec("eth") is not None
 
 
 def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[Frame, CallResult]:
@@ -63,7 +66,8 @@ def trace(contract: str, data: bytes, report: Callable[[int], None] | None = Non
 
     report: is told now and then how much gas has been used. InputError if py-evm is not installed.
     """
-    require_tracer()
+    if not can_trace():
+        raise InputError(f"gas by stage and line needs {TRACER}")
     chain = _Tracer(report)
     result = chain.call(contract, data)
     assert chain.root is not None

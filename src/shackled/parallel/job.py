@@ -45,13 +45,14 @@ class Finished:
 def render_frames(
     frames: Sequence[Scene],
     where: Where,
-    count: bool = True,
+    count: bool = False,
     listener: Listener | None = None,
     keep: Path | None = None,
 ) -> Finished:
     """Renders frames, all of one size.
 
-    count: whether triangles and pixels are counted, which costs as much time again.
+    count: whether the contracts count triangles and pixels as well, in a second call for each part. An `Image` counts
+        them without.
     keep: a folder in which finished parts are kept until the job is done; whoever uses the pictures removes it.
     """
     listener = listener or Listener()
@@ -135,16 +136,14 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Piece], chain: str, 
         pixels[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width] = drawn
     if sum(tile.width * tile.height for tile in own) != scene.width * scene.height:
         raise AssertionError("the parts of a picture are not the whole")
-    triangles = {piece.triangles for piece in own.values()}
     return Image(
         pixels=pixels,
         bmp=_bmp(pixels, list(own.values())),
         gas=_sum([piece.gas for piece in own.values()]),
         intrinsic_gas=_sum([piece.intrinsic_gas for piece in own.values()]),
-        triangles=triangles.pop() if len(triangles) == 1 else None,
-        lit_pixels=_sum([piece.lit_pixels for piece in own.values()]),
         chain=chain,
         seconds=seconds,
+        scene=scene,
     )
 
 

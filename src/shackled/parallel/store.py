@@ -13,11 +13,11 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..artifacts import artifact
-from ..errors import InputError, RenderError
+from ..errors import RenderError
 from ..scene.codec import Rectangle, encode_scene
 from ..scene.fit import fit
 from ..scene.scene import Scene
-from ..whole_file import write_whole
+from ..whole_file import make_output_folder, write_output
 from .part import Part, Piece, check_part
 from .tiles import covers
 
@@ -49,16 +49,13 @@ class Store:
     """The finished parts of a job."""
 
     def __init__(self, folder: Path, frames: Sequence[Scene], count: bool) -> None:
-        """count: whether parts are counted; those that are not do not do then. InputError if the folder cannot be."""
+        """count: whether parts are counted; those that are not do not do then. Errors as of `make_output_folder`."""
         self.folder = folder
         self._frames = frames
         self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
         self._salt = contracts_digest() + bytes([count])
         self._kept = 0
-        try:
-            folder.mkdir(exist_ok=True)
-        except OSError as error:
-            raise InputError(f"{folder}, where finished parts are kept, cannot be made: {error.strerror}") from None
+        make_output_folder(folder)
 
     def read(self, part: Part) -> Piece | None:
         """A finished part, if it is there."""
@@ -78,10 +75,10 @@ class Store:
         return piece
 
     def write(self, part: Part, piece: Piece) -> None:
-        """Keeps a finished part. InputError if the disk does not take it."""
+        """Keeps a finished part. OutputError if the disk does not take it."""
         numbers = [piece.gas, piece.intrinsic_gas, piece.triangles, piece.lit_pixels]
         body = json.dumps(numbers).encode() + b"\n" + piece.bmp
-        self._write(self._path(part), hashlib.sha256(body).digest() + body)
+        write_output(self._path(part), hashlib.sha256(body).digest() + body)
         self._kept += 1
 
     def forget(self, part: Part) -> None:
@@ -105,7 +102,7 @@ class Store:
     def write_plan(self, parts: Sequence[Part]) -> None:
         """Keeps how the job is cut."""
         tiles = [[p.frame, [p.tile.x, p.tile.y, p.tile.width, p.tile.height]] for p in parts]
-        self._write(self.folder / PLAN, json.dumps({"job": self._job(), "parts": tiles}).encode())
+        write_output(self.folder / PLAN, json.dumps({"job": self._job(), "parts": tiles}).encode())
 
     def leave(self) -> bool:
         """Ends an unfinished job: whether anything is kept for the next time."""
@@ -121,9 +118,3 @@ class Store:
         tile = part.tile
         place = f"{tile.x},{tile.y},{tile.width},{tile.height}".encode()
         return self.folder / (hashlib.sha256(self._salt + self._scenes[part.frame] + place).hexdigest() + SUFFIX)
-
-    def _write(self, path: Path, data: bytes) -> None:
-        try:
-            write_whole(path, data)
-        except OSError as error:
-            raise InputError(f"{path} cannot be written: {error.strerror}") from None

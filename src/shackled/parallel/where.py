@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ..chain import Chain, open_node
 from ..chain.embedded import DEFAULT_GAS_LIMIT
+from ..checks import integer
 from ..errors import InputError, NodeError
 from .evm import limited
 from .listener import Listener
@@ -39,13 +40,20 @@ class Where:
     tile: tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
-        jobs, gas = self.jobs, self.gas_limit
-        if jobs is not None and not (isinstance(jobs, int) and not isinstance(jobs, bool) and 1 <= jobs <= MOST_JOBS):
-            raise InputError(f"--jobs must be from 1 to {MOST_JOBS}, not {jobs!r}")
-        if gas is not None and not (isinstance(gas, int) and 1 <= gas <= DEFAULT_GAS_LIMIT):
-            raise InputError(f"--gas-limit must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {gas!r}")
-        if self.tile is not None and not all(isinstance(side, int) and side >= 1 for side in self.tile):
-            raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
+        jobs, gas = integer(self.jobs), integer(self.gas_limit)
+        if self.jobs is not None and (jobs is None or not 1 <= jobs <= MOST_JOBS):
+            raise InputError(f"--jobs must be from 1 to {MOST_JOBS}, not {self.jobs!r}")
+        if self.gas_limit is not None and (gas is None or not 1 <= gas <= DEFAULT_GAS_LIMIT):
+            raise InputError(
+                f"--gas-limit must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {self.gas_limit!r}"
+            )
+        object.__setattr__(self, "jobs", jobs)
+        object.__setattr__(self, "gas_limit", gas)
+        if self.tile is not None:
+            sides = tuple(integer(side) or 0 for side in self.tile)
+            if min(sides) < 1:
+                raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
+            object.__setattr__(self, "tile", sides)
         if self.rpc and self.cluster is not None:
             raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
         if self.rpc and self.chain is not None:

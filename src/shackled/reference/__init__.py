@@ -9,6 +9,7 @@ from __future__ import annotations
 from ..artifacts import artifact
 from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
+from . import coverage
 from .bmp import encode_bmp
 from .call import read_call
 from .pipeline import Picture, draw
@@ -27,10 +28,9 @@ def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
 
 def count(scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
     """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that any
-    of them covers.
+    of them covers. Nothing is shaded for it.
     """
-    picture = draw_call(encode(selector("renderCounted" if tile is None else "renderTile"), scene, tile))
-    return picture.triangles, picture.lit_pixels
+    return coverage.count(*read_call(encode(selector("renderCounted" if tile is None else "renderTile"), scene, tile)))
 
 
 def draw_call(data: bytes) -> Picture:

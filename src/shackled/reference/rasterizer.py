@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from . import fragment_shader, shading
 from .mesh import Mesh
 from .primitive_assembly import Triangle
@@ -15,16 +17,18 @@ LANE_128 = (1 << 128) - 1
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
     """Draws the triangles of a list."""
     for triangle in triangles:
-        top = max(triangle.top, registers.band_top)
-        bottom = min(triangle.bottom, registers.band_bottom)
-        if top < bottom:
-            draw_triangle(triangle, top, bottom, mesh, registers)
+        if max(triangle.top, registers.band_top) < min(triangle.bottom, registers.band_bottom):
+            shading.prepare(triangle, mesh, registers)
+            for spans in spans_of(triangle, registers):
+                fragment_shader.draw(spans, registers)
 
 
-def draw_triangle(triangle: Triangle, top: int, bottom: int, mesh: Mesh, registers: Registers) -> None:
-    """Draws the rows from `top` to before `bottom`."""
+def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
+    """The fragments of a triangle that is prepared."""
     r = registers
-    shading.prepare(triangle, mesh, r)
+    top, bottom = max(triangle.top, r.band_top), min(triangle.bottom, r.band_bottom)
+    if top >= bottom:
+        return
     edges, slopes, middle = set_up(triangle.a, triangle.b, triangle.c, top, r)
     middle = min(middle, bottom)
     spans = []
@@ -36,7 +40,7 @@ def draw_triangle(triangle: Triangle, top: int, bottom: int, mesh: Mesh, registe
         edges, slopes = lower_edges(edges, slopes, triangle.b, triangle.c, top, middle)
         start = r.start + r.dy * (middle - top)
         spans += fragment_shader.spans_between(edges, slopes, start, middle, bottom, r)
-    fragment_shader.draw(spans, r)
+    yield spans
 
 
 def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:

@@ -6,6 +6,8 @@ with the depth and the colour of the line at the centre of that column or row.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from . import fragment_shader, shading
 from .mesh import Mesh
 from .primitive_assembly import Triangle
@@ -19,22 +21,31 @@ CEIL = 0xFFFFFFFFC000
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
     """Draws the edges of the triangles of a list."""
-    r = registers
     for triangle in triangles:
-        if triangle.bottom <= r.band_top or triangle.top >= r.band_bottom:
-            continue
-        shading.prepare(triangle, mesh, r)
-        a, b, c = triangle.a, triangle.b, triangle.c
-        if triangle.edges & 1:
-            draw_line(a, b, r.attribute_0, r.attribute_1, r)
-        if triangle.edges & 2:
-            draw_line(b, c, r.attribute_1, r.attribute_2, r)
-        if triangle.edges & 4:
-            draw_line(c, a, r.attribute_2, r.attribute_0, r)
+        if triangle.bottom > registers.band_top and triangle.top < registers.band_bottom:
+            shading.prepare(triangle, mesh, registers)
+            for spans in spans_of(triangle, registers):
+                fragment_shader.draw(spans, registers)
 
 
-def draw_line(p: Vertex, q: Vertex, attribute_p: int, attribute_q: int, registers: Registers) -> None:
-    """Draws one edge between two vertices with these attribute words."""
+def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
+    """The fragments of the edges of a triangle that is prepared, edge by edge."""
+    r = registers
+    if triangle.bottom <= r.band_top or triangle.top >= r.band_bottom:
+        return
+    a, b, c = triangle.a, triangle.b, triangle.c
+    if triangle.edges & 1:
+        yield line_between(a, b, r.attribute_0, r.attribute_1, r)
+    if triangle.edges & 2:
+        yield line_between(b, c, r.attribute_1, r.attribute_2, r)
+    if triangle.edges & 4:
+        yield line_between(c, a, r.attribute_2, r.attribute_0, r)
+
+
+def line_between(
+    p: Vertex, q: Vertex, attribute_p: int, attribute_q: int, registers: Registers
+) -> list[fragment_shader.Span]:
+    """The fragments of one edge between two vertices with these attribute words."""
     dx, dy = q.x - p.x, q.y - p.y
     steep = dy * dy >= dx * dx
     # the same pixels, whichever face the line belongs to
@@ -44,7 +55,7 @@ def draw_line(p: Vertex, q: Vertex, attribute_p: int, attribute_q: int, register
     change = attribute_q - attribute_p
     attribute = (attribute_p << 32) + registers.lane_bias
     line = steep_line if steep else flat_line
-    fragment_shader.draw(line(p, q, dx, dy, attribute, change, registers), registers)
+    return line(p, q, dx, dy, attribute, change, registers)
 
 
 def steep_line(

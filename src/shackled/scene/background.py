@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from ..checks import color
+from .value import Value
 
 
-@dataclass(frozen=True)
-class Background:
-    """A vertical gradient from the colour of the top row to that of the bottom row; red, green, blue, 0..255."""
+@dataclass(frozen=True, eq=False)
+class Background(Value):
+    """A vertical gradient from the colour of the top row to that of the bottom row; red, green, blue, 0..255,
+    or floats 0..1.
+    """
 
     top: ArrayLike = (0, 0, 0)
     bottom: ArrayLike | None = None

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import choice, number, vector
 from ..errors import InputError
+from .value import Value
 
 Projection = Literal["perspective", "orthographic"]
 
@@ -17,8 +18,8 @@ Projection = Literal["perspective", "orthographic"]
 DEFAULT_HALF_HEIGHT = 1 / 2.145
 
 
-@dataclass(frozen=True)
-class Camera:
+@dataclass(frozen=True, eq=False)
+class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
 
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
@@ -40,13 +41,14 @@ class Camera:
             object.__setattr__(self, name, vector(getattr(self, name), f"the camera's {name}"))
         choice(self.projection, "the camera's projection", ("perspective", "orthographic"))
         low, high = (2**-10, 2**10) if self.projection == "perspective" else (1e-30, 1e30)
-        number(self.half_height, "the camera's half_height", low, high)
+        object.__setattr__(self, "half_height", number(self.half_height, "the camera's half_height", low, high))
         if self.near is not None:
-            number(self.near, "the camera's near distance")
-            if self.projection == "perspective" and self.near <= 0:
+            near = number(self.near, "the camera's near distance")
+            if self.projection == "perspective" and near <= 0:
                 raise InputError(
                     f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}"
                 )
+            object.__setattr__(self, "near", near)
 
 
 def half_height_of(fov: float) -> float:

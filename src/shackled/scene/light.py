@@ -9,15 +9,16 @@ from numpy.typing import ArrayLike
 
 from ..checks import choice, color, vector
 from ..errors import InputError
+from .value import Value
 
 
-@dataclass(frozen=True)
-class Light:
+@dataclass(frozen=True, eq=False)
+class Light(Value):
     """One light; a scene has up to four.
 
     kind: "directional" or "point".
     vector: (3,) float; the direction toward a directional light (any length but zero), the position of a point light.
-    color: red, green, blue, 0..255.
+    color: red, green, blue, 0..255, or floats 0..1.
     """
 
     kind: Literal["directional", "point"]

@@ -6,14 +6,15 @@ from dataclasses import dataclass, field
 
 from numpy.typing import ArrayLike
 
-from ..checks import number, vector
+from ..checks import instance, number, vector
 from ..errors import InputError
 from .material import Material
 from .mesh import Mesh
+from .value import Value
 
 
-@dataclass(frozen=True)
-class Object:
+@dataclass(frozen=True, eq=False)
+class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.
 
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1).
@@ -29,8 +30,10 @@ class Object:
     wireframe: bool = False
 
     def __post_init__(self) -> None:
+        instance(self.mesh, "the mesh of an object", Mesh)
+        instance(self.material, "the material of an object", Material)
         object.__setattr__(self, "position", vector(self.position, "the position of an object"))
         object.__setattr__(self, "rotation", vector(self.rotation, "the rotation of an object", 4))
         if not self.rotation.any():  # type: ignore[union-attr]
             raise InputError("the rotation of an object must not be the zero quaternion; the identity is (0, 0, 0, 1)")
-        number(self.scale, "the scale of an object", 0)
+        object.__setattr__(self, "scale", number(self.scale, "the scale of an object", 0))

@@ -9,6 +9,7 @@ from fast_simplification import replay_simplification
 from fast_simplification import simplify as collapse_edges
 from numpy.typing import NDArray
 
+from ..checks import integer
 from ..errors import InputError
 from .mesh import Mesh
 
@@ -26,20 +27,19 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
     forcefully. InputError where edges cannot be collapsed so far; it names a number that would do.
     """
-    if isinstance(max_triangles, bool) or not isinstance(max_triangles, int) or max_triangles < 1:
+    most = integer(max_triangles)
+    if most is None or most < 1:
         raise InputError(
             f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
         )
-    if len(np.asarray(mesh.faces)) <= max_triangles:
+    if len(np.asarray(mesh.faces)) <= most:
         return mesh
-    positions, faces, colors = _simplified(mesh, max_triangles, tries)
-    if not 0 < len(faces) <= max_triangles:
+    positions, faces, colors = _simplified(mesh, most, tries)
+    if not 0 < len(faces) <= most:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
         if len(faces) and len(_simplified(mesh, len(faces), tries)[1]) <= len(faces):
             found += f"; {len(faces)} would do"
-        raise InputError(
-            f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {max_triangles}: {found}"
-        )
+        raise InputError(f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {most}: {found}")
     return Mesh(positions, faces, colors)
 
 

@@ -12,8 +12,8 @@ from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Receipt, Transactor
 from ..deploy.contract import local_chain
-from ..errors import InputError, RenderError
-from ..whole_file import write_whole
+from ..errors import RenderError
+from ..whole_file import make_output_folder, write_output
 from .actions import perform
 from .allow_list import make_allow_list
 from .allowance import sign_allowance
@@ -56,10 +56,7 @@ def run(connection: Connection, folder: Path, tell: Callable[[str], None]) -> De
     InputError if the node is not a fresh development node; RenderError if anything is not as it should be.
     """
     users = development_transactors(connection)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InputError(f"the folder {folder} cannot be made: {error.strerror}") from None
+    make_output_folder(folder)
     demo = Demo(folder / GALLERY, folder / LISTING)
     for play in (_genesis, _icons):
         collection = play(connection, users, demo, tell)
@@ -74,11 +71,8 @@ def run(connection: Connection, folder: Path, tell: Callable[[str], None]) -> De
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]
     html = page("Shackled: tokens that live on chain", INTRODUCTION, demo.tokens, facts, demo.costs)
-    try:
-        write_whole(demo.gallery, html.encode())
-        write_whole(demo.listing, tokens_json(demo.tokens).encode())
-    except OSError as error:
-        raise InputError(f"the files of {folder} cannot be written: {error.strerror}") from None
+    write_output(demo.gallery, html.encode())
+    write_output(demo.listing, tokens_json(demo.tokens).encode())
     return demo
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image as PillowImage
 
 from ..errors import InputError
-from ..whole_file import write_whole
+from ..whole_file import write_output
 from .metadata import Metadata
 
 FORMATS = (".png", ".bmp")
@@ -35,8 +35,5 @@ def save_picture(metadata: Metadata, path: Path) -> None:
 
 
 def write_picture(path: Path, content: bytes) -> None:
-    """Writes the bytes of a picture. InputError if it cannot be written."""
-    try:
-        write_whole(path, content)
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from None
+    """Writes the bytes of a picture. InputError or OutputError if they cannot be written."""
+    write_output(path, content)

@@ -116,7 +116,7 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
         raise RenderError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
-    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, None, None, connection.name, seconds)
+    return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
 
 
 def _stands(connection: Connection, storing: Storing) -> bool:

@@ -187,7 +187,7 @@ def test_broken_gltf_is_told_in_one_line(tmp_path: Path) -> None:
         ("empty.glb", b"glTF" + struct.pack("<II", 2, 12), ": it has no JSON chunk"),
         ("garbage.glb", b"\x93garbage" * 40, " is not valid JSON: "),
         ("text.gltf", b"{nothing}", " is not valid JSON: "),
-        ("deep.gltf", b"[" * 100_000, " is not valid JSON: its brackets lie in one another too deep"),
+        ("deep.gltf", b"[" * 100_000, " is not valid JSON: its brackets are nested more than 200 deep"),
         ("other.gltf", b'{"size": 3}', ": it is no glTF file: asset, with the version of glTF, is missing"),
         ("old.gltf", b'{"asset": {"version": "1.0"}}', ": asset.version is '1.0'; glTF 2.0 is read"),
         ("beside.gltf", beside, f": buffers[0].uri: {tmp_path / 'missing.bin'} does not exist"),

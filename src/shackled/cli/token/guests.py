@@ -36,17 +36,14 @@ def allow_list(
 ) -> None:
     """Print the root of an allow-list; with --rpc, put it into a collection, as its owner."""
     from ...tokens.allow_list import read_allow_list
-    from ...whole_file import write_whole
+    from ...whole_file import write_output
 
     listed = read_allow_list(file)
     print(
         f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens"
     )
     if output is not None:
-        try:
-            write_whole(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
-        except OSError as error:
-            raise InputError(f"{output} cannot be written: {error.strerror}") from None
+        write_output(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
     source, nobody = context.get_parameter_source("rpc"), account is None and private_key_env is None
     # the variable with the node alone does not say that something is to be sent
     if rpc is None or (source is not None and source.name == "ENVIRONMENT" and nobody):
@@ -71,7 +68,7 @@ def permit(
 ) -> None:
     """Sign a permission to mint early, for one account; costs nothing. For the signer of the collection."""
     from ...tokens.allowance import sign_allowance
-    from ...whole_file import write_whole
+    from ...whole_file import write_output
 
     allowed = address(who, "the account")
     lasting = number(days, "--days", 0, 36_500)
@@ -89,8 +86,5 @@ def permit(
     if output is None:
         print(text)
         return
-    try:
-        write_whole(output, (text + "\n").encode())
-    except OSError as error:
-        raise InputError(f"{output} cannot be written: {error.strerror}") from None
+    write_output(output, (text + "\n").encode())
     print(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")

@@ -276,7 +276,8 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
     height = np.asarray(mesh.positions) @ np.asarray(axis, dtype=np.float64)
     share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
     ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
-    return Mesh(mesh.positions, mesh.faces, np.rint((1 - share) * ends[0] + share * ends[1]), mesh.normals)
+    colors = np.rint((1 - share) * ends[0] + share * ends[1]).astype(np.uint8)
+    return Mesh(mesh.positions, mesh.faces, colors, mesh.normals)
 
 
 def joined(*meshes: Mesh) -> Mesh:

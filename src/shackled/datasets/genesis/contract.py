@@ -44,16 +44,14 @@ def picture_on_chain(piece: GenesisPiece, chain: Chain | None = None) -> Image:
     result = call("render", piece.seed, place)
     seconds = time.perf_counter() - started
     bmp = _bytes(result.output, _number(result.output, 0))
-    triangles, lit_pixels = place.count(piece.scene())
     return Image(
         pixels=decode_bmp(bmp, SIDE, SIDE),
         bmp=bmp,
         gas=result.gas,
         intrinsic_gas=result.intrinsic_gas,
-        triangles=triangles,
-        lit_pixels=lit_pixels,
         chain=place.name,
         seconds=seconds,
+        scene=piece.scene(),
     )
 
 

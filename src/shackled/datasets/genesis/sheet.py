@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 
 from ...checks import number as check_number
 from ...errors import InputError
-from ...whole_file import write_whole
+from ...whole_file import write_output
 from ..drawing import SIZE, draw_all
 from . import COUNT, pieces
 
@@ -63,7 +63,4 @@ def render_sheet(
         progress(done, count)
     stream = io.BytesIO()
     sheet.save(stream, "png")
-    try:
-        write_whole(path, stream.getvalue())
-    except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}") from None
+    write_output(path, stream.getvalue())

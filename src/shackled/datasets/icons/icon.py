@@ -120,4 +120,4 @@ def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
     if smooth:
         columns.append(np.asarray(mesh.normals))
     table, numbers = np.unique(np.hstack(columns)[faces.reshape(-1)], axis=0, return_inverse=True)
-    return Mesh(table[:, :3], numbers.reshape(-1, 3), table[:, 3:6], table[:, 6:] if smooth else None)
+    return Mesh(table[:, :3], numbers.reshape(-1, 3), table[:, 3:6].astype(np.uint8), table[:, 6:] if smooth else None)

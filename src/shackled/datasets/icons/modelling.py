@@ -102,7 +102,7 @@ class Solid:
             columns.append(np.rint(_normals(corners, crease).reshape(-1, 3) * 2**20))
         vertices, numbers = np.unique(np.hstack(columns), axis=0, return_inverse=True)
         normals = None if crease is None else vertices[:, 6:] / 2**20
-        return Mesh(vertices[:, :3], numbers.reshape(-1, 3), vertices[:, 3:6], normals)
+        return Mesh(vertices[:, :3], numbers.reshape(-1, 3), vertices[:, 3:6].astype(np.uint8), normals)
 
 
 def union(*solids: Solid) -> Solid:

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import json
 import os
 import stat
-import sys
-import tomllib
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ...errors import InputError, InputWarning
+from ...json_text import read_json, read_toml
 
 #: No mesh that a contract takes comes near this size; beyond it a file would only fill the memory.
 MAX_BYTES = 256 * 2**20
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
-
-#: Calls and brackets, one in another; what Python allows by default.
-MAX_NESTING = 1000
 
 
 def read_bytes(path: Path) -> bytes:
@@ -63,17 +58,10 @@ def unix_lines(text: str) -> str:
 
 def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
     """The object that a text of a kind, .toml or .json, holds; `path` is for messages."""
-    limit = sys.getrecursionlimit()
     try:
-        # some packages raise the limit so far that brackets nested too deep would end the process
-        sys.setrecursionlimit(min(limit, MAX_NESTING))
-        document = tomllib.loads(text) if kind == ".toml" else json.loads(text)
-    except RecursionError:
-        raise InputError(f"{path} is not valid {kind[1:].upper()}: its brackets lie in one another too deep") from None
+        document = read_toml(text) if kind == ".toml" else read_json(text)
     except ValueError as error:
         raise InputError(f"{path} is not valid {kind[1:].upper()}: {' '.join(str(error).split())}") from None
-    finally:
-        sys.setrecursionlimit(limit)
     if not isinstance(document, Mapping):
         raise InputError(f"{path} must hold an object with the keys of a scene, not {document!r:.60}")
     return document

@@ -87,7 +87,7 @@ def _mesh(keys: Table, sign: int) -> Mesh | None:
         if len(outside):
             found = keys.get("cols")[outside[0]]
             raise InputError(f"cols[{outside[0]}] must be red, green and blue from 0 to 255, not {found}")
-        unused = np.zeros((max(0, len(positions) - len(colors)), 3))
+        unused = np.zeros((max(0, len(positions) - len(colors)), 3), dtype=np.int64)
         colors = np.concatenate([colors, unused])[: len(positions)]
     return Mesh(sign * positions, faces, colors)
 

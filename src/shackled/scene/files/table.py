@@ -79,15 +79,16 @@ class Table:
             raise InputError(f"{self.place(key)} must be {len(default)} numbers, not {value!r:.60}")
         return tuple(float(part) for part in value)
 
-    def matrix(self, key: str, whole: bool = False) -> NDArray[np.float64]:
-        """(n, 3): rows of three numbers, none if the key is absent."""
+    def matrix(self, key: str, whole: bool = False) -> NDArray[Any]:
+        """(n, 3): rows of three numbers, none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
         for place, row in rows:
             if not isinstance(row, list) or len(row) != 3 or not all(is_number(value) for value in row):
                 raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
-            if whole and not all(value % 1 == 0 for value in row):
+            if whole and not all(value % 1 == 0 and abs(value) < 2**53 for value in row):
                 raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
-        return np.array([row for _, row in rows], dtype=np.float64).reshape(-1, 3)
+        table: NDArray[Any] = np.array([row for _, row in rows], dtype=np.int64 if whole else np.float64)
+        return table.reshape(-1, 3)
 
     def flag(self, key: str, default: bool) -> bool:
         """True or false."""

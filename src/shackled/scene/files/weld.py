@@ -40,6 +40,6 @@ def weld(
     return Mesh(
         unique[:, :3],
         welded.reshape(-1, 3),
-        None if colors is None else unique[:, 3:6],
+        None if colors is None else unique[:, 3:6].astype(np.uint8),
         None if normals is None else unique[:, -3:],
     )

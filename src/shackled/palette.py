@@ -1,0 +1,51 @@
+"""Pictures in 256 colours, as GIF needs them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+MOST_COLORS = 256
+#: Frames that are looked at to choose the colours of a film.
+SAMPLED = 16
+
+Pixels = NDArray[np.uint8]
+
+
+def colors(frames: Sequence[Pixels]) -> int:
+    """How many colours there are in all frames."""
+    return len(_distinct(frames))
+
+
+def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
+    """Frames, (H, W, 3), in one palette of at most 256 colours: a colour that does not move does not flicker then.
+
+    Exact where there are no more; otherwise in the nearest.
+    """
+    found = _distinct(frames)
+    if len(found) <= MOST_COLORS:
+        table = np.stack([found >> 16, found >> 8 & 255, found & 255], axis=1).astype(np.uint8).tobytes()
+        pictures = [PillowImage.fromarray(np.searchsorted(found, _packed(f)).astype(np.uint8), "L") for f in frames]
+        for picture in pictures:
+            picture.putpalette(table)
+        return pictures
+    if len(frames) == 1:
+        return [PillowImage.fromarray(frames[0]).quantize(MOST_COLORS, dither=PillowImage.Dither.NONE)]
+    step = -(-len(frames) // SAMPLED)
+    sample = PillowImage.fromarray(np.concatenate(frames[::step]))
+    palette = PillowImage.new("P", (1, 1))
+    palette.putpalette(sample.quantize(MOST_COLORS, dither=PillowImage.Dither.NONE).getpalette() or [])
+    return [PillowImage.fromarray(f).quantize(palette=palette, dither=PillowImage.Dither.NONE) for f in frames]
+
+
+def _distinct(frames: Sequence[Pixels]) -> NDArray[np.int64]:
+    """The colours 0xRRGGBB of all frames, in order."""
+    return np.unique(np.concatenate([np.unique(_packed(frame)) for frame in frames]))
+
+
+def _packed(frame: Pixels) -> NDArray[np.int64]:
+    """(H, W): 0xRRGGBB."""
+    return np.asarray(frame.astype(np.int64) @ [1 << 16, 1 << 8, 1])
