@@ -8,6 +8,7 @@ import socket
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -67,9 +68,63 @@ def test_pages_of_others_are_refused(server: Started) -> None:
     assert ask(server, "", {"Origin": "null"})[0] == 403
     # a name of somebody else that leads to this machine
     assert ask(server, "", {"Host": "evil.example"})[0] == 403
+    assert ask(server, "", {"Origin": "http://["})[0] == 403
     for path in (f"live/{visitor(server)}", "_nicegui_ws/socket.io/?EIO=4&transport=websocket"):
         assert _upgrade(server, path, "http://evil.example") == 403
         assert _upgrade(server, path, f"http://{host}") == 101
+
+
+FETCH = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
+GOING = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        (FETCH, 403),
+        (FETCH | {"Sec-Fetch-Site": "same-site"}, 403),
+        (GOING | {"Sec-Fetch-Dest": "iframe"}, 403),
+        (GOING, 200),
+        (FETCH | {"Sec-Fetch-Site": "same-origin"}, 200),
+        (GOING | {"Sec-Fetch-Site": "none"}, 200),
+        ({}, 200),
+    ],
+    ids=["image", "neighbour", "frame", "link", "own", "typed", "program"],
+)
+def test_pages_of_others_make_no_work(server: Started, headers: dict[str, str], status: int) -> None:
+    assert ask(server, "", headers)[0] == status
+    if headers == GOING:
+        assert ask(server, "", headers, b"x")[0] == 403
+
+
+def test_who_lets_others_in_is_known_by_their_own_names(server: Started) -> None:
+    with creator("tetrahedron", "--host", "0.0.0.0", "--name", "Shackled.example") as open_to_all:
+        port = open_to_all.address.rsplit(":", 1)[1].strip("/")
+        local = Started(f"http://127.0.0.1:{port}/", open_to_all.at, open_to_all.process)
+        for name in ("evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[", ""):
+            assert ask(local, "", {"Host": f"{name}:{port}", "Origin": f"http://{name}:{port}"})[0] in (400, 403)
+        for name in ("192.0.2.7", "[2001:db8::7]", "localhost", socket.gethostname(), "shackled.example"):
+            assert ask(local, "", {"Host": f"{name}:{port}"})[0] == 200
+
+
+def test_pages_that_nobody_opens_take_little_memory() -> None:
+    with creator("tetrahedron") as started:
+
+        def memory() -> float:
+            found = re.search(r"VmRSS:\s*(\d+) kB", Path(f"/proc/{started.process.pid}/status").read_text())
+            assert found
+            return int(found[1]) / 1024
+
+        for _ in range(40):  # until as many are kept as ever are
+            ask(started, "")
+        before = memory()
+        names = [visitor(started) for _ in range(120)]
+        for _ in range(120):
+            ask(started, "nothing-of-that-name")
+        assert memory() - before < 20
+        # what such a page could do is gone with it; that of the last is there
+        assert ask(started, f"take/{names[0]}/svg")[0] == 404
+        assert ask(started, f"take/{names[-1]}/svg")[0] == 200
 
 
 def _upgrade(server: Started, path: str, origin: str) -> int:
@@ -136,7 +191,7 @@ def test_a_link_that_is_none_opens_the_page(server: Started) -> None:
 def test_files_of_an_upload() -> None:
     assert unpack(packed(("a.obj", b"v 0 0 0"))) == ("a.obj", b"v 0 0 0")
     name, data = unpack(packed(("a.obj", b"1"), ("../b.mtl", b"2")))
-    assert name == "files.zip"
+    assert name is None
     assert unpack(packed(("../b.mtl", b"2"), ("a.obj", b"1"))) == (name, data)  # it is the bytes that links name
     assert data.startswith(b"PK")
     assert b"b.mtl" in data

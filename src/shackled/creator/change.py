@@ -106,9 +106,11 @@ def remove_lamp(state: State, facts: Facts, number: int) -> State:
 def _tidy(of: Control, value: Any) -> Any:
     if of.kind != "number" or isinstance(value, bool) or not isinstance(value, int | float):
         return value
+    if not abs(value) < 1e9:  # nor is it a number of any control
+        return value
     if of.turn and abs(value) < 1e6:
         value = around(value)
-    return round(value) if of.whole and abs(value) < 1e9 else tidy(value)
+    return round(value) if of.whole else tidy(value)
 
 
 def _keys(path: str) -> tuple[str | int, ...]:
