@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import socket
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -17,8 +17,13 @@ from shackled.cli.app import run
 
 pytest.importorskip("nicegui", reason="the page needs nicegui")
 
+from nicegui import Client
+from nicegui.page import page
+
+from shackled.creator.web import unmet
 from shackled.creator.web.headers import numbered
 from shackled.creator.web.server import _browse, unpack
+from shackled.creator.web.unmet import MOST
 from shackled.errors import InputError
 
 
@@ -107,24 +112,35 @@ def test_who_lets_others_in_is_known_by_their_own_names(server: Started) -> None
             assert ask(local, "", {"Host": f"{name}:{port}"})[0] == 200
 
 
-def test_pages_that_nobody_opens_take_little_memory() -> None:
-    with creator("tetrahedron") as started:
+def test_pages_that_nobody_opens_are_few(server: Started) -> None:
+    names = [visitor(server) for _ in range(MOST + 12)]
+    # who asks for what there is not, is told by whether their page is still kept
+    kept = [ask(server, f"take/{name}/nothing")[0] == 400 for name in names]
+    assert kept == [False] * (len(names) - sum(kept)) + [True] * sum(kept)
+    assert MOST / 2 < sum(kept) <= MOST + 1
 
-        def memory() -> float:
-            found = re.search(r"VmRSS:\s*(\d+) kB", Path(f"/proc/{started.process.pid}/status").read_text())
-            assert found
-            return int(found[1]) / 1024
 
-        for _ in range(40):  # until as many are kept as ever are
-            ask(started, "")
-        before = memory()
-        names = [visitor(started) for _ in range(120)]
-        for _ in range(120):
-            ask(started, "nothing-of-that-name")
-        assert memory() - before < 20
-        # what such a page could do is gone with it; that of the last is there
-        assert ask(started, f"take/{names[0]}/svg")[0] == 404
-        assert ask(started, f"take/{names[-1]}/svg")[0] == 200
+def test_pages_that_nobody_opens_are_soon_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(unmet, "PATIENCE", 0.05)
+
+    async def story() -> list[int]:
+        counts = []
+        for _ in range(4):
+            Client(page(""))
+            unmet.bound_pages()
+            counts.append(len(Client.instances))
+        await asyncio.sleep(0.3)
+        return [*counts, len(Client.instances)]
+
+    before = len(Client.instances)
+    assert [count - before for count in asyncio.run(story())] == [1, 2, 3, 4, 0]
+
+
+def test_what_is_not_there_is_no_page(server: Started) -> None:
+    status, headers, body = ask(server, "nothing-of-that-name")
+    assert status == 404
+    assert headers["content-type"].startswith("text/plain")
+    assert len(body) < 100
 
 
 def _upgrade(server: Started, path: str, origin: str) -> int:
