@@ -139,7 +139,7 @@ function setValue(path, { value, changed, mixed }) {
     else if (input.type === "checkbox") { input.checked = Boolean(value); input.indeterminate = Boolean(mixed); }
     else if (input.type === "range") { if (input !== held) input.value = value === null ? input.max : place(input, value); fill(input); }
     else if (input !== document.activeElement || !typing) input.value = (mixed ? null : value) ?? (input.type === "color" ? "#808080" : "");
-    if (mixed || input.placeholder === "mixed") input.placeholder = mixed ? "mixed" : "";
+    if (input.type === "number" && (mixed || input.placeholder === "mixed")) input.placeholder = mixed ? "mixed" : "";
     input.classList.toggle("none", value === null);
     if (input.dataset.none) input.setAttribute("aria-description", value === null ? input.dataset.none : "");
   }
