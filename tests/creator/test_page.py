@@ -516,6 +516,13 @@ def test_the_link_restores_everything_in_another_browser(visit: NewPage) -> None
     assert other.input_value("[id='camera.azimuth']") == page.input_value("[id='camera.azimuth']")
 
 
+def test_where_a_link_works_is_said(visit: NewPage) -> None:
+    page = visit()
+    page.click("text=Download")
+    page.wait_for_function("() => document.querySelector('[data-text=link-note]').textContent.includes('alone')")
+    assert page.inner_text("[data-text=link-note]").startswith("The link works on this computer alone.")
+
+
 def test_a_link_to_a_file_that_is_not_here_says_so(visit: NewPage) -> None:
     from shackled.creator.link import to_link
     from shackled.creator.state import Source, State

@@ -9,6 +9,9 @@ import socket
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
@@ -20,9 +23,13 @@ pytest.importorskip("nicegui", reason="the page needs nicegui")
 from nicegui import Client
 from nicegui.page import page
 
+from shackled.creator.picture import Upload
+from shackled.creator.pool import Pool
+from shackled.creator.scene import Facts
+from shackled.creator.state import Source
 from shackled.creator.web import unmet
 from shackled.creator.web.headers import numbered
-from shackled.creator.web.server import _browse, unpack
+from shackled.creator.web.server import _browse, _first, unpack
 from shackled.creator.web.unmet import MOST
 from shackled.errors import InputError
 
@@ -247,6 +254,21 @@ def test_bad_input_is_told_in_one_line(capsys: pytest.CaptureFixture[str], serve
         error = capsys.readouterr().err
         assert words in error
         assert error.count("\n") == 1
+
+
+def test_what_was_done_to_the_first_file_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "a.obj").write_text("v 0 0 0\n")
+    facts = cast(Facts, SimpleNamespace(source=Source("upload", "ab" * 32)))
+
+    class Reader:
+        async def upload(self, visitor: str, name: str, data: bytes) -> Upload:
+            return Upload(facts.source, facts, ("One thing was left out.", "Another as well."))
+
+        async def open(self, source: Source) -> Facts:
+            return facts
+
+    assert asyncio.run(_first(cast(Pool, Reader()), tmp_path / "a.obj")) == facts.source
+    assert capsys.readouterr().err == "One thing was left out.\nAnother as well.\n"
 
 
 def test_without_a_browser_the_address_is_said(

@@ -125,7 +125,10 @@ async def _first(pool: Pool, first: Path | Piece | None) -> Source:
             data = first.read_bytes()
         except OSError as error:
             raise InputError(f"{first} cannot be read: {error.strerror}") from None
-        source = (await pool.upload("", first.name, data)).source
+        read = await pool.upload("", first.name, data)
+        for note in read.notes:
+            print(note, file=sys.stderr)
+        source = read.source
     await pool.open(source)
     return source
 

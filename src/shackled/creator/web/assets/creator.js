@@ -112,7 +112,7 @@ function toast(text, kind) {
   }
   while (toasts.children.length > 2) toasts.firstChild.remove();
   toasts.append(line);
-  setTimeout(() => line.remove(), kind === "alert" ? 15000 : 4000);
+  setTimeout(() => line.remove(), kind === "alert" ? 15000 : 3000 + 70 * text.length); // as long as it takes to read
 }
 document.addEventListener("close", () => document.body.append(toasts), true);
 
