@@ -771,7 +771,7 @@ def test_switches_and_sliders_with_high_contrast(visit: NewPage) -> None:
     slider = page.locator("[data-row='surface.ambient'] input[type=range]").screenshot()
     with PillowImage.open(io.BytesIO(slider)) as picture:
         end = picture.convert("RGB").crop((picture.width - 12, 0, picture.width - 4, picture.height))
-    assert len(end.getcolors()) > 1
+    assert len(end.getcolors() or ()) > 1
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

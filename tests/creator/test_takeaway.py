@@ -166,7 +166,7 @@ def test_the_line_for_cast_suffices_where_a_call_is_given_little() -> None:
 
         def ask(call: dict[str, str]) -> dict[str, Any]:
             parameters = [call, "latest", {place: {"code": code} for place, code in codes}]
-            body = {"jsonrpc": "2.0", "id": 1, "method": "eth_call", "params": parameters}
+            body: dict[str, Any] = {"jsonrpc": "2.0", "id": 1, "method": "eth_call", "params": parameters}
             answer: dict[str, Any] = requests.post(node.url, json=body, timeout=60).json()
             return answer
 
