@@ -793,6 +793,14 @@ def test_axe_finds_no_fault(visit: NewPage, scheme: str) -> None:
     assert found == []
 
 
+def test_no_bar_of_others_is_in_the_page(visit: NewPage) -> None:
+    page = visit()
+    page.route("**/slow", lambda route: None)  # which is never answered
+    page.evaluate("() => { const request = new XMLHttpRequest(); request.open('GET', '/slow'); request.send(); }")
+    page.wait_for_timeout(400)
+    assert page.locator(".q-loading-bar").count() == 0
+
+
 def _faults(results: Any) -> list[str]:
     return [
         f"{fault['id']}: {fault['nodes'][0]['html'][:200]}"
