@@ -798,7 +798,7 @@ def test_no_bar_of_others_is_in_the_page(visit: NewPage) -> None:
     page.route("**/slow", lambda route: None)  # which is never answered
     page.evaluate("() => { const request = new XMLHttpRequest(); request.open('GET', '/slow'); request.send(); }")
     page.wait_for_timeout(400)
-    assert page.locator(".q-loading-bar [role=progressbar]").count() == 0
+    assert page.locator(".q-loading-bar[role=progressbar]").count() == 0
 
 
 def _faults(results: Any) -> list[str]:
