@@ -44,6 +44,15 @@ def test_each_control_can_be_changed_and_reset(control: Any) -> None:
     assert not [path for path in others if get(state, FACTS, path) != get(PLAIN, FACTS, path)]
 
 
+def test_where_objects_differ_the_value_of_the_first_is_a_change() -> None:
+    facts = describe(Source("piece", "icons/coin"), load("icons/coin"), "Coin")
+    plain = State(facts.source)
+    assert not is_changed(plain, facts, "surface.shading")
+    state = put(plain, facts, "surface.shading", get(plain, facts, "surface.shading"))
+    assert is_changed(state, facts, "surface.shading")
+    assert reset_one(state, facts, "surface.shading") == plain
+
+
 def test_angles_go_round() -> None:
     state = put(PLAIN, FACTS, "camera.azimuth", 190)
     assert get(state, FACTS, "camera.azimuth") == -170

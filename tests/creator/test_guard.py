@@ -20,6 +20,7 @@ mine = Path(sys.argv[1])
 def tried(tmp_path: Path, code: str) -> str:
     """What a program prints that tries something in a guarded process."""
     (tmp_path / "secret.txt").write_text("secret")
+    (tmp_path / "secret.py").write_text("print('secret')")
     script = f"{PROLOGUE}\nwith folder() as inside:\n    try:\n        {code}\n    except ForbiddenError as error:\n"
     script += "        print('forbidden:', error)\nprint((mine / 'secret.txt').read_text())\n"
     found = subprocess.run(
@@ -41,6 +42,10 @@ def tried(tmp_path: Path, code: str) -> str:
         "subprocess.run(['true'])",
         "os.system('true')",
         "open(os.__file__, 'a')",
+        # of the kind that Python loads, but not from where it loads them
+        "open(mine / 'secret.py')",
+        "import importlib.util as u; s = u.spec_from_file_location('x', mine / 'secret.py');"
+        " s.loader.exec_module(u.module_from_spec(s))",
     ],
 )
 def test_nothing_outside_is_reached(code: str, tmp_path: Path) -> None:

@@ -21,25 +21,31 @@ ACCOUNT, COLLECTION, HASH = "0x" + "a1" * 20, "0x" + "c0" * 20, "0x" + "7a" * 32
 CHAIN, PRICE, ICON, TOKEN = 31337, 15 * 10**15, 3, 41
 TRANSFER = "0xddf252ad1be2c89b69c2b068fc378daa952ba7f163c4a11628f55a4df523b3ef"
 
-#: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test.
+#: A wallet that announces itself as EIP-6963 has it, and has each request answered by the test. Where `thinking` is set
+#: its owner thinks before a transaction is sent.
 WALLET = """
 const provider = { request: async ({ method, params }) => {
-    const { result, error } = await window.answer(method, params ?? []);
-    if (error) throw new Error(error);
+    while (window.thinking && method === 'eth_sendTransaction') await new Promise(done => setTimeout(done, 20));
+    const { result, error, code } = await window.answer(method, params ?? []);
+    if (error) throw Object.assign(new Error(error), { code });
     return result;
 } };
 const detail = Object.freeze({ info: { uuid: '1', name: '<b>Toy</b> wallet', rdns: 'test.toy', icon: '' }, provider });
 const announce = () => dispatchEvent(new CustomEvent('eip6963:announceProvider', { detail }));
 addEventListener('eip6963:requestProvider', announce);
 announce();
+const wires = [];
+window.WebSocket = class extends WebSocket { constructor(...all) { super(...all); wires.push(this); } };
+window.closeWire = () => wires.filter(({ url }) => url.includes('/live/')).forEach(wire => wire.close());
 """
 
 
 class Chain:
     """What the wallet answers. asked: the methods, in their order. sent: the transactions."""
 
-    def __init__(self, phase: int = 2, chain: int = CHAIN, refuses: bool = False) -> None:
-        self.phase, self.chain, self.refuses = phase, chain, refuses
+    def __init__(self, phase: int = 2, chain: int = CHAIN, error: str = "", code: int = -32603, of: str = "") -> None:
+        """error, code: the answer to the method `of`."""
+        self.phase, self.chain, self.error, self.code, self.of = phase, chain, error, code, of
         self.icons = Interface("IconsCollection")
         self.asked: list[str] = []
         self.sent: list[dict[str, str]] = []
@@ -47,6 +53,8 @@ class Chain:
 
     def answer(self, method: str, parameters: list[Any]) -> dict[str, Any]:
         self.asked.append(method)
+        if method == self.of:
+            return {"error": self.error, "code": self.code}
         if method == "eth_requestAccounts":
             return {"result": [ACCOUNT]}
         if method == "eth_chainId":
@@ -58,8 +66,6 @@ class Chain:
             assert parameters[0]["to"].lower() == COLLECTION
             return {"result": "0x" + self.read(bytes.fromhex(parameters[0]["data"][2:])).hex()}
         if method == "eth_sendTransaction":
-            if self.refuses:
-                return {"error": "User rejected the request."}
             self.sent.append(parameters[0])
             return {"result": HASH}
         assert method == "eth_getTransactionReceipt"
@@ -142,14 +148,104 @@ def test_the_wallet_is_asked_to_change_the_chain(browser: Any, server: Started) 
 
 @pytest.mark.parametrize(
     ("chain", "words"),
-    [(Chain(refuses=True), "User rejected"), (Chain(phase=0), "the sale is closed")],
-    ids=["refused", "closed"],
+    [
+        (Chain(error="Nonce too low", of="eth_sendTransaction"), "the wallet says: Nonce too low"),
+        (Chain(phase=0), "the sale is closed"),
+        (
+            Chain(
+                chain=1,
+                error="Unrecognized chain ID. Try adding the chain using wallet_addEthereumChain first.",
+                code=4902,
+                of="wallet_switchEthereumChain",
+            ),
+            "the wallet does not know a development chain (chain ID 31337): add it to the networks of the wallet",
+        ),
+    ],
+    ids=["failed", "closed", "unknown chain"],
 )
 def test_what_hinders_is_told(browser: Any, server: Started, chain: Chain, words: str) -> None:
     page = open_mint(browser, server, chain)
     page.click("text=Mint with")
     assert words in words_of(page, "Not minted")
     assert chain.sent == []
+
+
+@pytest.mark.parametrize("method", ["eth_requestAccounts", "wallet_switchEthereumChain", "eth_sendTransaction"])
+def test_who_says_no_is_not_shouted_at(browser: Any, server: Started, method: str) -> None:
+    words = "MetaMask Tx Signature: User denied transaction signature."
+    chain = Chain(chain=1, error=words, code=4001, of=method)
+    page = open_mint(browser, server, chain)
+    page.click("text=Mint with")
+    assert words_of(page, "Cancelled") == "Cancelled"
+    assert page.locator(".toast").count() == 0
+    assert chain.sent == []
+    chain.of = ""  # and may think again
+    page.click("text=Mint with")
+    words_of(page, "Minted")
+
+
+def test_two_clicks_mint_once(browser: Any, server: Started) -> None:
+    chain = Chain()
+    page = open_mint(browser, server, chain)
+    page.evaluate("window.thinking = true")
+    button = page.locator("text=Mint with")
+    button.click()
+    words_of(page, "The price is")
+    button.click(force=True)
+    # whatever the button lets through, the server refuses
+    button.evaluate("e => e.disabled = false")
+    button.click()
+    page.wait_for_selector(".toast.alert")
+    assert "a token is being minted: answer in your wallet" in page.inner_text(".toast.alert")
+    # the dialog, when it is opened anew, knows as well
+    page.click("#takeaway header [aria-label=Close]")
+    page.click("text=Download")
+    page.wait_for_selector("[data-name=mint-start]:disabled")
+    assert words_of(page, "The price is")
+    page.evaluate("window.thinking = false")
+    assert f"token {TOKEN}" in words_of(page, "Minted")
+    page.wait_for_selector("[data-name=mint-start]:not(:disabled)")
+    assert len(chain.sent) == 1
+    assert chain.asked.count("eth_sendTransaction") == 1
+
+
+def test_icons_are_read_together(browser: Any, server: Started) -> None:
+    """All answers are held back until five questions have been asked, which is as many as there are icons."""
+    chain = Chain()
+    page = open_mint(browser, server, chain)
+    page.evaluate(
+        """() => {
+            const answer = window.answer, icons = [];
+            window.answer = async (method, params) => {
+                if (method === 'eth_call' && params[0].data.startsWith(window.iconAt)) {
+                    await new Promise(done => {
+                        icons.push(done);
+                        if (icons.length >= 5) icons.forEach(each => each());
+                    });
+                }
+                return answer(method, params);
+            };
+        }"""
+    )
+    page.evaluate("data => { window.iconAt = data }", "0x" + chain.icons.encode("iconAt", 0)[:4].hex())
+    page.click("text=Mint with")
+    words_of(page, "Minted")
+
+
+def test_the_wire_may_break_while_the_wallet_is_asked(browser: Any, server: Started) -> None:
+    chain = Chain()
+    page = open_mint(browser, server, chain)
+    page.evaluate("window.thinking = true")
+    page.click("text=Mint with")
+    words_of(page, "The price is")
+    page.context.set_offline(True)  # sockets that are open stay so: this one is closed below
+    page.evaluate("window.closeWire()")
+    page.wait_for_selector("body.offline")
+    page.evaluate("window.thinking = false")
+    page.wait_for_timeout(200)
+    page.context.set_offline(False)
+    assert f"token {TOKEN}" in words_of(page, "Minted")
+    assert chain.asked.count("eth_sendTransaction") == 1
 
 
 def test_without_a_wallet(browser: Any, server: Started) -> None:

@@ -27,6 +27,7 @@ from shackled.creator.limits import Limits
 from shackled.creator.pool import Pool
 from shackled.creator.scene import to_scene
 from shackled.creator.state import Size, Source, State
+from shackled.creator.tasks import Desk
 from shackled.gas.stages import STAGES
 from shackled.scene.turning import full_turn
 from strange_desk import StrangeDesk
@@ -125,6 +126,25 @@ def test_what_comes_to_nothing_counts_as_well() -> None:
         assert done[1:16] == ["good"] * 15
 
     with_lane(test, seconds=0.5)
+
+
+def test_nobody_is_behind_for_long(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who has had much waits for a bounded while, however little the others ask for."""
+    monkeypatch.setattr("shackled.creator.lane.BEHIND", 0.1)
+
+    async def test(line: Lane) -> None:
+        await line.warm()
+        done: list[str] = []
+
+        async def ask(visitor: str, count: int, seconds: float) -> None:
+            for _ in range(count):
+                done.append(await line.ask(visitor, "x", "work", (seconds, visitor)))
+
+        await asyncio.gather(ask("heavy", 2, 0.4), ask("a", 15, 0.02), ask("b", 15, 0.02))
+        assert done[0] == "heavy"
+        assert 3 <= done.index("heavy", 1) <= 20
+
+    with_lane(test)
 
 
 def test_who_stays_away_saves_nothing_up() -> None:
@@ -297,6 +317,17 @@ def test_a_picture_is_that_of_the_command_line() -> None:
         assert (quick.width, quick.height, quick.triangles) == (16, 8, None)
 
     with_pool(test)
+
+
+def test_of_a_picture_that_passes_by_no_file_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*arguments: Any, **settings: Any) -> None:
+        raise AssertionError("it is shown as it came")
+
+    desk = Desk(Limits(), lambda done, total: None)
+    monkeypatch.setattr(PillowImage.Image, "save", fail)
+    monkeypatch.setattr("hashlib.sha256", fail)
+    frame = desk.picture(TETRAHEDRON, 16, count=False)
+    assert frame.bmp.startswith(b"BM")
 
 
 def test_a_large_picture_does_not_stand_in_the_way(monkeypatch: pytest.MonkeyPatch) -> None:

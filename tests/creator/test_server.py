@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import socket
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
@@ -16,8 +20,17 @@ from shackled.cli.app import run
 
 pytest.importorskip("nicegui", reason="the page needs nicegui")
 
+from nicegui import Client
+from nicegui.page import page
+
+from shackled.creator.picture import Upload
+from shackled.creator.pool import Pool
+from shackled.creator.scene import Facts
+from shackled.creator.state import Source
+from shackled.creator.web import unmet
 from shackled.creator.web.headers import numbered
-from shackled.creator.web.server import _browse, unpack
+from shackled.creator.web.server import _browse, _first, unpack
+from shackled.creator.web.unmet import MOST
 from shackled.errors import InputError
 
 
@@ -67,9 +80,74 @@ def test_pages_of_others_are_refused(server: Started) -> None:
     assert ask(server, "", {"Origin": "null"})[0] == 403
     # a name of somebody else that leads to this machine
     assert ask(server, "", {"Host": "evil.example"})[0] == 403
+    assert ask(server, "", {"Origin": "http://["})[0] == 403
     for path in (f"live/{visitor(server)}", "_nicegui_ws/socket.io/?EIO=4&transport=websocket"):
         assert _upgrade(server, path, "http://evil.example") == 403
         assert _upgrade(server, path, f"http://{host}") == 101
+
+
+FETCH = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
+GOING = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        (FETCH, 403),
+        (FETCH | {"Sec-Fetch-Site": "same-site"}, 403),
+        (GOING | {"Sec-Fetch-Dest": "iframe"}, 403),
+        (GOING, 200),
+        (FETCH | {"Sec-Fetch-Site": "same-origin"}, 200),
+        (GOING | {"Sec-Fetch-Site": "none"}, 200),
+        ({}, 200),
+    ],
+    ids=["image", "neighbour", "frame", "link", "own", "typed", "program"],
+)
+def test_pages_of_others_make_no_work(server: Started, headers: dict[str, str], status: int) -> None:
+    assert ask(server, "", headers)[0] == status
+    if headers == GOING:
+        assert ask(server, "", headers, b"x")[0] == 403
+
+
+def test_who_lets_others_in_is_known_by_their_own_names(server: Started) -> None:
+    with creator("tetrahedron", "--host", "0.0.0.0", "--name", "Shackled.example") as open_to_all:
+        port = open_to_all.address.rsplit(":", 1)[1].strip("/")
+        local = Started(f"http://127.0.0.1:{port}/", open_to_all.at, open_to_all.process)
+        for name in ("evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[", ""):
+            assert ask(local, "", {"Host": f"{name}:{port}", "Origin": f"http://{name}:{port}"})[0] in (400, 403)
+        for name in ("192.0.2.7", "[2001:db8::7]", "localhost", socket.gethostname(), "shackled.example"):
+            assert ask(local, "", {"Host": f"{name}:{port}"})[0] == 200
+
+
+def test_pages_that_nobody_opens_are_few(server: Started) -> None:
+    names = [visitor(server) for _ in range(MOST + 12)]
+    # who asks for what there is not, is told by whether their page is still kept
+    kept = [ask(server, f"take/{name}/nothing")[0] == 400 for name in names]
+    assert kept == [False] * (len(names) - sum(kept)) + [True] * sum(kept)
+    assert MOST / 2 < sum(kept) <= MOST + 1
+
+
+def test_pages_that_nobody_opens_are_soon_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(unmet, "PATIENCE", 0.05)
+
+    async def story() -> list[int]:
+        counts = []
+        for _ in range(4):
+            Client(page(""))
+            unmet.bound_pages()
+            counts.append(len(Client.instances))
+        await asyncio.sleep(0.3)
+        return [*counts, len(Client.instances)]
+
+    before = len(Client.instances)
+    assert [count - before for count in asyncio.run(story())] == [1, 2, 3, 4, 0]
+
+
+def test_what_is_not_there_is_no_page(server: Started) -> None:
+    status, headers, body = ask(server, "nothing-of-that-name")
+    assert status == 404
+    assert headers["content-type"].startswith("text/plain")
+    assert len(body) < 100
 
 
 def _upgrade(server: Started, path: str, origin: str) -> int:
@@ -136,7 +214,7 @@ def test_a_link_that_is_none_opens_the_page(server: Started) -> None:
 def test_files_of_an_upload() -> None:
     assert unpack(packed(("a.obj", b"v 0 0 0"))) == ("a.obj", b"v 0 0 0")
     name, data = unpack(packed(("a.obj", b"1"), ("../b.mtl", b"2")))
-    assert name == "files.zip"
+    assert name is None
     assert unpack(packed(("../b.mtl", b"2"), ("a.obj", b"1"))) == (name, data)  # it is the bytes that links name
     assert data.startswith(b"PK")
     assert b"b.mtl" in data
@@ -176,6 +254,21 @@ def test_bad_input_is_told_in_one_line(capsys: pytest.CaptureFixture[str], serve
         error = capsys.readouterr().err
         assert words in error
         assert error.count("\n") == 1
+
+
+def test_what_was_done_to_the_first_file_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "a.obj").write_text("v 0 0 0\n")
+    facts = cast(Facts, SimpleNamespace(source=Source("upload", "ab" * 32)))
+
+    class Reader:
+        async def upload(self, visitor: str, name: str, data: bytes) -> Upload:
+            return Upload(facts.source, facts, ("One thing was left out.", "Another as well."))
+
+        async def open(self, source: Source) -> Facts:
+            return facts
+
+    assert asyncio.run(_first(cast(Pool, Reader()), tmp_path / "a.obj")) == facts.source
+    assert capsys.readouterr().err == "One thing was left out.\nAnother as well.\n"
 
 
 def test_without_a_browser_the_address_is_said(

@@ -9,13 +9,17 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import requests
 from PIL import Image as PillowImage
 
+from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
 from shackled.chain import open_chain
 from shackled.chain.chain import returned_bytes
@@ -48,7 +52,7 @@ class Picture:
 
     def __init__(self, name: str, look: str = "", scene: Scene | None = None, source: Source | None = None) -> None:
         self.source = load(name) if scene is None else scene
-        self.facts = describe(source or Source("piece", name), self.source, name)
+        self.facts = describe(source or Source("piece", name), self.source, name, licence="MIT")
         self.state = State(self.facts.source)
         if look:
             self.state = dressed(self.state, self.facts, look)
@@ -134,7 +138,7 @@ def test_a_line_for_cast(kind: str) -> None:
     line = picture.take(kind).data.decode()
     match = re.fullmatch(
         r"cast call (0x[0-9a-f]{40}) (0x[0-9a-f]+)((?: --override-code 0x[0-9a-f]{40}:0x[0-9a-f]+)*)"
-        r' --rpc-url "\$\{ETH_RPC_URL:-http://127.0.0.1:8545\}" \| cut -c131- \| xxd -r -p'
+        r' --gas-limit (\d+) --rpc-url "\$\{ETH_RPC_URL:-http://127.0.0.1:8545\}" \| cut -c131- \| xxd -r -p'
         r" \| head -c (\d+) > icons-coin.bmp\n",
         line,
     )
@@ -146,7 +150,84 @@ def test_a_line_for_cast(kind: str) -> None:
     assert all(chain().codes()[bytes.fromhex(place[2:])].hex() == code[2:] for place, code in codes.items())
     # what the shell makes of the answer
     answer = "0x" + chain().call("Renderer", bytes.fromhex(match[2][2:])).output.hex()
-    assert bytes.fromhex(answer[130:])[: int(match[4])] == picture.image.bmp
+    assert bytes.fromhex(answer[130:])[: int(match[5])] == picture.image.bmp
+
+
+@needs_anvil
+def test_the_line_for_cast_suffices_where_a_call_is_given_little() -> None:
+    """A node gives a call that names no limit what it likes: anvil as much as a block may have."""
+    picture = Picture("icons/coin", "gold")
+    picture.state = put(put(picture.state, picture.facts, "size.width", 256), picture.facts, "size.height", 256)
+    words = picture.take("cast-anywhere").data.decode().split()
+    given = dict(pairwise(words))
+    codes = [following.split(":") for word, following in pairwise(words) if word == "--override-code"]
+    call = {"to": words[2], "data": words[3], "gas": hex(int(given["--gas-limit"]))}
+    with anvil("--gas-limit", "10000000") as node:
+
+        def ask(call: dict[str, str]) -> dict[str, Any]:
+            parameters = [call, "latest", {place: {"code": code} for place, code in codes}]
+            body: dict[str, Any] = {"jsonrpc": "2.0", "id": 1, "method": "eth_call", "params": parameters}
+            answer: dict[str, Any] = requests.post(node.url, json=body, timeout=60).json()
+            return answer
+
+        assert "error" in ask({key: value for key, value in call.items() if key != "gas"})
+        assert returned_bytes(bytes.fromhex(ask(call)["result"][2:]), 0) == picture.image.bmp
+
+
+def test_files_of_all_kinds_lie_side_by_side() -> None:
+    picture = Picture("tetrahedron")
+    picture.state = put(put(picture.state, picture.facts, "size.width", 8), picture.facts, "size.height", 8)
+    names = [picture.take(kind.name).name for kind in KINDS if kind.name != "file"]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(
+    ("licence", "identifier"),
+    [
+        ("MIT", "MIT"),
+        ("CC0", "CC0-1.0"),
+        ("CC0-1.0", "CC0-1.0"),
+        ("none stated; not to be passed on", "LicenseRef-none-stated-not-to-be-passed-on"),
+        ("", "UNLICENSED"),
+    ],
+)
+def test_meshes_keep_their_licence_in_solidity(licence: str, identifier: str) -> None:
+    picture = Picture("tetrahedron")
+    notice = f"tetra: by Nobody; licence: {licence}; not for commercial use" if licence.startswith("none") else ""
+    picture.facts = replace(picture.facts, licence=licence, notice=notice)
+    lines = picture.take("solidity").data.decode().splitlines()
+    assert lines[0] == f"// SPDX-License-Identifier: {identifier}"
+    beside = lines[next(number for number, line in enumerate(lines) if "bytes.concat" in line) - 1]
+    if notice:
+        assert beside.strip() == f"// {notice}"
+    elif licence:
+        assert beside.strip() == f"// The licence of this mesh: {licence}"
+    else:
+        assert "licence of this mesh is not known" in "".join(lines)
+
+
+def test_a_contract_without_the_meshes_is_ours(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.creator.solidity_contract.MAX_CONSTANT", 0)
+    picture = Picture("tetrahedron")
+    picture.facts = replace(picture.facts, licence="")
+    text = picture.take("solidity").data.decode()
+    assert text.startswith("// SPDX-License-Identifier: MIT\n")
+    assert 'hex"' not in text
+
+
+def test_the_link_says_where_it_works() -> None:
+    picture = Picture("tetrahedron")
+    for kind in ("python", "solidity"):
+        for link, alone in (
+            ("http://127.0.0.1:8080/?p=1abc", True),
+            ("http://localhost:8080/?p=1abc", True),
+            ("http://[::1]:8080/?p=1abc", True),
+            ("https://shackled.example/?p=1abc", False),
+            ("http://192.168.1.20:8080/?p=1abc", False),
+        ):
+            text = picture.take(kind, link=link).data.decode()
+            assert link in text
+            assert ("The link works on this computer alone." in text) == alone
 
 
 def test_a_line_that_no_shell_takes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -159,7 +240,7 @@ def test_a_line_that_no_shell_takes(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_python_snippet_makes_the_picture(name: str, look: str, tmp_path: Path) -> None:
     picture = Picture(name, look)
     file = picture.take("python", link="http://127.0.0.1/#1abc")
-    assert file.data.startswith(b"# http://127.0.0.1/#1abc\nimport hashlib\n")
+    assert file.data.startswith(b"# http://127.0.0.1/#1abc\n# The link works on this computer alone.\nimport hashlib\n")
     (tmp_path / file.name).write_bytes(file.data)
     subprocess.run([sys.executable, file.name], cwd=tmp_path, check=True, capture_output=True)
     with PillowImage.open(tmp_path / file.name.replace(".py", ".png")) as png:

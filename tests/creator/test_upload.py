@@ -50,7 +50,7 @@ class Visitor:
     def _do(self, coroutine: Any) -> Any:
         return self._thread.submit(lambda: self._loop.run_until_complete(coroutine)).result(60)
 
-    def upload(self, name: str, data: bytes) -> Any:
+    def upload(self, name: str | None, data: bytes) -> Any:
         return self._do(self.pool.upload("a", name, data))
 
     def render(self, state: State) -> Any:
@@ -390,6 +390,22 @@ def test_no_damage_is_more_than_a_message(visitor: Visitor, data: st.DataObject)
         )
     with suppress(InputError):
         visitor.upload(name, bytes(content))
+
+
+def test_files_that_are_handed_in_together(visitor: Visitor) -> None:
+    """Nobody made an archive of them: what is said is of the files."""
+    read = visitor.upload(None, zipped({"chair.mtl": b"newmtl m", "my chair.obj": b"mtllib chair.mtl\n" + TRIANGLE}))
+    assert read.facts.title == "my chair.obj"
+    assert visitor.pool.store.get(read.source.name).name == "my chair.zip"
+    scene = visitor.upload(None, zipped({"s.toml": b'[[objects]]\nmesh = "a.obj"\n', "a.obj": TRIANGLE}))
+    assert scene.facts.title == "s.toml"
+    assert visitor.upload("set.zip", zipped({"a.obj": TRIANGLE})).facts.title == "set.zip"
+    with pytest.raises(InputError) as error:
+        visitor.upload(None, zipped({"a.obj": TRIANGLE, "b.obj": TRIANGLE}))
+    assert str(error.value) == "the selection has 2 files that could be meant (a.obj, b.obj); leave one in it"
+    with pytest.raises(InputError) as error:
+        visitor.upload(None, zipped({"a.obj": b"f 1 2 3", "a.mtl": b"newmtl m"}))
+    assert "zip" not in str(error.value)
 
 
 def test_files_of_the_server_are_out_of_reach(visitor: Visitor, tmp_path: Path) -> None:

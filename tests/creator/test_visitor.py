@@ -61,7 +61,7 @@ class SlowPool:
 
 
 def frame(side: int = 8) -> Frame:
-    return Frame(b"png", b"bmp", side, side, 1_234_567, 21_000, 3, 40, 500, "", 0.01, ())
+    return Frame(b"bmp", side, side, 1_234_567, 21_000, 3, 40, 500, 0.01, ())
 
 
 class Page:
@@ -88,10 +88,10 @@ async def turn() -> None:
         await asyncio.sleep(0)
 
 
-def play(story: Any) -> None:
+def play(story: Any, source: Source = SOURCE) -> None:
     async def run() -> None:
         pool, page = SlowPool(), Page()
-        visitor = Visitor("v", cast(Pool, pool), State(SOURCE), facts_of(SOURCE))
+        visitor = Visitor("v", cast(Pool, pool), State(source), facts_of(source))
         await visitor.join(page.send)
         await turn()
         await cast(Coroutine[Any, Any, None], story(visitor, pool, page))
@@ -251,6 +251,8 @@ def test_who_leaves_is_drawn_nothing() -> None:
         {"do": "orbit", "x": float("nan"), "y": 0},
         {"do": "orbit", "x": "1", "y": 0},
         {"do": "orbit", "x": True, "y": 0},
+        {"do": "put", "path": "camera.azimuth", "value": 10**400},
+        {"do": "put", "path": "lights.0.azimuth", "value": -(10**400)},
         {"do": "put"},
         {"do": "put", "path": "camera.fov", "value": "wide"},
         {"do": "put", "path": "camera.fov", "value": None},
@@ -282,6 +284,101 @@ def test_what_strangers_send_changes_nothing(message: object) -> None:
         await act(visitor, message)
         assert visitor.state == before
         assert all("\n" not in words for words in page.said("alert"))
+
+    play(story)
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"do": "orbit", "x": 10**400, "y": -(10**400)},
+        {"do": "zoom", "notches": 10**400},
+        {"do": "put", "path": "camera.fov", "value": 10**400},
+        {"do": "put", "path": "camera.target.x", "value": -(10**400)},
+    ],
+)
+def test_a_number_of_400_digits_counts_as_the_largest(message: dict[str, Any]) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        before = visitor.state
+        await act(visitor, message)
+        assert page.said("alert") == []
+        assert visitor.state != before
+
+    play(story)
+
+
+def test_where_objects_differ_no_value_is_shown_as_theirs() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await turn()
+        first = visitor.facts.defaults.surface.shading
+        assert page.said("values")[0]["surface.shading"] == {"value": first, "changed": False, "mixed": True}
+        await answer(pool.asked[0])
+        await act(visitor, {"do": "put", "path": "surface.shading", "value": first})
+        await turn()
+        await answer(pool.asked[1])
+        # that of the first object is another picture, for the others had another one
+        assert page.pictures[-1]["show"]["values"]["surface.shading"] == {"value": first, "changed": True}
+        await act(visitor, {"do": "reset", "path": "surface.shading"})
+        await turn()
+        await answer(pool.asked[2])
+        assert page.pictures[-1]["show"]["values"]["surface.shading"]["mixed"] is True
+
+    play(story, Source("piece", "icons/coin"))
+
+
+MINT = {"do": "mint", "wallet": 0}
+
+
+def at_the_wallet(visitor: Visitor, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Whoever mints asks the wallet for a transaction, and for nothing else; the outcomes."""
+    outcomes: list[str] = []
+
+    async def mint(offer: Any, wallet: Any, tell: Any) -> str:
+        outcomes.append(await wallet.request("eth_sendTransaction", {}))
+        return "Minted"
+
+    monkeypatch.setattr("shackled.creator.web.actions.mint", mint)
+    monkeypatch.setattr("shackled.creator.web.actions.offer_of", lambda source: object())
+    visitor.wallets = ["Toy"]
+    return outcomes
+
+
+def test_one_request_to_a_wallet_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        outcomes = at_the_wallet(visitor, monkeypatch)
+        for _ in range(3):
+            await act(visitor, MINT)
+            await turn()
+        (question,) = page.said("wallet")
+        assert len(page.said("alert")) == 2
+        assert "a token is being minted" in page.said("alert")[0]
+        await act(visitor, {"do": "answer", "id": question["id"], "result": "0x1"})
+        await turn()
+        assert outcomes == ["0x1"]
+        await act(visitor, MINT)  # and another one after it
+        await turn()
+        assert len(page.said("wallet")) == 2
+
+    play(story)
+
+
+def test_what_a_wallet_was_asked_outlives_the_wire(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        outcomes = at_the_wallet(visitor, monkeypatch)
+        await act(visitor, MINT)
+        await turn()
+        (question,) = page.said("wallet")
+        visitor.leave(page.send)
+        await turn()
+        again = Page()
+        await visitor.join(again.send)
+        await act(visitor, MINT)
+        assert "a token is being minted" in again.said("alert")[0]
+        assert again.said("wallet") == [question]  # of the same number: the page asks its wallet but once
+        await act(visitor, {"do": "answer", "id": question["id"], "result": "0x2"})
+        await turn()
+        assert outcomes == ["0x2"]
+        visitor.leave(again.send)
 
     play(story)
 

@@ -40,6 +40,16 @@ def test_who_is_gone_makes_room(monkeypatch: pytest.MonkeyPatch) -> None:
         everybody.add(STATE, FACTS)
 
 
+def test_whose_page_is_gone_is_forgotten() -> None:
+    everybody = Visitors(POOL)
+    gone, here = everybody.add(STATE, FACTS), everybody.add(STATE, FACTS)
+    here._send = cast(Any, print)
+    for each in (gone, here):
+        everybody.drop(each)
+    assert everybody.find(gone.name) is None
+    assert everybody.find(here.name) is here
+
+
 def test_who_is_long_gone_is_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
     everybody = Visitors(POOL)
     first = everybody.add(STATE, FACTS)

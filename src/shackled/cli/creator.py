@@ -27,6 +27,15 @@ def creator(
     host: Annotated[
         str, typer.Option("--host", help="The address to listen at. Others than 127.0.0.1 let others in.")
     ] = "127.0.0.1",
+    name: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--name",
+            help="A name under which the page may be asked for, such as that of a proxy before it; may be repeated."
+            " Addresses, localhost and the name of this machine need not be given.",
+            metavar="HOST",
+        ),
+    ] = None,
     rpc: Annotated[
         str | None, typer.Option("--rpc", help="A node, with whose pictures ours can be compared.", metavar="URL")
     ] = None,
@@ -36,4 +45,4 @@ def creator(
         raise InputError("the page needs the package nicegui: pip install 'shackled[creator]'")
     from ..creator.web.server import serve
 
-    serve(input, host=host, port=port, fallback_port=PORT, open_browser=browser, node=rpc)
+    serve(input, host=host, port=port, fallback_port=PORT, open_browser=browser, node=rpc, names=name or ())

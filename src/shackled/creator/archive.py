@@ -17,38 +17,38 @@ _CHUNK = 1 << 16
 _DEPTH, _NAME = 6, 120
 
 
-def unpack(data: bytes, folder: Path, limits: Limits) -> Path:
+def unpack(data: bytes, folder: Path, limits: Limits, what: str = "the archive") -> Path:
     """Unpacks an archive; the mesh or scene file in it. InputError if there is not just one, or anything is wrong.
 
-    A scene file comes before the meshes that it may be made of.
+    A scene file comes before the meshes that it may be made of. what: the archive is called in messages.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            names = _checked(archive, limits)
+            names = _checked(archive, limits, what)
             left = limits.unpacked
             for name, entry in names.items():
                 target = folder.joinpath(*name.parts)
                 target.parent.mkdir(parents=True, exist_ok=True)
                 left = _extract(archive, entry, target, left, limits.unpacked)
     except (zipfile.BadZipFile, zipfile.LargeZipFile, EOFError, NotImplementedError, RuntimeError, OSError) as error:
-        raise InputError(f"the archive cannot be unpacked: {' '.join(str(error).split())[:100]}") from None
+        raise InputError(f"{what} cannot be unpacked: {' '.join(str(error).split())[:100]}") from None
     except ValueError as error:
         if isinstance(error, InputError):
             raise
         raise InputError("the archive cannot be unpacked") from None
     except Exception as error:  # zlib.error, LZMAError: each way of packing has its own
         raise InputError(f"the archive is damaged: {' '.join(str(error).split())[:100]}") from None
-    return folder.joinpath(*_main(list(names)).parts)
+    return folder.joinpath(*_main(list(names), what).parts)
 
 
-def _checked(archive: zipfile.ZipFile, limits: Limits) -> dict[PurePosixPath, zipfile.ZipInfo]:
+def _checked(archive: zipfile.ZipFile, limits: Limits, what: str) -> dict[PurePosixPath, zipfile.ZipInfo]:
     entries = [entry for entry in archive.infolist() if not entry.is_dir()]
     if len(entries) > limits.entries:
-        raise InputError(f"the archive has {len(entries):,} files; up to {limits.entries} are read")
+        raise InputError(f"{what} has {len(entries):,} files; up to {limits.entries} are read")
     whole = sum(entry.file_size for entry in entries)
     if whole > limits.unpacked:
         raise InputError(
-            f"the archive holds {whole / MEGABYTE:,.0f} MB; up to {limits.unpacked / MEGABYTE:.0f} MB are unpacked"
+            f"{what} holds {whole / MEGABYTE:,.0f} MB; up to {limits.unpacked / MEGABYTE:.0f} MB are unpacked"
         )
     names: dict[PurePosixPath, zipfile.ZipInfo] = {}
     for entry in entries:
@@ -77,15 +77,15 @@ def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, lef
     return left
 
 
-def _main(names: list[PurePosixPath]) -> PurePosixPath:
+def _main(names: list[PurePosixPath], what: str) -> PurePosixPath:
     for known in (SCENES, tuple(READERS)):
         found = [name for name in names if name.suffix.lower() in known]
         if len(found) == 1:
             return found[0]
         if found:
             shown = ", ".join(str(name) for name in found[:4])
-            raise InputError(f"the archive has {len(found)} files that could be meant ({shown:.120}); leave one in it")
-    raise InputError(f"the archive has no mesh or scene file: {', '.join((*READERS, *SCENES))}")
+            raise InputError(f"{what} has {len(found)} files that could be meant ({shown:.120}); leave one in it")
+    raise InputError(f"{what} has no mesh or scene file: {', '.join((*READERS, *SCENES))}")
 
 
 def _is_hidden(name: PurePosixPath) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from ..artifacts import artifact
+from ..chain.chain import CallResult
 from ..chain.embedded import EmbeddedChain
 from ..errors import InputError
-from ..gas.exact import render_call
+from ..gas.exact import KEPT, floor_gas, render_call
 from .subject import Subject
 
 #: The longest argument of a program on Linux.
@@ -20,12 +21,14 @@ def cast_command(subject: Subject, chain: EmbeddedChain, everything: bool) -> st
     """
     scene = subject.scene
     address = "0x" + chain.address("Renderer").hex()
-    data = "0x" + render_call(scene).hex()
+    call = render_call(scene)
+    data = "0x" + call.hex()
     if len(data) > MAX_ARGUMENT:
         raise InputError(
             f"the call has {len(data) // 2 - 1:,} bytes, too many for a command line, which takes"
             f" {MAX_ARGUMENT // 2 - 1:,}: take the calldata, or fewer triangles"
         )
+    gas = _gas_limit(chain.call("Renderer", call), call)
     size = 54 + (3 * scene.width + 3) // 4 * 4 * scene.height
     overrides = ""
     if everything:
@@ -34,4 +37,14 @@ def cast_command(subject: Subject, chain: EmbeddedChain, everything: bool) -> st
         overrides = "".join(f" --override-code {code}" for code in codes)
     # the answer is two words, where the bytes begin and how many they are, and then the bytes
     keep = f"cut -c131- | xxd -r -p | head -c {size} > {subject.stem}.bmp"
-    return f'cast call {address} {data}{overrides} --rpc-url "${{ETH_RPC_URL:-http://127.0.0.1:8545}}" | {keep}\n'
+    node = '--rpc-url "${ETH_RPC_URL:-http://127.0.0.1:8545}"'
+    return f"cast call {address} {data}{overrides} --gas-limit {gas} {node} | {keep}\n"
+
+
+def _gas_limit(result: CallResult, data: bytes) -> int:
+    """What the call needs, which may be more than a node gives a call that names no limit.
+
+    A quarter is added to what it takes here, for nodes that count by the rules of another fork.
+    """
+    needed = max(result.intrinsic_gas + result.gas + result.gas // (KEPT - 1) + 1, floor_gas(data))
+    return needed + needed // 4

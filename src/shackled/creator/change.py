@@ -23,10 +23,7 @@ _APART = 0.82
 
 def get(state: State, facts: Facts, path: str) -> Any:
     """What a control shows: the value, or the source's own. None where that is a choice."""
-    value: Any = filled(state, facts)
-    for key in _keys(path):
-        value = value[key] if isinstance(key, int) else getattr(value, key)
-    return value
+    return _at(filled(state, facts), _keys(path))
 
 
 def put(state: State, facts: Facts, path: str, value: Any) -> State:
@@ -47,7 +44,9 @@ def put(state: State, facts: Facts, path: str, value: Any) -> State:
 
 
 def is_changed(state: State, facts: Facts, path: str) -> bool:
-    """Whether a control shows anything else than the source's own."""
+    """Whether a control shows anything else than the source's own; any value does, where its objects differ."""
+    if path in facts.mixed:
+        return _at(state, _keys(path)) is not None
     return bool(get(state, facts, path) != get(State(state.source), facts, path))
 
 
@@ -70,7 +69,7 @@ def reset_one(state: State, facts: Facts, path: str) -> State:
     if keys[0] == "surface":
         return replace(state, surface=replace(state.surface, **{str(keys[1]): getattr(Surface(), str(keys[1]))}))
     if keys[0] == "pose":
-        return put(state, facts, path, _default(Pose(), keys[1:]))
+        return put(state, facts, path, _at(Pose(), keys[1:]))
     lamps = facts.defaults.lights or ()
     if keys[0] == "lights" and int(keys[1]) >= len(lamps):
         return put(state, facts, path, getattr(Lamp(), str(keys[2])))
@@ -106,9 +105,11 @@ def remove_lamp(state: State, facts: Facts, number: int) -> State:
 def _tidy(of: Control, value: Any) -> Any:
     if of.kind != "number" or isinstance(value, bool) or not isinstance(value, int | float):
         return value
+    if not abs(value) < 1e9:  # nor is it a number of any control
+        return value
     if of.turn and abs(value) < 1e6:
         value = around(value)
-    return round(value) if of.whole and abs(value) < 1e9 else tidy(value)
+    return round(value) if of.whole else tidy(value)
 
 
 def _keys(path: str) -> tuple[str | int, ...]:
@@ -130,7 +131,8 @@ def _with(part: Any, keys: tuple[str | int, ...], value: Any) -> Any:
     return (*part[:key], _with(part[key], keys[1:], value), *part[key + 1 :])
 
 
-def _default(part: Any, keys: tuple[str | int, ...]) -> Any:
+def _at(part: Any, keys: tuple[str | int, ...]) -> Any:
+    """What the keys lead to."""
     for key in keys:
         part = part[key] if isinstance(key, int) else getattr(part, key)
     return part

@@ -75,7 +75,7 @@ def _fit(
 
 
 def headline(fits: tuple[Fit, ...]) -> str:
-    """The same in a few words, for instance "fits in one transaction and every public node"."""
+    """The same in a few words, for instance "fits one transaction, and any node's read call"; two lines on the page."""
     transactions = [fit for fit in fits if fit.kind == "transaction"]
     calls = [fit for fit in fits if fit.kind == "call"]
     nodes = sum(fit.fits for fit in calls)
@@ -83,9 +83,9 @@ def headline(fits: tuple[Fit, ...]) -> str:
     if nodes == len(calls):
         where = "any node's read call"
     elif nodes:
-        where = f"a read call of {nodes} of {len(calls)} kinds of nodes"
+        where = f"calls of {nodes} of {len(calls)} kinds of nodes"
     else:
-        return "fits no usual node: take fewer pixels or triangles, or your own node"
+        return "fits no usual node: take fewer pixels or triangles"
     return f"fits one transaction, and {where}" if in_transaction else f"fits {where}"
 
 

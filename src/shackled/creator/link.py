@@ -8,12 +8,17 @@ from __future__ import annotations
 
 import base64
 import binascii
+import ipaddress
 import json
 import re
 import zlib
+from urllib.parse import urlsplit
 
 from ..errors import InputError
 from .state import State, from_document, to_document
+
+#: What is said of an address that leads to nowhere but the computer on which it is opened.
+LOCAL = "The link works on this computer alone."
 
 VERSION = "1"
 #: Bytes of a link, and of the document in it, at most.
@@ -31,6 +36,15 @@ _DICTIONARY = (
     b'{"source":{"kind":"upload","name":"genesis/icons/'
     b'{"source":{"kind":"piece","name":"teapot"},'
 )
+
+
+def is_local(address: str) -> bool:
+    """Whether an address of the page leads to the computer on which it is opened."""
+    host = urlsplit(address).hostname or ""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host == "localhost" or host.endswith(".localhost")
 
 
 def to_link(state: State) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..image import decode_bmp
+from .film import png
 from .fits import Fit
 from .scene import Facts
 from .state import Source
@@ -13,12 +15,11 @@ from .state import Source
 class Frame:
     """A picture.
 
-    png, bmp: files; the BMP as the contract returned it. gas, intrinsic_gas: None where none is counted. triangles,
-    lit_pixels: None if they were not wanted. calldata_bytes: of the call. sha256: of the pixels, RGB, rows from the
-    top. seconds: that the call took. fits: where the call fits; empty where no gas is counted.
+    bmp: the file as the contract returned it. gas, intrinsic_gas: None where none is counted. triangles, lit_pixels:
+    None if they were not wanted. calldata_bytes: of the call. seconds: that the call took. fits: where the call fits;
+    empty where no gas is counted.
     """
 
-    png: bytes
     bmp: bytes
     width: int
     height: int
@@ -27,9 +28,13 @@ class Frame:
     triangles: int | None
     lit_pixels: int | None
     calldata_bytes: int
-    sha256: str
     seconds: float
     fits: tuple[Fit, ...]
+
+    @property
+    def png(self) -> bytes:
+        """The same picture as a PNG file. It is made here: most pictures are shown as they came, and pass by."""
+        return png(decode_bmp(self.bmp, self.width, self.height), 1)
 
 
 @dataclass(frozen=True)

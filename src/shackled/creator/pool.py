@@ -141,7 +141,7 @@ class Pool:
         progress: Progress | None = None,
     ) -> bytes:
         """A GIF of the object turning once about the upright axis, frame by frame."""
-        pixels = round(await self._pixels(visitor, state, longest)) * frames * scale * scale
+        pixels = film_pixels(await self._pixels(visitor, state, longest), frames, scale)
         if not 2 <= frames <= self.limits.gif_frames:
             raise InputError(f"a film has from 2 to {self.limits.gif_frames} pictures, not {frames}")
         if pixels > self.limits.gif_pixels:
@@ -190,8 +190,11 @@ class Pool:
 
     # ---- files ----
 
-    async def upload(self, visitor: str, name: str, data: bytes) -> Upload:
-        """Reads a file of a stranger. InputError, for people, if it cannot be shown."""
+    async def upload(self, visitor: str, name: str | None, data: bytes) -> Upload:
+        """Reads a file of a stranger; of no name, it is an archive of files that were handed in together.
+
+        InputError, for people, if it cannot be shown.
+        """
         if len(data) > self.limits.upload:
             raise InputError(f"the file is larger than the {self.limits.upload / MEGABYTE:g} MB that are read")
         sha256: str
@@ -229,6 +232,11 @@ class Pool:
         if result is None and not newest:
             raise PoolError("it was given up, as the visitor has left")
         return result
+
+
+def film_pixels(pixels: float, frames: int, scale: int) -> int:
+    """Of all pictures of a film, each of so many."""
+    return round(pixels) * frames * scale * scale
 
 
 def _cores() -> int:

@@ -27,9 +27,10 @@ class Facts:
     """What is known of a source, small enough to be handed around.
 
     title: for people, of any characters; it must be escaped where it is shown. notice: whom to name and what is not
-    allowed, or "". triangles, vertices, objects: how many. bounds: where it stands and how large it is. closed: whether
-    its back faces can be left out. defaults: the state in which all is said that the source says; colours of its own
-    and all triangles stay None. mixed: the paths of what its objects do not have in common.
+    allowed, or "". licence: of the model, as its source states it, or "" where nobody does. triangles, vertices,
+    objects: how many. bounds: where it stands and how large it is. closed: whether its back faces can be left out.
+    defaults: the state in which all is said that the source says; colours of its own and all triangles stay None.
+    mixed: the paths of what its objects do not have in common.
     """
 
     source: Source
@@ -42,9 +43,10 @@ class Facts:
     closed: bool
     defaults: State
     mixed: frozenset[str] = frozenset()
+    licence: str = ""
 
 
-def describe(source: Source, scene: Scene, title: str, notice: str = "") -> Facts:
+def describe(source: Source, scene: Scene, title: str, notice: str = "", licence: str = "") -> Facts:
     """The facts of a source that makes this scene."""
     bounds = bounds_of(scene)
     objects = scene.objects
@@ -75,6 +77,7 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "") -> Fact
         closed=all(is_closed(o.mesh) for o in objects),
         defaults=defaults,
         mixed=frozenset(mixed),
+        licence=licence,
     )
 
 

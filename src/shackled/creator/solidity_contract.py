@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Iterable, Sequence
 from string import Template
 from typing import Any
@@ -21,6 +22,11 @@ MAX_CONSTANT, PER_OBJECT = 18_000, 400
 #: Hexadecimal digits of a string literal on one line.
 DIGITS = 120
 
+#: The SPDX identifiers of licences that meshes have and that allow everything, by what their sources call them.
+FREE = {"MIT": "MIT", "CC0": "CC0-1.0", "CC0-1.0": "CC0-1.0"}
+#: Of this contract without the meshes.
+OWN = "MIT"
+
 _IMPORTED = (
     "Background",
     "Camera",
@@ -35,7 +41,7 @@ _IMPORTED = (
 )
 
 _CONTRACT = Template("""\
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: $licence
 pragma solidity 0.8.37;
 
 import {Renderer} from "shackled/contracts/src/Renderer.sol";
@@ -97,12 +103,32 @@ def solidity_contract(subject: Subject, image: Image) -> str:
         about.append("brings them. The SHA-256 of each:")
         about += [hashlib.sha256(mesh).hexdigest() for mesh in meshes]
     return _CONTRACT.substitute(
+        licence=spdx(subject.facts.licence) if inside else OWN,
         about="\n".join(f"/// {line}" for line in about),
         name=contract_name(subject.stem),
         parameters="" if inside else "bytes[] calldata meshes",
         arguments="" if inside else "meshes",
-        body="\n".join(_indented(_body(fitted, meshes if inside else None), 8)),
+        body="\n".join(_indented(_body(fitted, meshes if inside else None, _notices(subject)), 8)),
     )
+
+
+def spdx(licence: str) -> str:
+    """The SPDX identifier of a licence, as a source states it; UNLICENSED is what Solidity calls none."""
+    if licence in FREE:
+        return FREE[licence]
+    name = re.sub(r"[^0-9A-Za-z.]+", "-", licence)[:60].strip("-.")
+    return f"LicenseRef-{name}" if name else "UNLICENSED"
+
+
+def _notices(subject: Subject) -> list[str]:
+    """What stands beside a mesh: whose it is, and what is allowed."""
+    facts = subject.facts
+    if not facts.licence:
+        return [
+            "The licence of this mesh is not known: it is that of the file that was handed in.",
+            "Put its identifier into the first line, and do not publish the mesh if you have no right to.",
+        ]
+    return [" ".join((facts.notice or f"The licence of this mesh: {facts.licence}").split())]
 
 
 def contract_name(stem: str) -> str:
@@ -111,7 +137,7 @@ def contract_name(stem: str) -> str:
     return name if name[:1].isalpha() and name not in (*_IMPORTED, "Vector") else f"Picture{name}"
 
 
-def _body(scene: Scene, meshes: Sequence[bytes] | None) -> list[str]:
+def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) -> list[str]:
     camera = scene.camera
     lines = [
         f"s.canvas = Canvas({scene.width}, {scene.height});",
@@ -137,11 +163,14 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None) -> list[str]:
     ]
     for i, o in enumerate(scene.objects):
         material = o.material
-        mesh = f"meshes[{i}]" if meshes is None else None
+        if meshes is None:
+            mesh = [f"    mesh: meshes[{i}],"]
+        else:
+            mesh = [*(f"    // {line}" for line in notices), "    mesh: bytes.concat(", *_literal(meshes[i]), "    ),"]
         x, y, z, w = (_fixed(value) for value in np.asarray(o.rotation).tolist())
         lines += [
             f"s.objects[{i}] = Object({{",
-            *([f"    mesh: {mesh},"] if mesh else ["    mesh: bytes.concat(", *_literal((meshes or [])[i]), "    ),"]),
+            *mesh,
             f"    position: {_vector(o.position)},",
             f"    rotation: Quaternion({x}, {y}, {z}, {w}),",
             f"    scale: {_fixed(o.scale)},",

@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from ..scene.scene import Scene
+from .link import LOCAL, is_local
 from .scene import Facts
 from .state import State
 from .store import Stored
@@ -35,4 +36,5 @@ class Subject:
     @property
     def comments(self) -> list[str]:
         """Lines that belong to every written form: the link, and whom to name."""
-        return [" ".join(text.split()) for text in (self.link, self.facts.notice) if text.strip()]
+        local = LOCAL if is_local(self.link) else ""
+        return [" ".join(text.split()) for text in (self.link, local, self.facts.notice) if text.strip()]

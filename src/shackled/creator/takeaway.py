@@ -29,7 +29,10 @@ MAX_PNG = 4096
 
 @dataclass(frozen=True)
 class Kind:
-    """Something to take home. name: as `Pool.take` knows it. is_text: whether it can be shown and copied."""
+    """Something to take home. name: as `Pool.take` knows it. is_text: whether it can be shown and copied.
+
+    extension: what follows the name of the picture in that of the file.
+    """
 
     name: str
     title: str
@@ -50,7 +53,7 @@ KINDS: tuple[Kind, ...] = (
     Kind(
         "cast-anywhere",
         "cast call, nothing deployed",
-        ".sh",
+        "-anywhere.sh",
         "text/x-shellscript",
         True,
         "The code of the contracts comes along, as a state override.",

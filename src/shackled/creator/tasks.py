@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import pickle
 import time
 from collections import OrderedDict
@@ -98,16 +97,13 @@ class Desk:
         started = time.perf_counter()
         result = chain.call("Renderer", data)
         seconds = time.perf_counter() - started
-        bmp = returned_bytes(result.output, 0)
-        pixels = decode_bmp(bmp, scene.width, scene.height)
         triangles = lit_pixels = suffices = None
         if count:
             counted = chain.call("Renderer", artifact("Renderer").selectors["renderCounted"] + data[4:])
             triangles, lit_pixels = returned_counts(counted.output)
             suffices = by_trying(lambda gas: chain.call("Renderer", data, gas))
         return Frame(
-            png=png(pixels, 1),
-            bmp=bmp,
+            bmp=returned_bytes(result.output, 0),
             width=scene.width,
             height=scene.height,
             gas=result.gas,
@@ -115,7 +111,6 @@ class Desk:
             triangles=triangles,
             lit_pixels=lit_pixels,
             calldata_bytes=len(data),
-            sha256=hashlib.sha256(pixels.tobytes()).hexdigest(),
             seconds=seconds,
             fits=places(result.gas, result.intrinsic_gas, data, suffices),
         )
@@ -167,7 +162,7 @@ class Desk:
         seconds = time.perf_counter() - started
         return Comparison(theirs == self._chain().draw(scene).bmp, node.name, seconds)
 
-    def read(self, name: str, data: bytes) -> tuple[str, Stored, tuple[str, ...]]:
+    def read(self, name: str | None, data: bytes) -> tuple[str, Stored, tuple[str, ...]]:
         """Reads a file of a stranger: its SHA-256, what is kept of it, and notes for people."""
         from .upload import read_upload
 
@@ -221,4 +216,4 @@ def _missing(sha256: str) -> tuple[Scene, Facts]:
 def _piece(source: Source) -> tuple[Scene, Facts]:
     piece = require(source.name)
     scene = piece.make()
-    return scene, describe(source, scene, piece.title, piece.notice)
+    return scene, describe(source, scene, piece.title, piece.notice, piece.licence)

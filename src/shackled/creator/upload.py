@@ -29,17 +29,21 @@ from .store import Stored
 #: What can be handed in, by extension.
 ACCEPTED = (*READERS, *SCENES, ".zip")
 
+#: What files that were handed in together are called as long as it is not known which of them is drawn.
+TOGETHER = "the selection"
+
 MAX_OBJECTS = 256
 MAX_TITLE = 60
 
 
-def read_upload(name: str, data: bytes, limits: Limits) -> tuple[str, Stored, tuple[str, ...]]:
+def read_upload(name: str | None, data: bytes, limits: Limits) -> tuple[str, Stored, tuple[str, ...]]:
     """The SHA-256 of a file, what is kept of it, and what was done to it, a sentence each.
 
-    name: as the visitor calls it; its extension says what it is. InputError, for people, if it cannot be shown.
+    name: as the visitor calls it; its extension says what it is. None: several files, which were put into an archive
+    on the way; what is shown has the name of the one that is drawn. InputError, for people, if it cannot be shown.
     """
-    title = clean_name(name)
-    extension = Path(title).suffix.lower()
+    title = TOGETHER if name is None else clean_name(name)
+    extension = ".zip" if name is None else Path(title).suffix.lower()
     if extension not in ACCEPTED:
         kind = f"{extension} files are" if extension else "a file without an extension is"
         raise InputError(f"{title}: {kind} not known here; known are {', '.join(ACCEPTED)}")
@@ -48,7 +52,9 @@ def read_upload(name: str, data: bytes, limits: Limits) -> tuple[str, Stored, tu
     if len(data) > limits.upload:
         raise InputError(f"{title} is larger than the {limits.upload / MEGABYTE:g} MB that are read")
     notes: list[str] = []
-    scene = _load(title, extension, data, limits, notes)
+    scene, main = _load(title, extension, data, limits, notes)
+    if name is None:
+        title = clean_name(main)
     scene, simplified_to = _bounded(scene, title, limits, notes)
     largest = max(scene.width, scene.height)
     if largest > MAX_SIDE:
@@ -65,7 +71,8 @@ def read_upload(name: str, data: bytes, limits: Limits) -> tuple[str, Stored, tu
             pickled = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)
         except InputError:
             raise InputError(f"{title}: its coordinates are too large or too small to be shown") from None
-    return sha256, Stored(title, pickled, facts, simplified_to, b""), tuple(notes)
+    stored_as = f"{Path(title).stem}.zip" if name is None else title
+    return sha256, Stored(stored_as, pickled, facts, simplified_to, b""), tuple(notes)
 
 
 def clean_name(name: Any) -> str:
@@ -79,13 +86,14 @@ def clean_name(name: Any) -> str:
     return f"{stem}{dot}{extension[:10]}"
 
 
-def _load(title: str, extension: str, data: bytes, limits: Limits, notes: list[str]) -> Scene:
+def _load(title: str, extension: str, data: bytes, limits: Limits, notes: list[str]) -> tuple[Scene, str]:
+    """The scene of a file, and the name of the file that it is in: of an archive, that of the one in it."""
     with folder() as inside:
         # of a name that no message of a reader can be mistaken for
         path = inside / f"upload{extension}"
         try:
             if extension == ".zip":
-                path = unpack(data, inside, limits)
+                path = unpack(data, inside, limits, TOGETHER if title == TOGETHER else "the archive")
             else:
                 path.write_bytes(data)
             if path.suffix.lower() in (".gltf", ".glb"):
@@ -95,7 +103,7 @@ def _load(title: str, extension: str, data: bytes, limits: Limits, notes: list[s
                 scene = load(path)
             messages = [str(each.message) for each in told if issubclass(each.category, InputWarning)]
             notes += [f"{_message(message, title, path, inside)}." for message in dict.fromkeys(messages)]
-            return scene
+            return scene, path.name
         except InputError as error:
             raise InputError(_message(str(error), title, path, inside)) from None
 

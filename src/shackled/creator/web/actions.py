@@ -17,6 +17,7 @@ from ..scene import filled
 from ..state import Backdrop, Size, Source
 from .mint import Offer, mint, offer_of
 from .visitor import Message, Visitor
+from .waiting import DeclinedError
 from .wallet import Wallet
 
 
@@ -33,9 +34,10 @@ async def act(visitor: Visitor, message: object) -> None:
 
 def _number(message: Message, key: str, reach: float = 100.0) -> float:
     value = message.get(key)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    # whole numbers may have more digits than any float: they are compared before they become one
+    if isinstance(value, bool) or not isinstance(value, int | float) or not -math.inf < value < math.inf:
         raise InputError(f"{key} must be a number, not {value!r:.60}")
-    return max(-reach, min(reach, float(value)))
+    return float(max(-reach, min(reach, value)))
 
 
 def _text(message: Message, key: str) -> str:
@@ -254,26 +256,36 @@ async def _wallets(visitor: Visitor, message: Message) -> None:
 
 
 async def _answer(visitor: Visitor, message: Message) -> None:
-    visitor.waiting.answer(message.get("id"), message.get("result"), message.get("error"))
+    answer = (message.get(key) for key in ("id", "result", "error", "code"))
+    visitor.waiting.answer(*answer)
 
 
 async def _mint(visitor: Visitor, message: Message) -> None:
     offer, number = offer_of(visitor.state.source), int(_number(message, "wallet"))
     if offer is None or not 0 <= number < len(visitor.wallets):
         raise InputError("there is nothing to mint, or no such wallet")
+    if visitor.is_at("mint"):
+        raise InputError("a token is being minted: answer in your wallet, or wait until it is done")
     visitor.job("mint", lambda: _minting(visitor, offer, Wallet(visitor, number)))
 
 
 async def _minting(visitor: Visitor, offer: Offer, wallet: Wallet) -> None:
     async def tell(words: str) -> None:
+        visitor.minting = words
         await visitor.tell({"texts": {"mint-words": words}})
 
+    await visitor.tell({"attributes": {"mint-start": {"disabled": ""}}})
     try:
         words = await mint(offer, wallet, tell)
-        await visitor.tell({"texts": {"mint-words": words}, "note": words})
+        await tell(words)
+        await visitor.tell({"note": words})
+    except DeclinedError:
+        await tell("Cancelled")
     except (InputError, RenderError) as error:
         await tell(f"Not minted: {error}")
         raise
+    finally:
+        await visitor.tell({"attributes": {"mint-start": {"disabled": None}}})
 
 
 ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {

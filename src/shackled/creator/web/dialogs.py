@@ -10,7 +10,9 @@ from markupsafe import Markup
 from nicegui.element import Element
 
 from ...errors import InputError, RenderError
+from ..link import LOCAL
 from ..picture import StagePicture
+from ..pool import film_pixels
 from ..scene import filled
 from ..state import Size
 from ..takeaway import MAX_PNG, SCALES, Kind, kind_of
@@ -27,6 +29,8 @@ TURNTABLES = ((24, 1), (24, 2), (60, 2))
 SNIPPETS = ("python", "solidity", "cast", "cast-anywhere", "calldata")
 #: Characters of a snippet that are shown; what is copied is whole.
 SHOWN = 1500
+_LOCAL = f"{LOCAL} For others, hand on the scene file or the program in Python."
+_UPLOAD = "The file that you opened is kept in the memory of this server only; without it, the link says so."
 
 
 class Dialogs:
@@ -48,14 +52,15 @@ class Dialogs:
 
     async def takeaway(self, visitor: Visitor) -> None:
         """Opens what can be taken away, with the snippets of the picture as it is."""
-        note = ""
-        if visitor.state.source.kind == "upload":
-            note = "The file that you opened is kept in the memory of this server only; without it, the link says so."
+        is_upload = visitor.state.source.kind == "upload"
+        notes = [_LOCAL] if visitor.is_local else []
+        notes += [_UPLOAD] if is_upload else []
+        texts, attributes = _turntables(visitor)
         await visitor.tell(
             {
                 "open": "takeaway",
-                "texts": {"link-note": note},
-                "attributes": {"take-file": {"hidden": None if note else ""}} | _scales(visitor),
+                "texts": {"link-note": " ".join(notes)} | texts,
+                "attributes": {"take-file": {"hidden": None if is_upload else ""}} | _scales(visitor) | attributes,
             }
         )
         for kind in SNIPPETS:
@@ -79,10 +84,16 @@ class Dialogs:
             if not visitor.wallets:
                 words("p", "There is no wallet in this browser.", "quiet")
             buttons = [
-                push(f"Mint with {name}", {"do": "mint", "wallet": number}, classes="button")
+                push(
+                    f"Mint with {name}",
+                    {"do": "mint", "wallet": number},
+                    classes="button",
+                    data_name="mint-start",
+                    disabled=visitor.is_at("mint"),
+                )
                 for number, name in enumerate(visitor.wallets)
             ]
-            status = mark("p", data_text="mint-words", class_="quiet", role="status")
+            status = mark("p", visitor.minting, data_text="mint-words", class_="quiet", role="status")
             Html(mark("div", *buttons, class_="scales"), status)
 
     async def stages(self, visitor: Visitor) -> None:
@@ -184,6 +195,18 @@ def _scales(visitor: Visitor) -> dict[str, dict[str, str | None]]:
     }
 
 
+def _turntables(visitor: Visitor) -> tuple[dict[str, str], dict[str, dict[str, str | None]]]:
+    """Those that are too large cannot be had: what is said where there is none, and which are hidden."""
+    size = filled(visitor.state, visitor.facts).size or Size()
+    most = visitor.pool.limits.gif_pixels
+    fits = {each: film_pixels(size.width * size.height, *each) <= most for each in TURNTABLES}
+    note = f"The picture is too large for a GIF, which can have up to {most:,} pixels in all: choose a smaller size."
+    hidden: dict[str, dict[str, str | None]] = {
+        f"gif-{frames}-{scale}": {"hidden": None if fits[frames, scale] else ""} for frames, scale in TURNTABLES
+    }
+    return {"gif-note": "" if any(fits.values()) else note}, hidden
+
+
 def _traced(done: int, total: int) -> Message:
     return {"texts": {"traced": f"Traced in the EVM, instruction by instruction: {done / max(total, 1):.0%}"}}
 
@@ -216,7 +239,7 @@ def _files(take: str) -> tuple[Markup, ...]:
             f"GIF, {frames} pictures, {scale}x",
             {"do": "gif", "frames": frames, "scale": scale},
             classes="button",
-            data_name="gif-start",
+            data_name=f"gif-start gif-{frames}-{scale}",
         )
         for frames, scale in TURNTABLES
     ]
@@ -238,7 +261,13 @@ def _files(take: str) -> tuple[Markup, ...]:
             mark("div", mark("span", "PNG", class_="quiet"), *scales, class_="scales"),
             mark("div", *others, class_="scales"),
         ),
-        mark("section", mark("h3", "Turntable"), mark("div", *turntables, class_="scales"), job),
+        mark(
+            "section",
+            mark("h3", "Turntable"),
+            mark("div", *turntables, class_="scales"),
+            mark("p", class_="quiet", data_text="gif-note"),
+            job,
+        ),
         mark(
             "section",
             mark("h3", "A link that restores everything"),

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import ipaddress
 import re
 import secrets
+import socket
+from collections.abc import Iterable
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -11,6 +14,8 @@ from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LOCAL = ("127.0.0.1", "localhost", "::1")
+#: What browsers say of requests of pages that are ours, and of addresses that somebody typed or chose from a list.
+OWN_SITES = (None, "same-origin", "none")
 
 #: Scripts of our own only, inline ones by a number that is new each time. Styles are set inline by Vue and Quasar.
 POLICY = (
@@ -31,13 +36,16 @@ FIXED = {
 class Guard:
     """Refuses what comes from pages of other sites, or to a name that is not ours, and adds the headers to the rest.
 
-    local: whether it listens for this machine only; then it is known by no other name.
+    local: whether it listens for this machine only. names: by which it is known besides its addresses; a page of
+    another name could have had that name lead here (DNS rebinding), and is refused.
     """
 
-    def __init__(self, app: ASGIApp, local: bool) -> None:
+    def __init__(self, app: ASGIApp, local: bool, names: Iterable[str] = ()) -> None:
         """`app`: what is guarded."""
         self.app = app
         self.local = local
+        own = () if local else (socket.gethostname(), socket.getfqdn())
+        self.names = {name.lower() for name in (*LOCAL, *own, *names)}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serves one request or WebSocket."""
@@ -45,7 +53,7 @@ class Guard:
             await self.app(scope, receive, send)
             return
         headers = Headers(scope=scope)
-        if not self._welcome(headers):
+        if not (self._is_ours(headers) and _comes_from_us(scope, headers)):
             if scope["type"] == "http":
                 await PlainTextResponse("not from here", 403)(scope, receive, send)
             else:
@@ -77,12 +85,36 @@ class Guard:
 
         await self.app(scope, receive, dress)
 
-    def _welcome(self, headers: Headers) -> bool:
-        host = urlsplit(f"//{headers.get('host', '')}")
-        if self.local and host.hostname not in LOCAL:
-            return False  # a name of somebody else that leads here
-        origin = headers.get("origin")
-        return origin is None or urlsplit(origin).netloc == host.netloc
+    def _is_ours(self, headers: Headers) -> bool:
+        """Whether the name that is asked for is one of this server."""
+        try:
+            name = urlsplit(f"//{headers.get('host', '')}").hostname or ""
+        except ValueError:
+            return False
+        return name in self.names or (not self.local and _is_address(name))
+
+
+def _comes_from_us(scope: Scope, headers: Headers) -> bool:
+    """Whether a request comes from a page of ours, from a person, or from a program, and not from a page of others.
+
+    Pages of others may lead here, in a window of its own; they can load nothing of ours, and so make no work.
+    """
+    origin = headers.get("origin")
+    if origin is not None and origin.partition("://")[2] != headers.get("host", ""):
+        return False
+    if headers.get("sec-fetch-site") in OWN_SITES:
+        return True
+    goes_there = headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
+    return goes_there and scope["type"] == "http" and scope["method"] == "GET"
+
+
+def _is_address(name: str) -> bool:
+    """Whether it is an IP address, which nobody can have lead elsewhere."""
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
 
 
 def numbered(html: bytes, nonce: str) -> bytes:

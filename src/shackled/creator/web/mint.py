@@ -16,13 +16,16 @@ from ...tokens.ether import ether
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
 from ..state import Source
-from .wallet import Wallet, WalletError
+from .waiting import UnknownChainError, WalletError
+from .wallet import Wallet
 
 #: Names of chains that many know.
 CHAINS = {1: "Ethereum", 11155111: "Sepolia", 17000: "Holesky", 31337: "a development chain"}
 OPEN_FOR_ALL = 2
 #: Seconds between two looks for the transaction, and how often it is looked for.
 PAUSE, LOOKS = 1.0, 240
+#: Icons of a collection that are looked at, and how many at once: a node is asked for each of them.
+MOST_ICONS, AT_ONCE = 1000, 16
 #: Of the event Transfer(address,address,uint256).
 TRANSFER = "0xddf252ad1be2c89b69c2b068fc378daa952ba7f163c4a11628f55a4df523b3ef"
 
@@ -73,7 +76,13 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
     if chain not in offer.places:
         chain = next(iter(offer.places))
         await tell(f"Asking the wallet to change to {chain_name(chain)} …")
-        await wallet.request("wallet_switchEthereumChain", {"chainId": hex(chain)})
+        try:
+            await wallet.request("wallet_switchEthereumChain", {"chainId": hex(chain)})
+        except UnknownChainError:
+            raise WalletError(
+                f"the wallet does not know {chain_name(chain)} (chain ID {chain}): add it to the networks of the"
+                " wallet, with the address of a node of yours, and mint again"
+            ) from None
         if await wallet.number("eth_chainId") != chain:
             raise InputError(f"the wallet must be on {chain_name(chain)} for this")
     sale = _Sale(offer, wallet, show_address(offer.places[chain]))
@@ -104,7 +113,7 @@ class _Sale:
         if phase != OPEN_FOR_ALL:
             raise InputError(f"the sale is {PHASES[phase]}")
         if self._offer.kind.hidden:
-            left, price, arguments = await self._read("left"), await self._read("price"), [1]
+            (left, price), arguments = await asyncio.gather(self._read("left"), self._read("price")), [1]
         else:
             icon, price = await self._icon()
             left, arguments = await self._read("left", icon), [icon, 1]
@@ -116,10 +125,13 @@ class _Sale:
         """The number and the price of the icon, which the collection knows by its name."""
         name = self._offer.source.name
         known = {name, name.partition("/")[2], require(name).title}
-        for number in range(await self._read("iconCount")):
-            icon = await self._read("iconAt", number)
-            if icon[0] in known:
-                return number, icon[3]
+        count = min(await self._read("iconCount"), MOST_ICONS)
+        for begin in range(0, count, AT_ONCE):
+            numbers = range(begin, min(begin + AT_ONCE, count))
+            icons = await asyncio.gather(*(self._read("iconAt", number) for number in numbers))
+            for number, icon in zip(numbers, icons, strict=True):
+                if icon[0] in known:
+                    return number, icon[3]
         raise InputError(f"there is no {require(name).title} in the collection")
 
     async def _read(self, function: str, *arguments: Any) -> Any:

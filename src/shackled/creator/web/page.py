@@ -45,11 +45,12 @@ def build(visitor: Visitor) -> None:
     with tag("div", "creator"):
         with tag("header", "top"):
             Html(*_top())
-        with tag("aside", "shelf", aria_label="Objects"):
+        # NiceGUI puts all of it into its own main element
+        with tag("section", "shelf", aria_label="Objects"):
             Html(shelf())
-        with tag("main", "stage", id="stage"):
+        with tag("section", "stage", id="stage", aria_label="The picture and its gas"):
             Html(*_stage(visitor.pool.has_node))
-        with tag("aside", "panel", aria_label="Controls"):
+        with tag("section", "panel", aria_label="Controls"):
             Html(*_panel())
     visitor.screen = Dialogs(visitor)
     words("div", "", "unseen", id="spoken", role="status", aria_live="polite")

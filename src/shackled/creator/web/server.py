@@ -13,6 +13,7 @@ import sys
 import threading
 import webbrowser
 import zipfile
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,7 @@ from ...chain import open_node
 from ...datasets import Piece
 from ...errors import InputError, RenderError
 from ...load import locate
-from ..link import from_link
+from ..link import from_link, is_local
 from ..pool import Pool
 from ..state import Source, State
 from .headers import LOCAL, Guard
@@ -45,28 +46,40 @@ MAX_HEAD = 16384
 
 
 def serve(
-    input: str | None, host: str, port: int | None, fallback_port: int, open_browser: bool, node: str | None
+    input: str | None,
+    host: str,
+    port: int | None,
+    fallback_port: int,
+    open_browser: bool,
+    node: str | None,
+    names: Sequence[str] = (),
 ) -> None:
     """Serves the page until it is interrupted.
 
     input: what visitors see first. port: None takes `fallback_port`, or one that is free where that is not. node: the
-    address of a node, with whose pictures visitors can compare. InputError if anything of it is wrong.
+    address of a node, with whose pictures visitors can compare. names: under which the page may be asked for besides
+    the addresses of this machine. InputError if anything of it is wrong.
     """
     first = None if input is None else locate(input)
     if node is not None:
         open_node(node)  # which says if it can be no address; nothing is asked of it yet
     with _listen(host, port, fallback_port) as listening, suppress(KeyboardInterrupt):
-        asyncio.run(_serve(first, listening, host, open_browser, node))
+        asyncio.run(_serve(first, listening, host, open_browser, node, names))
 
 
 async def _serve(
-    first: Path | Piece | None, listening: socket.socket, host: str, browse: bool, node: str | None
+    first: Path | Piece | None,
+    listening: socket.socket,
+    host: str,
+    browse: bool,
+    node: str | None,
+    names: Sequence[str],
 ) -> None:
     pool = Pool(node=node)
     try:
         # the workers start while NiceGUI is loaded and the page made ready, which takes as long
         await asyncio.gather(pool.start(), asyncio.to_thread(_prepare))
-        app = make_app(Visitors(pool), await _first(pool, first), local=host in LOCAL)
+        app = make_app(Visitors(pool), await _first(pool, first), host in LOCAL, (host, *names))
         config = uvicorn.Config(
             app, log_level="warning", timeout_graceful_shutdown=2, ws_max_size=2**16, server_header=False, lifespan="on"
         )
@@ -112,26 +125,32 @@ async def _first(pool: Pool, first: Path | Piece | None) -> Source:
             data = first.read_bytes()
         except OSError as error:
             raise InputError(f"{first} cannot be read: {error.strerror}") from None
-        source = (await pool.upload("", first.name, data)).source
+        read = await pool.upload("", first.name, data)
+        for note in read.notes:
+            print(note, file=sys.stderr)
+        source = read.source
     await pool.open(source)
     return source
 
 
-def make_app(visitors: Visitors, first: Source, local: bool) -> ASGIApp:
-    """The whole of the server. local: whether it is for this machine only."""
+def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str] = ()) -> ASGIApp:
+    """The whole of the server. local: whether it is for this machine only. names: see `Guard`."""
     from fastapi import FastAPI
+    from nicegui import app as gui
     from nicegui import ui
 
     from .elements import ASSETS
     from .page import build
     from .shelf import has_thumbnail
+    from .unmet import bound_pages, plain_refusals
 
     pool = visitors.pool
     app: Any = FastAPI(openapi_url=None, docs_url=None, redoc_url=None)
     thumbnails: dict[str, bytes] = {}
 
     @ui.page("/", title="Shackled Creator", language="en-US")
-    async def index(p: str = "") -> None:
+    async def index(request: Request, p: str = "") -> None:
+        bound_pages()
         greeting, wanted = "", None
         state = State(first)
         if p:
@@ -149,6 +168,8 @@ def make_app(visitors: Visitors, first: Source, local: bool) -> ASGIApp:
         if wanted is not None and wanted.source.kind == "upload":
             visitor.wanted, greeting = wanted, f"{greeting}, and the picture is as it was"
         visitor.greeting = greeting
+        visitor.is_local = is_local(str(request.base_url))
+        ui.context.client.on_delete(lambda: visitors.drop(visitor))
         build(visitor)
 
     async def thumbnail(request: Request) -> Response:
@@ -219,12 +240,14 @@ def make_app(visitors: Visitors, first: Source, local: bool) -> ASGIApp:
         cache_control_directives="public, max-age=300",
     )
     logging.getLogger("nicegui").setLevel(logging.ERROR)
-    guarded: ASGIApp = Guard(app, local)
+    plain_refusals()
+    gui.config.quasar_config["loadingBar"]["skipHijack"] = True  # it has no name, and the picture says it
+    guarded: ASGIApp = Guard(app, local, names)
     return guarded if local else GZipMiddleware(guarded)
 
 
-def unpack(body: bytes) -> tuple[str, bytes]:
-    """The file of an upload, by name; several files are put into one archive. InputError if it is none.
+def unpack(body: bytes) -> tuple[str | None, bytes]:
+    """The file of an upload, by name; several files are put into one archive of no name. InputError if it is none.
 
     Four bytes of length, that much JSON with names and sizes, and the files one after the other.
     """
@@ -250,7 +273,7 @@ def unpack(body: bytes) -> tuple[str, bytes]:
         for name, data in sorted(files):
             # of no date: the same files are the same upload, whenever and in whatever order they are handed in
             archive.writestr(zipfile.ZipInfo(name.replace("\\", "/").rsplit("/", 1)[-1] or "file"), data)
-    return "files.zip", stream.getvalue()
+    return None, stream.getvalue()
 
 
 async def _body(request: Request, bound: int) -> bytes | None:

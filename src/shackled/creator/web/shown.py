@@ -33,10 +33,10 @@ class Shown:
         now, own = filled(state, facts), filled(State(state.source), facts)
         values: dict[str, Any] = {}
         for control in CONTROLS:
-            self._value(values, control, now, own, facts)
+            self._value(values, control, state, now, own, facts)
         for number, _ in enumerate(now.lights or ()):
             for control in lamp_controls(number):
-                self._value(values, control, now, own, facts)
+                self._value(values, control, state, now, own, facts)
         message: dict[str, Any] = {}
         if values:
             message["values"] = values
@@ -58,15 +58,19 @@ class Shown:
             message["attributes"] = attributes
         return message
 
-    def _value(self, values: dict[str, Any], control: Control, now: State, own: State, facts: Facts) -> None:
+    def _value(
+        self, values: dict[str, Any], control: Control, state: State, now: State, own: State, facts: Facts
+    ) -> None:
         path = control.path
         value = _at(now, path)
+        # where objects differ, the value of the first, if it was chosen, is a change of the others
+        mixed = path in facts.mixed and _at(state, path) is None
         try:
-            changed = value != _at(own, path)
+            changed = value != _at(own, path) or (path in facts.mixed and not mixed)
         except IndexError:  # a light more than the source has
             changed = False
         shown = {"value": _rounded(value, control), "changed": changed}
-        if path in facts.mixed and not changed:
+        if mixed:
             shown["mixed"] = True
         if self._new(path, shown):
             values[path] = shown

@@ -19,7 +19,7 @@ from ..scene import Facts
 from ..state import Size, Source, State
 from .figures import figures
 from .shown import Shown, merged
-from .wallet import Waiting
+from .waiting import Waiting
 
 Message = dict[str, Any]
 
@@ -29,6 +29,8 @@ REST = 0.22
 DRAFT, LEAST_DRAFT = 96, 48
 #: Side of the small pictures of the looks.
 LOOK = 56
+#: Work that goes on while the page is away: nobody can take back what a wallet was asked.
+LASTING = ("mint",)
 #: Seconds a moving picture may take before smaller ones are drawn, and below which larger ones are.
 SLOW, QUICK = 0.07, 0.03
 
@@ -68,6 +70,10 @@ class Visitor:
         #: The names of the wallets that the page has found, and what they were asked.
         self.wallets: list[str] = []
         self.waiting = Waiting()
+        #: How far minting is, for people.
+        self.minting = ""
+        #: Whether the page was opened at an address that leads to the same computer only.
+        self.is_local = False
         #: What is said when the page is there.
         self.greeting = ""
         #: A picture whose file is not here: it comes back when somebody hands the file in.
@@ -101,6 +107,8 @@ class Visitor:
         if self.greeting:
             await self.tell({"alert": self.greeting})
             self.greeting = ""
+        for question in self.waiting.questions:
+            await self.tell({"wallet": question})
         self.draw()
         self._draw_looks()
 
@@ -110,12 +118,18 @@ class Visitor:
         if self._send != send:
             return  # somebody else came in the meantime: the same page, connected again
         self._send = None
-        for task in (*self._jobs.values(), *([self._drawing] if self._drawing else [])):
+        passing = [task for name, task in self._jobs.items() if name not in LASTING]
+        for task in (*passing, *([self._drawing] if self._drawing else [])):
             task.cancel()
         if self._resting:
             self._resting.cancel()
         for name in (self.name, f"{self.name} looks"):
             self.pool.leave(name)
+
+    def end(self) -> None:
+        """Nobody comes back."""
+        for task in self._jobs.values():
+            task.cancel()
 
     def progress(self, message: Callable[[int, int], Message]) -> Callable[[int, int], None]:
         """What tells the page how far long work is; `message`: of what is done, of how much."""
@@ -189,6 +203,10 @@ class Visitor:
         """Does long work beside everything else, in place of the work of that name that was going on."""
         self.stop(name)
         self._jobs[name] = asyncio.create_task(self._job(name, work))
+
+    def is_at(self, name: str) -> bool:
+        """Whether the work of that name goes on."""
+        return name in self._jobs
 
     def stop(self, name: str) -> bool:
         """Ends the work of a name; whether there was any."""

@@ -36,12 +36,18 @@ class Visitors:
         """The visitor of that name."""
         return self._all.get(name)
 
+    def drop(self, visitor: Visitor) -> None:
+        """Forgets somebody whose page is gone, unless they are there by another way."""
+        if not visitor.present:
+            visitor.end()
+            self._all.pop(visitor.name, None)
+
     def _forget(self) -> None:
         """Those who have gone for long, or whose places are needed. InputError if everybody is there."""
         now = time.monotonic()
         absent = sorted((each for each in self._all.values() if not each.present), key=lambda each: each.seen)
         for visitor in absent:
             if now - visitor.seen > PATIENCE or len(self._all) >= MOST:
-                del self._all[visitor.name]
+                self.drop(visitor)
         if len(self._all) >= MOST:
             raise InputError(f"there are {MOST} visitors already; try again in a few minutes")

@@ -70,7 +70,7 @@ const showers = {
   texts: (texts) => { for (const [name, text] of Object.entries(texts)) $$(`[data-text="${name}"]`).forEach((e) => { e.textContent = text; }); },
   attributes: (changes) => {
     for (const [name, attributes] of Object.entries(changes)) {
-      for (const element of $$(`[data-name="${name}"]`)) {
+      for (const element of $$(`[data-name~="${name}"]`)) {
         for (const [key, value] of Object.entries(attributes)) {
           if (value === null) element.removeAttribute(key);
           else element.setAttribute(key, value);
@@ -112,7 +112,7 @@ function toast(text, kind) {
   }
   while (toasts.children.length > 2) toasts.firstChild.remove();
   toasts.append(line);
-  setTimeout(() => line.remove(), kind === "alert" ? 15000 : 4000);
+  setTimeout(() => line.remove(), kind === "alert" ? 15000 : 3000 + 70 * text.length); // as long as it takes to read
 }
 document.addEventListener("close", () => document.body.append(toasts), true);
 
@@ -135,15 +135,19 @@ function read(slider) {
 
 function setValue(path, { value, changed, mixed }) {
   for (const input of inputs(path)) {
-    if (input.type === "radio") input.checked = input.value === String(value);
+    if (input.type === "radio") input.checked = !mixed && input.value === String(value);
     else if (input.type === "checkbox") { input.checked = Boolean(value); input.indeterminate = Boolean(mixed); }
     else if (input.type === "range") { if (input !== held) input.value = value === null ? input.max : place(input, value); fill(input); }
-    else if (input !== document.activeElement || !typing) input.value = value ?? (input.type === "color" ? "#808080" : "");
+    else if (input !== document.activeElement || !typing) input.value = (mixed ? null : value) ?? (input.type === "color" ? "#808080" : "");
+    if (input.type === "number" && (mixed || input.placeholder === "mixed")) input.placeholder = mixed ? "mixed" : "";
     input.classList.toggle("none", value === null);
     if (input.dataset.none) input.setAttribute("aria-description", value === null ? input.dataset.none : "");
   }
   const row = $(`[data-row="${CSS.escape(path)}"]`);
   row?.classList.toggle("changed", Boolean(changed));
+  row?.classList.toggle("mixed", Boolean(mixed)); // the objects differ
+  const choices = row && $("[role=radiogroup]", row);
+  if (choices) choices.setAttribute("aria-description", mixed ? "mixed" : "");
 }
 
 function fill(slider) {
@@ -353,7 +357,9 @@ function setSphere(at, number) {
 
 // ---- keys ----
 
+// text is typed there; sliders, choices and colours have arrows and Home of their own, and all that is pushed has Enter
 const typed = (element) => element.closest("input:not([type=range], [type=checkbox], [type=radio], [type=color]), textarea, select");
+const own = (element, key) => key === "Enter" ? element.closest("button, a, summary, input, label") : key.length > 1 && element.closest("input:not([type=checkbox])");
 document.addEventListener("keydown", (event) => {
   $("#view").classList.remove("pointed");
   if (event.isComposing || $("dialog[open]")) return;
@@ -361,8 +367,7 @@ document.addEventListener("keydown", (event) => {
   const name = `${control ? "Ctrl+" : ""}${event.shiftKey && (control || event.key.length > 1) ? "Shift+" : ""}${control ? event.key.toLowerCase() : event.key}`;
   const message = keys[name];
   if (!message || event.altKey || typed(event.target)) return;
-  const free = !event.target.closest("button, a, input, summary, [tabindex]") || event.target.closest("#view");
-  if (!control && !free) return;
+  if (!control && own(event.target, event.key)) return;
   event.preventDefault();
   if (message.open) document.getElementById(message.open).showModal();
   else send(message);
@@ -425,11 +430,17 @@ function findWallets() {
   send({ do: "wallets", names: wallets.map(({ info }) => String(info.name)) });
 }
 
+// a page that was away is asked again what it has not answered; the wallet is asked but once
+const answers = new Map();
 async function askWallet({ id, wallet, method, params }) {
+  if (!answers.has(id)) answers.set(id, ask(wallet, method, params));
+  send({ do: "answer", id, ...(await answers.get(id)) });
+}
+async function ask(wallet, method, params) {
   try {
-    send({ do: "answer", id, result: (await wallets[wallet].provider.request({ method, params })) ?? null });
+    return { result: (await wallets[wallet].provider.request({ method, params })) ?? null };
   } catch (error) {
-    send({ do: "answer", id, error: String(error?.message ?? error) });
+    return { error: String(error?.message ?? error), code: error?.data?.originalError?.code ?? error?.code };
   }
 }
 
