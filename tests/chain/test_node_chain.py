@@ -303,9 +303,7 @@ def test_too_little_gas_on_a_node(bare: Anvil) -> None:
 def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> None:
     """That is what is told, and no smaller picture is advised, since none would do."""
     scene = large_scene(2400)
-    words = (
-        r"allows a call too little gas for this: [\d,]+, and it knows no state overrides: to bring the"
-    )
+    words = r"allows a call too little gas for this: [\d,]+, and it knows no state overrides: to bring the"
     with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
         for draw in (open_node(other).draw, lambda scene: render(scene, rpc=other)):
             with pytest.raises(OutOfGasError, match=words) as error:
