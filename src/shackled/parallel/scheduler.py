@@ -11,6 +11,8 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from ..errors import (
@@ -87,6 +89,7 @@ class Scheduler:
         self._error: BaseException | None = None
         self._stopped = False
         self._told: set[Bench] = set()
+        self._comparing = ThreadPoolExecutor(1)
 
     def run(self, parts: Sequence[Part]) -> dict[Part, Piece]:
         """The finished parts; those given may have been cut further. An error ends all of it."""
@@ -109,6 +112,7 @@ class Scheduler:
             with self._changed:
                 self._stopped = True
                 self._changed.notify_all()
+            self._comparing.shutdown(wait=False, cancel_futures=True)
 
     @property
     def shares(self) -> dict[str, int]:
@@ -130,29 +134,42 @@ class Scheduler:
     def _sit(self, bench: Bench, seat: int) -> None:
         """What the thread of a seat does."""
         while (part := self._take(bench)) is not None:
-            piece: Piece | None = None
-            checked, failure = False, None
+            piece, failure = None, None
             try:
                 piece = bench.place.work(seat, self._frames[part.frame], part.tile, self._count)
-                checked = bench.place.distant and self._check(bench, part, piece)
             except BaseException as error:
                 failure = self._judged(bench, part, error)
-            with self._changed:
-                self._flying -= 1
-                try:
-                    if self._stopped:
-                        return
-                    if failure is not None:
-                        self._failed(bench, part, failure)
-                    elif bench.left or piece is None:
-                        self._pending.appendleft(part)
-                    else:
-                        self._finished(bench, part, piece, checked)
-                except BaseException as error:
-                    # of a listener, or of the disk
-                    self._error = error
-                finally:
-                    self._changed.notify_all()
+            if piece is not None and bench.checked and self._referee is not None:
+                # beside the next call of this seat; the first part of a place is compared before it gets another
+                with suppress(RuntimeError):  # all is over
+                    self._comparing.submit(self._settle, bench, part, piece, None)
+            else:
+                self._settle(bench, part, piece, failure)
+
+    def _settle(self, bench: Bench, part: Part, piece: Piece | None, failure: BaseException | None) -> None:
+        """Takes in what a seat did."""
+        checked = False
+        if piece is not None and bench.place.distant:
+            try:
+                checked = self._check(bench, part, piece)
+            except BaseException as error:
+                failure = self._judged(bench, part, error)
+        with self._changed:
+            self._flying -= 1
+            try:
+                if self._stopped:
+                    return
+                if failure is not None:
+                    self._failed(bench, part, failure)
+                elif piece is None or (bench.left and not checked):
+                    self._pending.appendleft(part)
+                else:
+                    self._finished(bench, part, piece, checked)
+            except BaseException as error:
+                # of a listener, or of the disk
+                self._error = error
+            finally:
+                self._changed.notify_all()
 
     def _take(self, bench: Bench) -> Part | None:
         """The next part for a place; None if there is nothing more to do for it."""
