@@ -17,13 +17,13 @@ help: ## this list
 
 # ---- set-up ----
 
-$(PACKAGE): pyproject.toml tools/prepare.py
+$(PACKAGE): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py package
 
-$(CREATOR): pyproject.toml tools/prepare.py
+$(CREATOR): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py creator
 
-$(DEV): pyproject.toml tools/prepare.py
+$(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py dev
 
 $(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py

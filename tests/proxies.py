@@ -35,6 +35,11 @@ def after(count: int, manner: str) -> Manners:
     return lambda number: manner if number >= count else ""
 
 
+def at(count: int, manner: str) -> Manners:
+    """Misbehaves once."""
+    return lambda number: manner if number == count else ""
+
+
 def proxy(target: str, manners: Manners, asked: list[str] | None = None) -> AbstractContextManager[str]:
     """The address of the proxy. asked: where it notes what it did with each picture."""
     numbers = itertools.count()

@@ -6,6 +6,7 @@ import base64
 import hashlib
 import importlib.util
 import io
+import itertools
 import json
 import re
 import shlex
@@ -200,3 +201,23 @@ def tetrahedron_scene(degrees: float) -> Scene:
 def text(output: bytes) -> bytes:
     """The one value of type bytes or string that a function returned."""
     return output[64 : 64 + int.from_bytes(output[32:64], "big")]
+
+
+def test_the_tutorial_prints_what_it_says(tmp_path: Path) -> None:
+    """What stands below a command of the tutorial, but for the time that it took and the EVM that was there."""
+    run(EXAMPLES / "meshes.py", "--into", tmp_path / "build", "teapot", cwd=tmp_path)
+    text = (ROOT / "docs" / "tutorial.md").read_text()
+    blocks = re.findall(r"^```\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    shown = [(before, after) for before, after in itertools.pairwise(blocks) if after.startswith("picture ")]
+    assert shown
+    assert len(re.findall(r"^gas ", text, re.MULTILINE)) == len(shown)
+    for command, printed in shown:
+        program, *arguments = shlex.split(command)
+        assert program == "shackled"
+        found = run("-c", "from shackled.cli import main; main()", *arguments, cwd=tmp_path)
+        assert rows(found) == rows(printed), f"docs/tutorial.md must show\n{found}"
+
+
+def rows(printed: str) -> dict[str, str]:
+    parts = [line.split(maxsplit=1) for line in printed.splitlines()]
+    return {name: value for name, value in parts if name in ("picture", "drawn", "gas")}

@@ -6,7 +6,8 @@
     python3 tools/prepare.py node       contracts/node_modules: the compiler, and a node for the tests
     python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
 
-Packages of the system that are missing are installed by apt-get, if that is there and we are root.
+Packages of the system that are missing are installed by apt-get, if that is there and we are root, unless the variable
+SHACKLED_NO_APT is set. The versions of Python's packages are those of tools/constraints.txt.
 """
 
 from __future__ import annotations
@@ -22,11 +23,13 @@ ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
+CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
 #: Names of the browser that the tests of the page drive.
 BROWSERS = ("chromium", "chromium-browser")
 
 OLDEST_PYTHON = (3, 11)
+OLDEST_NODE = 20
 #: The first pip that installs dependency groups.
 PIP = "pip>=25.1"
 
@@ -55,7 +58,7 @@ def prepare_package() -> None:
     """The package in .venv, from the sources where they are."""
     make_venv()
     say("installing the package")
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ROOT)
+    install("--editable", ROOT)
     (VENV / ".package").touch()
 
 
@@ -63,7 +66,7 @@ def prepare_creator() -> None:
     """The package with the extra "creator"."""
     make_venv()
     say("installing the package and the page")
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", f"{ROOT}[creator]")
+    install("--editable", f"{ROOT}[creator]")
     for stamp in (".package", ".creator"):
         (VENV / stamp).touch()
 
@@ -72,8 +75,8 @@ def prepare_dev() -> None:
     """The package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", PIP)
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
+    install("--upgrade", PIP)
+    install("--editable", ROOT, "--group", f"{ROOT / 'pyproject.toml'}:dev")
     for stamp in (".package", ".creator", ".dev"):
         (VENV / stamp).touch()
 
@@ -82,11 +85,22 @@ def prepare_node() -> None:
     """contracts/node_modules as package-lock.json says."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
+    check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
     say("installing the compiler and the node for tests")
     run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=CONTRACTS)
     if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
         say("there is no anvil for this machine, tests of a real node look for one on the path")
     (CONTRACTS / "node_modules" / ".package-lock.json").touch()
+
+
+def check_node(said: str) -> None:
+    """Stops if Node is too old. said: what `node --version` prints, as v20.19.2."""
+    major = said.strip().removeprefix("v").partition(".")[0]
+    if not major.isdecimal() or int(major) < OLDEST_NODE:
+        raise SystemExit(
+            f"Node {OLDEST_NODE} or newer is needed, this is {said.strip() or 'of no version'}: install one, "
+            "for instance from nodejs.org, and put it first on the path"
+        )
 
 
 def prepare_browser() -> None:
@@ -112,9 +126,14 @@ def make_venv() -> None:
     run(sys.executable, "-m", "venv", "--clear", VENV)
 
 
+def install(*wanted: object) -> None:
+    """Installs packages of Python in .venv."""
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", CONSTRAINTS, *wanted)
+
+
 def apt_install(what: str, *packages: str) -> None:
     """Installs packages of the system."""
-    if not shutil.which("apt-get") or os.geteuid() != 0:
+    if not shutil.which("apt-get") or os.geteuid() != 0 or os.environ.get("SHACKLED_NO_APT"):
         raise SystemExit(f"missing: {what}; install it, for instance by: sudo apt-get install {' '.join(packages)}")
     say(f"missing: {what}; installing {' '.join(packages)}")
     environment = os.environ | {"DEBIAN_FRONTEND": "noninteractive"}

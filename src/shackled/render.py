@@ -32,6 +32,7 @@ def render(
     cluster: str | None = None,
     gas_limit: int | None = None,
     tile: int | tuple[int, int] | None = None,
+    verify: str | None = None,
 ) -> Image:
     """Makes the picture of a scene.
 
@@ -43,11 +44,12 @@ def render(
     rpc: the addresses of nodes that compute it. address: of a renderer that is deployed there; None takes the one that
     is known, or brings it along. cluster: the address of a dask scheduler, "" for a cluster of our own.
     gas_limit: what a call may use. tile: side, or (width, height), of the parts in which the picture is made; None
-    takes what fits. The pixels are the same, however they are spread.
+    takes what fits. The pixels are the same, however they are spread. verify: how much of what nodes draw is compared
+    with what is drawn here, "all", "some" or "none"; None compares all, or some from 500 million gas on.
     InputError for what is wrong with the scene, RenderError for what fails in the call.
     """
     scene = _prepared(scene, size, max_triangles)
-    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile)
+    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile, verify)
     if not where.alone:
         from .parallel import render_frames
 
@@ -70,6 +72,7 @@ def turntable(
     cluster: str | None = None,
     gas_limit: int | None = None,
     tile: int | tuple[int, int] | None = None,
+    verify: str | None = None,
 ) -> Animation:
     """Makes the pictures of a full turn of a scene about the vertical axis through its middle.
 
@@ -79,7 +82,7 @@ def turntable(
     from .parallel import render_frames
 
     turned = full_turn(_prepared(scene, size, max_triangles), frames)
-    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile)
+    where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile, verify)
     return Animation(render_frames(turned, where).images, duration)
 
 
@@ -130,12 +133,13 @@ def _where(
     cluster: str | None,
     gas_limit: int | None,
     tile: int | tuple[int, int] | None,
+    verify: str | None,
 ) -> Where:
     from .parallel import Where
 
     nodes = (rpc,) if isinstance(rpc, str) else tuple(rpc)
     sides = None if tile is None else _pair(tile, "the size of a tile")
-    return Where(chain, jobs, nodes, address, cluster=cluster, gas_limit=gas_limit, tile=sides)
+    return Where(chain, jobs, nodes, address, cluster=cluster, gas_limit=gas_limit, tile=sides, verify=verify)
 
 
 def _pair(value: int | tuple[int, int], name: str) -> tuple[int, int]:

@@ -75,6 +75,12 @@ def test_an_answer() -> None:
         (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
         (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
         (Reply(b"", 401), NodeError, "HTTP status 401: it lets nobody in without the right key"),
+        (
+            Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
+            NodeError,
+            "HTTP status 401: it lets nobody in without the right key",
+        ),
+        (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
         (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it sends callers elsewhere"),
         (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot)"),

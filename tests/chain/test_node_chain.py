@@ -11,10 +11,10 @@ from random import Random
 import pytest
 
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
-from shackled import Background, Camera, Light, Material, Object, Scene
+from shackled import Background, Camera, Light, Material, Object, Scene, render
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
-from shackled.chain import open_chain, open_node, open_place
+from shackled.chain import open_chain, open_node
 from shackled.chain.address_book import VARIABLE, AddressBook
 from shackled.chain.addresses import show_address
 from shackled.chain.embedded import EmbeddedChain, intrinsic_gas
@@ -145,7 +145,7 @@ def test_deployed_on_a_node_that_only_calls(deployed: Anvil, embedded: EmbeddedC
         node = open_node(url)
         drawing = node.draw(SCENES["smooth"])
         assert (drawing.bmp, drawing.gas) == (embedded.draw(SCENES["smooth"]).bmp, None)
-        assert node.limits().gas < 30_000_000
+        assert node.gas_limit < 30_000_000
         data = encode(artifact("Renderer").selectors["render"], SCENES["smooth"])
         with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
             node.call("Renderer", data, 50_000)
@@ -200,10 +200,6 @@ def test_addresses_that_are_wrong(bare: Anvil) -> None:
         open_node(bare.url, "0x12")
     with pytest.raises(InputError, match="--address is mistyped"):
         open_node(bare.url, proxy.replace("cA78F", "Ca78F"))
-    with pytest.raises(InputError, match="--address is a contract on a node: give --rpc too"):
-        open_place(None, None, proxy)
-    with pytest.raises(InputError, match="leave out --chain"):
-        open_place("pyrevm", bare.url)
 
 
 def large_scene(triangles: int) -> Scene:
@@ -267,8 +263,7 @@ def test_limits_are_those_of_the_node(bare: Anvil, embedded: EmbeddedChain) -> N
     cap = 50_000_000
     with serving(lambda request: geth(request, bare.url, cap)) as url:
         node = open_node(url)
-        limits = node.limits()
-        assert 0.97 * cap < limits.gas < cap
+        assert 0.97 * cap < node.gas_limit < cap
         drawing = node.draw(SCENES["smooth"])
         assert drawing == embedded.draw(SCENES["smooth"])
     # what is promised is there, and not much more: a picture that just fits
@@ -278,7 +273,7 @@ def test_limits_are_those_of_the_node(bare: Anvil, embedded: EmbeddedChain) -> N
     for cap in range(need, need + need // 10, need // 100):
         with serving(lambda request, cap=cap: geth(request, bare.url, cap)) as url:  # type: ignore[misc]
             node = open_node(url)
-            if need <= node.limits().gas:
+            if need <= node.gas_limit:
                 assert node.draw(SCENES["smooth"]) == drawing
                 break
     else:
@@ -299,9 +294,40 @@ def test_too_little_gas_on_a_node(bare: Anvil) -> None:
         with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller --size"):
             open_node(url).draw(SCENES["smooth"])
         with without_overrides(url) as other:
-            assert open_node(other).limits().gas == 0
+            assert open_node(other).gas_limit == 0
             with pytest.raises(OutOfGasError, match="allows a call too little gas"):
                 open_node(other).draw(SCENES["smooth"])
+
+
+@pytest.mark.parametrize("cap", [300_000, 3_000_000, 10_000_000])
+def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> None:
+    """That is what is told, and no smaller picture is advised, since none would do."""
+    scene = large_scene(2400)
+    words = r"allows a call too little gas for this: [\d,]+, and it knows no state overrides: to bring the"
+    with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
+        for draw in (open_node(other).draw, lambda scene: render(scene, rpc=other)):
+            with pytest.raises(OutOfGasError, match=words) as error:
+                draw(scene)
+            assert "run shackled deploy" in str(error.value)
+            assert "--size" not in str(error.value)
+
+
+def test_a_node_without_overrides_and_creation_calls(bare: Anvil) -> None:
+    def answer(request: dict[str, object]) -> Reply:
+        parameters = request["params"]
+        assert isinstance(parameters, list)
+        if len(parameters) > 2:
+            return failure("too many arguments, want at most 2", -32602)
+        if request["method"] == "eth_call" and "to" not in parameters[0]:
+            return failure("missing to address", -32602)
+        return forward(bare.url, request)
+
+    with (
+        serving(answer) as url,
+        pytest.raises(NodeError, match="missing to address: it takes neither state overrides nor creation") as error,
+    ):
+        open_node(url).draw(SCENES["smooth"])
+    assert "run shackled deploy, or take another node" in str(error.value)
 
 
 #: Code that returns the data of a call, and what creates it.
@@ -365,7 +391,7 @@ def test_the_limit_of_a_creation_call_is_kept(bare: Anvil, embedded: EmbeddedCha
     need = drawing.gas + drawing.intrinsic_gas
     cap = need
     with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
-        while open_node(other).limits().gas < need:
+        while open_node(other).gas_limit < need:
             cap += 500_000
         assert open_node(other).draw(scene) == drawing
 

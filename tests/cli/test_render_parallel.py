@@ -111,6 +111,8 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "leave out --chain"),
         (["--rpc", "http://127.0.0.1:1", "--cluster"], "give --rpc or --cluster"),
         (["--rpc-timeout", "5"], "--rpc-timeout is about a node"),
+        (["--verify", "all"], "--verify is about nodes or a cluster"),
+        (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be all, some or none, not 'most'"),
         (["--chain", "reference", "--gas-limit", "1000"], "counts no gas: leave out --gas-limit"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",

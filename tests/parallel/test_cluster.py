@@ -11,9 +11,11 @@ from typing import Any
 import pytest
 
 from nodes import Reply, serving
-from shackled import InputError, RenderError, load
+from shackled import InputError, RenderError, Scene, load
 from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel.cluster import ClusterPlace
+from shackled.parallel.part import Piece
+from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
 pytest.importorskip("distributed")
@@ -43,6 +45,21 @@ def test_a_turntable_on_two_workers(address: str) -> None:
     assert [image.gas for image in there.images] == [image.gas for image in here.images]
     assert len({image.bmp for image in here.images}) == 36
     assert there.images[0].chain.endswith("2 workers")
+
+
+def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its workers have our contracts: without being asked for, nothing is compared."""
+    draw, tile = ClusterPlace.work, (48, 16)
+
+    def lie(place: ClusterPlace, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        piece = draw(place, seat, scene, tile, count)
+        return replace(piece, bmp=piece.bmp[:-1] + b"\x7f") if tile.y == 32 else piece
+
+    monkeypatch.setattr(ClusterPlace, "work", lie)
+    wrong = render_frames([SCENE], Where(cluster=address, tile=tile))
+    assert wrong.images[0].bmp != render_frames([SCENE], Where(tile=tile)).images[0].bmp
+    with pytest.raises(RenderError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
+        render_frames([SCENE], Where(cluster=address, tile=tile, verify="all"))
 
 
 def test_tiles_on_a_cluster_of_our_own() -> None:

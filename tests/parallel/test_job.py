@@ -14,14 +14,14 @@ import shackled
 from shackled import Image, InputError, RenderError, Scene, load
 from shackled.chain import open_chain
 from shackled.chain.embedded import PyrevmChain
-from shackled.parallel import Where, render_frames
+from shackled.parallel import Where, referee, render_frames
 from shackled.parallel.estimate import estimate
-from shackled.parallel.job import plan
-from shackled.parallel.part import draw_part
+from shackled.parallel.job import COMPARED_GAS, _referee, plan
+from shackled.parallel.part import Part, draw_part
 from shackled.parallel.place import ChainPlace
 from shackled.parallel.processes import ProcessPlace
 from shackled.parallel.referee import Referee
-from shackled.parallel.tiles import area
+from shackled.parallel.store import Store
 from shackled.render import render_whole
 from shackled.scene.codec import Rectangle
 
@@ -69,14 +69,6 @@ def test_parts_fit_their_gas() -> None:
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
     with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
         render_frames([SCENE], Where(gas_limit=500_000))
-
-
-def test_answers_stay_small() -> None:
-    place = ChainPlace(open_chain(), distant=True, answer_bytes=40_000)
-    large = replace(SCENE, width=300, height=300)
-    tiles = plan(large, 1, [place], None, None)
-    assert max(2 * (54 + 3 * area(tile)) for tile in tiles) < 40_000
-    assert sum(map(area, tiles)) == 300 * 300
 
 
 def test_the_cost_is_told_about_right() -> None:
@@ -150,6 +142,8 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
         ({"rpc": "http://127.0.0.1:1", "chain": "pyrevm"}, "leave out --chain"),
         ({"rpc": ["nowhere"]}, "must be the address of a node"),
         ({"address": "0x00"}, "--address is about a node"),
+        ({"verify": "all"}, "--verify is about nodes or a cluster: give --rpc or --cluster too"),
+        ({"rpc": "http://127.0.0.1:1", "verify": "most"}, "--verify must be all, some or none, not 'most'"),
         ({"chain": open_chain("reference"), "jobs": 2}, "give its name"),
     ],
 )
@@ -165,13 +159,48 @@ def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, w
     assert job.estimated_gas is None
     assert job.calls > 1
     assert job.images[0].bmp == whole.bmp
-    monkeypatch.setattr("shackled.parallel.referee.open_chain", lambda name: slow)
-    judge, small, cube = Referee(), Rectangle(0, 0, 16, 16), replace(load("cube"), width=96, height=96)
-    assert judge.wants(cube, small, True, False)
-    assert not judge.wants(cube, small, False, False)
-    assert not judge.wants(cube, Rectangle(0, 0, 96, 96), True, False)
-    assert judge.wants(cube, Rectangle(0, 0, 96, 96), True, True)
-    piece = draw_part(open_chain("pyrevm"), cube, small, True)
-    assert judge.agrees(cube, small, piece)
-    assert not judge.agrees(cube, small, replace(piece, bmp=piece.bmp[:-1] + b"\x7f"))
-    assert not judge.agrees(cube, small, replace(piece, triangles=(piece.triangles or 0) + 1))
+    monkeypatch.setattr("shackled.parallel.referee.open_chain", lambda name: open_chain(name) if name else slow)
+    # NumPy draws what nodes are compared with
+    judge, small, cube = Referee(every=True), Rectangle(0, 0, 16, 16), replace(load("cube"), width=96, height=96)
+    piece, right = draw_part(open_chain("pyrevm"), cube, small, True), judge.draw(cube, small, True)
+    assert right.gas is None
+    assert piece.same(right)
+    assert not replace(piece, bmp=piece.bmp[:-1] + b"\x7f").same(right)
+    assert not replace(piece, triangles=(piece.triangles or 0) + 1).same(right)
+
+
+def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
+    chain = open_chain()
+    assert isinstance(chain, PyrevmChain)
+    node, cheap = ChainPlace(chain, distant=True), estimate(SCENE, chain)
+    dear = replace(cheap, fixed=float(COMPARED_GAS))
+    large = replace(SCENE, width=2048, height=1024)
+    cases = (
+        (SCENE, cheap, None, "all"),
+        (SCENE, dear, None, "some"),
+        (SCENE, dear, "all", "all"),
+        (SCENE, cheap, "some", "some"),
+        (SCENE, cheap, "none", "none"),
+        # where nothing tells the gas
+        (SCENE, None, None, "all"),
+        (large, None, None, "some"),
+    )
+    monkeypatch.setattr(referee, "SAMPLE", 10**9)
+    for scene, expected, verify, much in cases:
+        judge, compared = _referee(scene, [node], expected, verify)
+        assert compared is (much == "all")
+        assert (judge is None) is (much == "none")
+        if judge is not None:
+            assert judge.wants(first=True)
+            assert judge.wants(first=False) is compared
+    # what is drawn on this machine is right
+    assert _referee(SCENE, [ChainPlace(chain)], dear, None) == (None, True)
+
+
+def test_parts_that_nobody_compared_are_no_parts_of_a_compared_picture(tmp_path: Path) -> None:
+    loose, strict = (Store(tmp_path, [SCENE], True, compared) for compared in (False, True))
+    part = Part(0, Rectangle(0, 0, 96, 10))
+    loose.write(part, draw_part(open_chain(), SCENE, part.tile, True))
+    assert loose.read(part) is not None
+    assert strict.read(part) is None

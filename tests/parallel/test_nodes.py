@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -9,17 +10,22 @@ from typing import Any
 import pytest
 
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
-from proxies import after, always, each_third, proxy
+from proxies import after, always, at, each_third, proxy
 from shackled import Image, RenderError, load
 from shackled.chain import open_chain
 from shackled.chain.addresses import PROXY
 from shackled.errors import NodeError
-from shackled.parallel import Listener, Outline, Where, referee, render_frames, scheduler
+from shackled.parallel import Listener, Outline, Where, render_frames, scheduler
+from shackled.parallel import job as job_module
 from shackled.render import render_whole
+from shackled.scene.turning import full_turn
 
 SCENE = replace(load("cube"), width=64, height=60)
 TILE = (64, 5)
 PARTS = 12
+#: A turntable, of which there are so many tiles of 64 x 16 pixels that can be lied about.
+SPIN = full_turn(replace(load("cube"), width=64, height=64), 2)
+LIES = 8
 
 
 pytestmark = needs_anvil
@@ -51,6 +57,11 @@ def node() -> Iterator[str]:
 @pytest.fixture(scope="module")
 def right() -> Image:
     return render_whole(SCENE, open_chain())
+
+
+@pytest.fixture(scope="module")
+def uncounted() -> list[Image]:
+    return render_frames(SPIN, Where(), count=False).images
 
 
 def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
@@ -99,10 +110,13 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
         ("500", "500"),
         ("html", "not JSON"),
         ("half", "broke off its answer"),
-        ("wrong", "answers wrongly: its picture is not what the contracts draw"),
-        ("empty", "answers wrongly: the contract returned 0 bytes"),
-        ("junk", "answers wrongly: the contract returned 468 bytes"),
-        ("lie", "answers wrongly: the contract refused: error 0x1212"),
+        (
+            "wrong",
+            "for the tile of 64 x 5 pixels at .*: its picture is not what the contracts draw",
+        ),
+        ("empty", "answers wrongly for .*: the contract returned 0 bytes"),
+        ("junk", "answers wrongly for .*: the contract returned 468 bytes"),
+        ("lie", "answers wrongly for .*: the contract refused: error 0x1212"),
     ],
 )
 def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
@@ -120,9 +134,52 @@ def test_a_node_that_always_fails(node: str, right: Image, manner: str, message:
     assert not notes.warnings or job.images[0].chain.startswith("node ")
 
 
-def test_a_node_that_turns_bad(node: str, right: Image, monkeypatch: pytest.MonkeyPatch) -> None:
-    # every part is checked, so that the test does not depend on luck
-    monkeypatch.setattr(referee, "SAMPLE", 1)
+@pytest.mark.parametrize("lie", range(LIES))
+def test_a_lie_in_any_tile_is_found(node: str, uncounted: list[Image], lie: int) -> None:
+    """Of a turntable of two frames in four tiles each. Alone it is an error that names node and tile; with another node
+    beside it the tile is rendered there.
+    """
+    where = f"the tile of 64 x 16 pixels at (0, {lie % 4 * 16}) of frame {lie // 4}"
+    with proxy(node, at(lie, "wrong")) as url:
+        with pytest.raises(RenderError) as error:
+            render_frames(SPIN, Where(rpc=(url,), tile=(64, 16)), count=False)
+        name = f"the node {url.removeprefix('http://')} "
+        assert str(error.value).startswith(name)
+        assert f"answers wrongly for {where}: its picture is not what the contracts draw" in str(error.value)
+        assert str(error.value).endswith("; there is no other place to render it")
+    notes = Notes()
+    with proxy(node, at(lie // 2, "wrong")) as url:
+        job = render_frames(SPIN, Where(rpc=(url, node), tile=(64, 16)), count=False, listener=notes)
+    assert [image.bmp for image in job.images] == [image.bmp for image in uncounted]
+    for warning in notes.warnings:
+        assert re.search("answers wrongly for the tile .*; it is left out, and 1 part is rendered again", warning)
+
+
+def test_a_lie_in_a_whole_picture_is_found(node: str) -> None:
+    with (
+        proxy(node, at(0, "wrong")) as url,
+        pytest.raises(RenderError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
+    ):
+        render_frames([SCENE], Where(rpc=(url,)), count=False)
+
+
+def test_what_is_not_compared_may_be_wrong(node: str, uncounted: list[Image]) -> None:
+    with proxy(node, at(3, "wrong")) as url:
+        job = render_frames(SPIN, Where(rpc=(url,), tile=(64, 16), verify="none"), count=False)
+    assert [job.images[n].bmp == uncounted[n].bmp for n in (0, 1)] == [False, True]
+
+
+def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And that is told, unless it was asked for."""
+    monkeypatch.setattr(job_module, "COMPARED_GAS", 1)
+    for verify, told in ((None, 1), ("some", 0), ("all", 0)):
+        notes = Notes()
+        render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), count=False, listener=notes)
+        assert len(notes.warnings) == told
+        assert all("--verify all compares every pixel" in warning for warning in notes.warnings)
+
+
+def test_a_node_that_turns_bad(node: str, right: Image) -> None:
     notes = Notes()
     with proxy(node, after(5, "wrong")) as url:
         job = render_frames([SCENE], Where(rpc=(url, node), tile=(64, 2)), listener=notes)

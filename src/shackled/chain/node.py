@@ -17,6 +17,7 @@ from ..errors import (
     OutOfGasError,
     RenderError,
     RevertError,
+    TooLargeError,
     WrongChainError,
 )
 from ..scene.codec import Rectangle, encode
@@ -45,19 +46,6 @@ class Way(Enum):
     DEPLOYED = "deployed"
     OVERRIDE = "state override"
     CREATION = "creation call"
-
-
-@dataclass(frozen=True)
-class NodeLimits:
-    """What one request to a node may be.
-
-    gas: for the execution of a render and what is paid before it, `Drawing.gas` and `Drawing.intrinsic_gas`.
-    request_bytes, answer_bytes: None if unknown.
-    """
-
-    gas: int
-    request_bytes: int | None = None
-    answer_bytes: int | None = None
 
 
 @dataclass(frozen=True)
@@ -133,18 +121,27 @@ class NodeChain:
         except RevertError as error:
             raise self._refused(error.data, gas_limit) from None
         except OutOfGasError:
-            raise self._refused(None, gas_limit) from None
+            raise (self._refused(None, gas_limit) if self.gas_limit else self.too_little()) from None
         self._ways.add(Way.DEPLOYED if place is not None else Way.OVERRIDE if self._probed.overrides else Way.CREATION)
         return result
 
-    def limits(self) -> NodeLimits:
-        """What one request may be, asked once."""
-        probed = self._probed
+    @property
+    def gas_limit(self) -> int:
+        """The gas that a render may use, asked once: for its execution and what is paid before that, `Drawing.gas` and
+        `Drawing.intrinsic_gas`. 0 if a call has too little even for what comes along.
+        """
         # a call hands on all but a 64th
-        gas = probed.gas * 63 // 64 - 30_000
-        if not probed.overrides and self.place("Renderer") is None:
-            gas -= self._creation_gas
-        return NodeLimits(max(0, gas))
+        return max(0, self._probed.gas * 63 // 64 - 30_000 - self._carried_gas)
+
+    def too_little(self) -> OutOfGasError:
+        """The error of a node whose calls have too little gas for any render."""
+        said = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
+        if not self._carried_gas:
+            return OutOfGasError(f"{said}; raise its limit, or take another node")
+        return OutOfGasError(
+            f"{said}, and it knows no state overrides: to bring the contracts along takes up to {self._carried_gas:,}; "
+            "run shackled deploy, raise its limit, or take another node"
+        )
 
     def place(self, contract: str) -> bytes | None:
         """Where a contract is deployed on the node's chain, as it is here; None if it is not.
@@ -240,12 +237,29 @@ class NodeChain:
             deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
             init = head + _bytes(deflate.compress(packed) + deflate.flush(), 96)
             if len(init) <= MAX_INIT_CODE:
-                return self._answer_of(init)
+                return self._carried(init)
         raise NodeError(
             f"the {self.connection.name} knows no state overrides, and the scene of {len(data):,} bytes is too large "
             f"for a creation call with the contracts: {len(init):,} bytes packed, of {MAX_INIT_CODE:,} allowed; "
             "run shackled deploy, take a smaller --max-triangles, or another node"
         )
+
+    def _carried(self, init: bytes) -> NodeResult:
+        """What a creation says that brings the contracts along."""
+        try:
+            return self._answer_of(init)
+        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, TooLargeError, WrongChainError):
+            raise
+        except NodeError as error:
+            if not self._probed.creations:
+                raise NodeError(
+                    f"{error}: it takes neither state overrides nor creation calls, and the contracts are not deployed "
+                    "on its chain; run shackled deploy, or take another node"
+                ) from None
+            if not self.gas_limit:
+                # a creation that runs out of gas may say nothing
+                raise self.too_little() from None
+            raise
 
     def _answer_of(self, init: bytes) -> NodeResult:
         """What a creation that ends by a revert says of the call that it made."""
@@ -257,6 +271,9 @@ class NodeChain:
                 return NodeResult(output, gas)
             if flag == _word(0):
                 raise RevertError(str(error), output) from None
+            if error.data[:4] in artifact("CreationCall").errors:
+                # NotCreated: one of the contracts ran out of gas
+                raise self.too_little() from None
         raise NodeError(
             f"the {self.connection.name} knows no state overrides, and keeps back what a creation call says: "
             "take another node, or one where the contracts are deployed"
@@ -280,20 +297,25 @@ class NodeChain:
         with self._lock:
             return _probe(self.connection)
 
-    @cached_property
-    def _creation_gas(self) -> int:
-        """Above what a creation call costs beside the render: unpacking, and what is paid for each byte of code."""
+    @property
+    def _carried_gas(self) -> int:
+        """Above what it costs to bring the contracts along beside the render: unpacking, and each byte of code."""
+        if self._probed.overrides or self.place("Renderer") is not None:
+            return 0
         sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in ("Engine", "Renderer")]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
 
 
 @dataclass(frozen=True)
 class _Probed:
-    """What a node allows. gas: of a call, and whether a call has to name it to get as much."""
+    """What a node allows. gas: of a call, and whether a call has to name it to get as much. creations: whether it was
+    seen to answer a call that creates a contract, where it knows no overrides.
+    """
 
     overrides: bool
     gas: int
     named: bool
+    creations: bool = True
 
     @property
     def field(self) -> dict[str, str]:
@@ -324,7 +346,7 @@ def _probe(connection: Connection) -> _Probed:
     # it makes no creation calls, and what is deployed has to do
     block = connection.request("eth_getBlockByNumber", "latest", False)
     try:
-        return _Probed(False, int(block["gasLimit"], 16), False)
+        return _Probed(False, int(block["gasLimit"], 16), False, creations=False)
     except (TypeError, LookupError, ValueError):
         raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 

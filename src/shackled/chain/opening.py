@@ -18,17 +18,6 @@ CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
 _KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
 
 
-def open_place(chain: str | None, rpc: str | None, address: str | None = None, timeout: float | None = None) -> Chain:
-    """The node at the address `rpc`, as `open_node` has it, or the chain of that name."""
-    if rpc is not None:
-        if chain is not None:
-            raise InputError("--rpc is a place of its own: leave out --chain")
-        return open_node(rpc, address, timeout)
-    if address is not None:
-        raise InputError("--address is a contract on a node: give --rpc too, or leave it out")
-    return open_chain(chain)
-
-
 def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
     """The node at an address.
 

@@ -91,7 +91,7 @@ class Transport(HTTPProvider):
                     raise TimeoutError
             body = b"".join(parts)
         # hosted nodes say with a status of their own what JSON-RPC says in the body
-        if response.status_code != 200 and not _is_rpc_error(response.status_code, body):
+        if response.status_code != 200 and not _is_rpc_error(response.status_code, body, request):
             raise http_failure(self.name, response.status_code, response.headers, body)
         return body
 
@@ -132,11 +132,14 @@ def _failure(error: Exception) -> tuple[type[NodeError], str]:
     return NodeUnreachableError, BROKEN
 
 
-def _is_rpc_error(status: int, body: bytes) -> bool:
+def _is_rpc_error(status: int, body: bytes, request: bytes) -> bool:
+    """Whether an answer is a node's refusal of this very request, which says more than the status."""
     if status in (413, 429):
         return False
     try:
         answer = read_json(body.decode())
     except ValueError:
         return False
-    return isinstance(answer, dict) and isinstance(answer.get("error"), dict) and "message" in answer["error"]
+    if not isinstance(answer, dict) or answer.get("id") not in (None, json.loads(request)["id"]):
+        return False
+    return isinstance(answer.get("error"), dict) and "message" in answer["error"]

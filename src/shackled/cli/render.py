@@ -22,6 +22,7 @@ from ..load import locate
 from ..palette import MOST_COLORS, colors
 from ..parallel import Where, render_frames
 from ..parallel.store import folder_of, remove_parts
+from ..parallel.where import VERIFY
 from ..render import render_whole
 from ..scene.scene import Scene
 from ..scene.turning import full_turn
@@ -91,6 +92,15 @@ def render(
     tile: Annotated[
         str | None, option("--tile", "Cut the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
     ] = None,
+    verify: Annotated[
+        str | None,
+        option(
+            "--verify",
+            f"How much of what nodes draw is compared here: {', '.join(VERIFY)}; else all, or some of large pictures.",
+            "MUCH",
+            "Where",
+        ),
+    ] = None,
     *,
     changes: Changes,
 ) -> None:
@@ -115,6 +125,7 @@ def render(
         cluster=cluster,
         gas_limit=gas_limit,
         tile=None if tile is None else parse_tile(tile),
+        verify=verify,
     )
     if chain is not None:
         open_chain(chain)

@@ -19,7 +19,7 @@ class Piece:
     name: as it is typed, for instance "teapot", "icons/diamond" or "genesis/12".
     dataset: "common", "icons" or "genesis".
     title: for people. licence: of the model, as its source states it.
-    commercial: whether the licence allows commercial use; what mints refuses a piece where it does not.
+    commercial: whether the licence is known to allow commercial use; what mints refuses a piece where it is not.
     make: makes the scene. It may take a while, and raises InputError where a file is needed that has to be fetched
         first.
     credit: whom to name with the picture, if anybody.

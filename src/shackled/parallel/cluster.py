@@ -32,12 +32,16 @@ STOPPING = 10
 class ClusterPlace:
     """A cluster: one that runs at an address, or one of this machine, which ends with the job."""
 
-    # its workers were found to have the same contracts as we do
-    distant = False
-    answer_bytes: int | None = None
-
-    def __init__(self, address: str | None, jobs: int, chain: str | None = None, gas: int | None = None) -> None:
+    def __init__(
+        self,
+        address: str | None,
+        jobs: int,
+        chain: str | None = None,
+        gas: int | None = None,
+        distant: bool = False,
+    ) -> None:
         """address: of a scheduler, as tcp://host:8786; None starts `jobs` workers here. chain, gas: as `ProcessPlace`.
+        distant: whether what its workers draw may be wrong, although they are found to have the contracts that we have.
 
         InputError if dask.distributed is not installed, or a worker does not fit; RenderError if no cluster is there.
         """
@@ -52,7 +56,7 @@ class ClusterPlace:
             def __del__(self) -> None:
                 """We close it, and one that could not be opened is not waited for."""
 
-        self.gas, self._chain = gas, chain
+        self.gas, self._chain, self.distant = gas, chain, distant
         limited(chain, gas)
         # what it reports of a lost connection, with a traceback, comes out as an error here
         self._logger = logging.getLogger("distributed.client")

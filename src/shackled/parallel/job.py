@@ -19,7 +19,7 @@ from .estimate import Estimate, estimate
 from .listener import Listener, Outline
 from .part import Part, Piece
 from .place import Place
-from .referee import Referee
+from .referee import SAMPLE, Referee
 from .scheduler import Scheduler
 from .store import Store
 from .tiles import cut, grid
@@ -30,6 +30,9 @@ PARTS_PER_SEAT = 4
 MOST_EXTRA = 0.3
 #: Pixels of a part at most: about 50 MB for its pixels and what is worked out about them.
 MOST_PIXELS = 1 << 22
+#: Pictures of nodes that take less gas are compared whole: here that takes a second or two. PIXELS: where no gas is
+#: known, as only NumPy is there to draw them.
+COMPARED_GAS, COMPARED_PIXELS = 500_000_000, 1 << 20
 
 
 @dataclass(frozen=True)
@@ -65,14 +68,19 @@ def render_frames(
         expected = _estimate(frames[0], places, where)
         tiles = plan(frames[0], len(frames), places, expected, where.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
+        referee, compared = _referee(frames[0], places, expected, where.verify)
         # a single part may have to be cut too
-        store = Store(keep, frames, count) if keep is not None else None
+        store = Store(keep, frames, count, compared) if keep is not None else None
         if store is not None and len(parts) > 1:
             parts = _planned(store, parts, where)
         pixels = frames[0].width * frames[0].height
         gas = None if expected is None else len(frames) * expected.gas(pixels, max(1, len(parts) // len(frames)))
         listener.planned(Outline(len(parts), len(frames), pixels * len(frames), gas))
-        referee = Referee() if any(place.distant for place in places) else None
+        if not compared and where.verify is None and len(parts) > 1:
+            listener.warned(
+                f"of what nodes draw of a picture as large as this only samples are compared (one part in {SAMPLE}): "
+                "--verify all compares every pixel"
+            )
         scheduler = Scheduler(frames, places, count, store, listener, referee)
         try:
             pieces = scheduler.run(parts)
@@ -95,9 +103,6 @@ def plan(
         return list(grid(width, height, *tile))
     pixels = MOST_PIXELS
     for place in places:
-        if place.answer_bytes is not None:
-            # two characters a byte, and what is around them
-            pixels = min(pixels, (place.answer_bytes // 2 - 512) // 3)
         if place.gas is not None and expected is not None:
             pixels = min(pixels, expected.pixels_within(place.gas))
     # what does not fit by this reckoning is tried in the smallest tiles that make sense
@@ -116,6 +121,19 @@ def _estimate(scene: Scene, places: Sequence[Place], where: Where) -> Estimate |
     if not isinstance(chain, PyrevmChain) or any(place.name.startswith("NumPy") for place in places):
         return None
     return estimate(scene, chain)
+
+
+def _referee(
+    scene: Scene, places: Sequence[Place], expected: Estimate | None, verify: str | None
+) -> tuple[Referee | None, bool]:
+    """Who compares what places draw that may be wrong, and whether every part is right in the end."""
+    if not any(place.distant for place in places):
+        return None, True
+    if verify is None:
+        pixels = scene.width * scene.height
+        cheap = pixels <= COMPARED_PIXELS if expected is None else expected.gas(pixels) < COMPARED_GAS
+        verify = "all" if cheap else "some"
+    return (None if verify == "none" else Referee(verify == "all")), verify == "all"
 
 
 def _planned(store: Store, parts: list[Part], where: Where) -> list[Part]:

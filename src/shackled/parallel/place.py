@@ -15,13 +15,12 @@ class Place(Protocol):
     """Where parts are rendered.
 
     seats: how many parts at a time. distant: whether its answers come from somewhere that could be wrong.
-    gas: what a call may use, and answer_bytes: how long its answer may be; None where there is no such limit.
+    gas: what a call may use; None where there is no such limit.
     """
 
     seats: int
     distant: bool
     gas: int | None
-    answer_bytes: int | None
 
     @property
     def name(self) -> str:
@@ -37,17 +36,9 @@ class Place(Protocol):
 class ChainPlace:
     """A chain: in this process, or a node, with so many calls at a time."""
 
-    def __init__(
-        self,
-        chain: Chain,
-        seats: int = 1,
-        distant: bool = False,
-        gas: int | None = None,
-        answer_bytes: int | None = None,
-    ) -> None:
+    def __init__(self, chain: Chain, seats: int = 1, distant: bool = False, gas: int | None = None) -> None:
         """See `Place`."""
-        self.chain, self.seats, self.distant = chain, seats, distant
-        self.gas, self.answer_bytes = gas, answer_bytes
+        self.chain, self.seats, self.distant, self.gas = chain, seats, distant, gas
 
     @property
     def name(self) -> str:

@@ -26,7 +26,6 @@ class ProcessPlace:
     """Processes of this machine. They end with this one, however it ends."""
 
     distant = False
-    answer_bytes: int | None = None
 
     def __init__(self, chain: str | None, jobs: int, gas: int | None = None) -> None:
         """chain: by name, as `open_chain` takes it. jobs: how many processes. gas: of a call."""

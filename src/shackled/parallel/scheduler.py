@@ -11,6 +11,8 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from ..errors import (
@@ -86,6 +88,8 @@ class Scheduler:
         self._results: dict[Part, Piece] = {}
         self._error: BaseException | None = None
         self._stopped = False
+        self._told: set[Bench] = set()
+        self._comparing = ThreadPoolExecutor(1)
 
     def run(self, parts: Sequence[Part]) -> dict[Part, Piece]:
         """The finished parts; those given may have been cut further. An error ends all of it."""
@@ -108,6 +112,7 @@ class Scheduler:
             with self._changed:
                 self._stopped = True
                 self._changed.notify_all()
+            self._comparing.shutdown(wait=False, cancel_futures=True)
 
     @property
     def shares(self) -> dict[str, int]:
@@ -129,29 +134,42 @@ class Scheduler:
     def _sit(self, bench: Bench, seat: int) -> None:
         """What the thread of a seat does."""
         while (part := self._take(bench)) is not None:
-            piece: Piece | None = None
-            checked, failure = False, None
+            piece, failure = None, None
             try:
                 piece = bench.place.work(seat, self._frames[part.frame], part.tile, self._count)
-                checked = bench.place.distant and self._check(bench, part, piece)
             except BaseException as error:
                 failure = self._judged(bench, part, error)
-            with self._changed:
-                self._flying -= 1
-                try:
-                    if self._stopped:
-                        return
-                    if failure is not None:
-                        self._failed(bench, part, failure)
-                    elif bench.left or piece is None:
-                        self._pending.appendleft(part)
-                    else:
-                        self._finished(bench, part, piece, checked)
-                except BaseException as error:
-                    # of a listener, or of the disk
-                    self._error = error
-                finally:
-                    self._changed.notify_all()
+            if piece is not None and bench.checked and self._referee is not None:
+                # beside the next call of this seat; the first part of a place is compared before it gets another
+                with suppress(RuntimeError):  # all is over
+                    self._comparing.submit(self._settle, bench, part, piece, None)
+            else:
+                self._settle(bench, part, piece, failure)
+
+    def _settle(self, bench: Bench, part: Part, piece: Piece | None, failure: BaseException | None) -> None:
+        """Takes in what a seat did."""
+        checked = False
+        if piece is not None and bench.place.distant:
+            try:
+                checked = self._check(bench, part, piece)
+            except BaseException as error:
+                failure = self._judged(bench, part, error)
+        with self._changed:
+            self._flying -= 1
+            try:
+                if self._stopped:
+                    return
+                if failure is not None:
+                    self._failed(bench, part, failure)
+                elif piece is None or (bench.left and not checked):
+                    self._pending.appendleft(part)
+                else:
+                    self._finished(bench, part, piece, checked)
+            except BaseException as error:
+                # of a listener, or of the disk
+                self._error = error
+            finally:
+                self._changed.notify_all()
 
     def _take(self, bench: Bench) -> Part | None:
         """The next part for a place; None if there is nothing more to do for it."""
@@ -180,7 +198,7 @@ class Scheduler:
         return None
 
     def _check(self, bench: Bench, part: Part, piece: Piece) -> bool:
-        """Whether a part was checked. WrongAnswer if it is not what it should be."""
+        """Whether a part was compared. WrongAnswer if it is not what it should be."""
         scene = self._frames[part.frame]
         try:
             check_part(piece, part.tile)
@@ -188,18 +206,32 @@ class Scheduler:
             raise WrongAnswer(str(error)) from None
         with self._changed:
             first, bench.checked = not bench.checked, True
-            peers = [each for each in self._benches if each.place.distant and not each.left and each is not bench]
-        if self._referee is None or not self._referee.wants(scene, part.tile, first, bool(peers)):
+        if self._referee is None or not self._referee.wants(first):
             return False
-        if not self._referee.fast and peers:
-            try:
-                if random.choice(peers).place.work(0, scene, part.tile, self._count).same(piece):
-                    return True
-            except RenderError:
-                return False
-        if not self._referee.agrees(scene, part.tile, piece):
+        right = self._referee.draw(scene, part.tile, self._count)
+        if not piece.same(right):
             raise WrongAnswer("its picture is not what the contracts draw")
+        if None not in (piece.gas, right.gas) and piece.gas != right.gas:
+            self._tell_of_gas(bench, part, piece.gas, right.gas)
         return True
+
+    def _tell_of_gas(self, bench: Bench, part: Part, told: int | None, right: int | None) -> None:
+        """Warns, once of each place: the picture is right, but the gas is another than under the rules of Cancun."""
+        with self._changed:
+            if bench not in self._told:
+                self._told.add(bench)
+                self._listener.warned(
+                    f"the {bench.place.name} counts {told:,} gas for {self._title(part)}, which takes {right:,} here: "
+                    "its gas is not that of the rules of Cancun"
+                )
+
+    def _title(self, part: Part) -> str:
+        """Which part it is, for people."""
+        tile, frame = part.tile, self._frames[part.frame]
+        of = f"frame {part.frame}" if len(self._frames) > 1 else ""
+        if (tile.width, tile.height) == (frame.width, frame.height):
+            return of or "the picture"
+        return f"the tile of {tile.width} x {tile.height} pixels at ({tile.x}, {tile.y})" + (of and f" of {of}")
 
     def _judged(self, bench: Bench, part: Part, error: BaseException) -> BaseException:
         """What a place says, or WrongAnswer if it says of the contracts what they do not say here."""
@@ -244,7 +276,7 @@ class Scheduler:
             return
         if isinstance(error, WrongAnswer):
             self._pending.appendleft(part)
-            self._leave(bench, RenderError(f"the {bench.place.name} answers wrongly: {error}"))
+            self._leave(bench, RenderError(f"the {bench.place.name} answers wrongly for {self._title(part)}: {error}"))
             return
         if not isinstance(error, NodeError):
             self._error = error
@@ -303,7 +335,13 @@ class Scheduler:
             self._listener.advanced(-area(part.tile))
         if all(each.left for each in self._benches):
             several = len(self._benches) > 1
+            if wrong and not several:
+                error = RenderError(f"{error}; there is no other place to render it")
             self._error = RenderError(f"no place is left to render: {error}") if several else error
             return
-        again = f"; {len(revoked)} parts are rendered again" if revoked else ""
+        again = f", and {_parts(1 + len(revoked))} rendered again by others" if wrong else ""
         self._listener.warned(f"{error}; it is left out{again}")
+
+
+def _parts(count: int) -> str:
+    return "1 part is" if count == 1 else f"{count} parts are"

@@ -48,12 +48,14 @@ def contracts_digest() -> bytes:
 class Store:
     """The finished parts of a job."""
 
-    def __init__(self, folder: Path, frames: Sequence[Scene], count: bool) -> None:
-        """count: whether parts are counted; those that are not do not do then. Errors as of `make_output_folder`."""
+    def __init__(self, folder: Path, frames: Sequence[Scene], count: bool, compared: bool = True) -> None:
+        """count: whether parts are counted; those that are not do not do then. compared: whether all parts are known to
+        be right; those of a run in which they were not do not do then. Errors as of `make_output_folder`.
+        """
         self.folder = folder
         self._frames = frames
         self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
-        self._salt = contracts_digest() + bytes([count])
+        self._salt = contracts_digest() + bytes([count, compared])
         self._kept = 0
         make_output_folder(folder)
 

@@ -9,13 +9,15 @@ from dataclasses import dataclass
 from ..chain import Chain, open_node
 from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..checks import integer
-from ..errors import InputError, NodeError
+from ..errors import InputError, NodeError, OutOfGasError, RenderError
 from .evm import limited
 from .listener import Listener
 from .place import ChainPlace, Place
 from .processes import ProcessPlace
 
 MOST_JOBS = 256
+#: How much of what nodes draw is compared.
+VERIFY = ("all", "some", "none")
 #: How often a node that is busy is asked while we get to know it.
 ATTEMPTS = 4
 
@@ -28,6 +30,8 @@ class Where:
     rpc: addresses of nodes. address: of a renderer that is deployed there. timeout: seconds that a node may take.
     cluster: address of a dask scheduler, "" for a cluster of our own.
     gas_limit: what a call may use. tile: width and height of the parts of a picture; None takes what fits.
+    verify: how much of what nodes, or the machines of a cluster, draw is drawn once more here and compared: "all",
+    "some" or "none"; None compares all of the pictures of nodes that take little gas, and some of others.
     """
 
     chain: Chain | str | None = None
@@ -38,6 +42,7 @@ class Where:
     cluster: str | None = None
     gas_limit: int | None = None
     tile: tuple[int, int] | None = None
+    verify: str | None = None
 
     def __post_init__(self) -> None:
         jobs, gas = integer(self.jobs), integer(self.gas_limit)
@@ -54,6 +59,10 @@ class Where:
             if min(sides) < 1:
                 raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
             object.__setattr__(self, "tile", sides)
+        if self.verify not in (None, *VERIFY):
+            raise InputError(f"--verify must be {', '.join(VERIFY[:-1])} or {VERIFY[-1]}, not {self.verify!r}")
+        if self.verify is not None and not self.rpc and self.cluster is None:
+            raise InputError("--verify is about nodes or a cluster: give --rpc or --cluster too, or leave it out")
         if self.rpc and self.cluster is not None:
             raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
         if self.rpc and self.chain is not None:
@@ -83,7 +92,8 @@ class Where:
             from .cluster import ClusterPlace
 
             assert chain is None or isinstance(chain, str)
-            return [ClusterPlace(self.cluster or None, self.count, chain, self.gas_limit)]
+            # of workers with the same contracts only what is asked for is compared
+            return [ClusterPlace(self.cluster or None, self.count, chain, self.gas_limit, self.verify is not None)]
         if self.rpc:
             return self._open_nodes(listener)
         if chain is not None and not isinstance(chain, str):
@@ -95,11 +105,12 @@ class Where:
 
     def _open_nodes(self, listener: Listener) -> list[Place]:
         places: list[Place] = []
+        last: RenderError
         urls = list(dict.fromkeys(self.rpc))
         for url in urls:
             try:
                 places.append(self._open_node(url))
-            except NodeError as error:
+            except (NodeError, OutOfGasError) as error:
                 if len(urls) == 1:
                     raise
                 listener.warned(f"{error}; it is left out")
@@ -111,8 +122,10 @@ class Where:
     def _open_node(self, url: str) -> Place:
         node = open_node(url, self.address, self.timeout)
         node.connection.attempts = ATTEMPTS
-        limits = node.limits()
+        most = node.gas_limit
         node.place("Renderer")  # an --address with something else is told before anything is rendered
+        if not most:
+            raise node.too_little()
         node.connection.attempts = 1
-        gas = limits.gas if self.gas_limit is None else min(limits.gas, self.gas_limit)
-        return ChainPlace(node, self.count, distant=True, gas=gas, answer_bytes=limits.answer_bytes)
+        gas = most if self.gas_limit is None else min(most, self.gas_limit)
+        return ChainPlace(node, self.count, distant=True, gas=gas)

@@ -1,0 +1,160 @@
+"""What the package says of itself: what it needs, where, and whose code is in it."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import sys
+import tomllib
+from collections.abc import Iterator
+from importlib.metadata import packages_distributions
+from pathlib import Path
+from typing import Any
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "src" / "shackled"
+PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text())
+NEEDED = [Requirement(line) for line in PROJECT["project"]["dependencies"]]
+EXTRAS = {
+    name: [Requirement(line) for line in lines] for name, lines in PROJECT["project"]["optional-dependencies"].items()
+}
+CONSTRAINTS = ROOT / "tools" / "constraints.txt"
+
+#: What parts of the package may import beside what every installation has: the extra that an error names.
+EXTRA_OF = {
+    "bench": "bench",
+    "creator": "creator",
+    "parallel/cluster.py": "cluster",
+    "parallel/local_cluster.py": "cluster",
+}
+
+
+def imported() -> Iterator[tuple[str, str]]:
+    """Each file of the package, with a module of somebody else that it imports."""
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+                names = [node.module]
+            else:
+                continue
+            for name in names:
+                top = name.split(".")[0]
+                if top not in sys.stdlib_module_names and top != "shackled":
+                    yield path.relative_to(PACKAGE).as_posix(), top
+
+
+def test_what_is_imported_is_declared() -> None:
+    """By its own name, and not because something else needs it too."""
+    found, distributions = set(), packages_distributions()
+    for file, module in imported():
+        declared = {canonicalize_name(each.name) for each in NEEDED}
+        for start, extra in EXTRA_OF.items():
+            if file.startswith(start):
+                declared |= {canonicalize_name(each.name) for each in EXTRAS[extra]}
+        owners = {canonicalize_name(name) for name in distributions[module]}
+        assert owners & declared, f"{file} imports {module}, which pyproject.toml does not declare"
+        found |= owners & declared
+    # and nothing is declared that nobody imports
+    everything = [*NEEDED, *(each for lines in EXTRAS.values() for each in lines)]
+    assert {canonicalize_name(each.name) for each in everything} <= found
+
+
+#: The wheels that there are of pyrevm 0.3.7, all of them of CPython: system, machine, versions of Python.
+BUILDS = {
+    ("linux", "x86_64"): ("3.11", "3.12"),
+    ("linux", "aarch64"): (),
+    ("darwin", "arm64"): ("3.11", "3.12"),
+    ("darwin", "x86_64"): ("3.11", "3.12"),
+    ("win32", "AMD64"): ("3.11", "3.12", "3.13", "3.14"),
+    ("win32", "ARM64"): (),
+    ("freebsd14", "amd64"): (),
+}
+
+
+@pytest.mark.parametrize("implementation", ["cpython", "pypy"])
+@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14", "3.15"])
+@pytest.mark.parametrize(("system", "machine"), BUILDS)
+def test_the_fast_evm_where_there_is_a_build_of_it(
+    system: str, machine: str, version: str, implementation: str
+) -> None:
+    """And else the other one; never both, and never none."""
+    environment = {
+        "sys_platform": system,
+        "platform_machine": machine,
+        "python_version": version,
+        "python_full_version": f"{version}.1",
+        "implementation_name": implementation,
+    }
+    chosen = {each.name for each in NEEDED if each.marker is None or each.marker.evaluate(environment)}
+    built = implementation == "cpython" and version in BUILDS[system, machine]
+    assert chosen & {"pyrevm", "py-evm"} == {"pyrevm" if built else "py-evm"}
+
+
+def test_what_the_package_says_of_itself() -> None:
+    project = PROJECT["project"]
+    assert project["authors"]
+    assert project["keywords"]
+    for version in ("3.11", "3.12", "3.13"):
+        assert f"Programming Language :: Python :: {version}" in project["classifiers"]
+    for name in project["license-files"]:
+        assert (ROOT / name).is_file()
+
+
+def test_notices_of_all_whose_code_is_compiled_in() -> None:
+    """Each library that the compiler's inputs name, in the version that is installed, with its licence in full."""
+    notices = (ROOT / "THIRD-PARTY-NOTICES").read_text()
+    sources = {
+        source
+        for path in (PACKAGE / "artifacts").glob("standard-input*.json")
+        for source in json.loads(path.read_text())["sources"]
+    }
+    locked = json.loads((ROOT / "contracts" / "package-lock.json").read_text())["packages"]
+    folders = {name.removeprefix("node_modules/"): entry for name, entry in locked.items() if name}
+    libraries = {name for name in folders for source in sources if source.startswith(f"{name}/")}
+    assert libraries >= {"@openzeppelin/contracts", "erc721a", "solady"}
+    for name in libraries:
+        section = notices.partition(f"{folders[name]['version']} ({name})")[2].partition("\n---")[2]
+        licence = section.partition("Copyright (c)")[2].partition("---")[0]
+        assert "Permission is hereby granted, free of charge" in licence
+        assert "OTHER DEALINGS IN THE" in licence
+        shipped = ROOT / "contracts" / "node_modules" / name / "LICENSE.txt"
+        if shipped.exists():
+            assert shipped.read_text().strip() in notices
+
+
+def test_the_package_of_the_contracts_has_the_same_notices() -> None:
+    contracts = ROOT / "contracts"
+    files = json.loads((contracts / "package.json").read_text())["files"]
+    for name in ("LICENSE", "THIRD-PARTY-NOTICES"):
+        assert name in files
+        assert (contracts / name).read_bytes() == (ROOT / name).read_bytes()
+
+
+def test_no_program_of_a_package_runs_when_it_is_installed() -> None:
+    assert "ignore-scripts=true" in (ROOT / "contracts" / ".npmrc").read_text().splitlines()
+
+
+def test_constraints_fit_what_is_asked_for() -> None:
+    """One exact version of each package, for the version of Python with which it was tried, and of no address."""
+    pinned: dict[str, str] = {}
+    for line in CONSTRAINTS.read_text().splitlines():
+        if not line or line.startswith("#"):
+            continue
+        assert re.fullmatch(r"[A-Za-z0-9._-]+==[A-Za-z0-9.!+]+ ; python_version == '3\.11'", line)
+        requirement = Requirement(line)
+        (exact,) = requirement.specifier
+        pinned[canonicalize_name(requirement.name)] = exact.version
+    group = [Requirement(line) for line in PROJECT["dependency-groups"]["dev"]]
+    environment = {"python_version": "3.11", "sys_platform": "linux", "platform_machine": "x86_64"}
+    for requirement in [*NEEDED, *group, *(each for lines in EXTRAS.values() for each in lines)]:
+        if requirement.marker is None or requirement.marker.evaluate(environment):
+            version = pinned.get(canonicalize_name(requirement.name), "")
+            assert version, f"{requirement.name} is not in tools/constraints.txt: run python3 tools/constraints.py"
+            assert requirement.specifier.contains(version, prereleases=True)
