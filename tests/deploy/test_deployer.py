@@ -225,7 +225,9 @@ def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
     # leaves a contract of one byte: PUSH1 1 PUSH0 RETURN
     own = deployment("Stop", bytes.fromhex("60015ff3"))
     assert (own.code, own.address) == (b"\0", create2_address(own.creation))
-    receipt = deployer.deploy(own, transactor)
+    (quote,) = deployer.plan([own]).quotes
+    receipt = deployer.deploy(own, quote, transactor)
+    assert receipt is not None
     assert receipt.gas == own.gas
     assert deployer.stands(own)
 

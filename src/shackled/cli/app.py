@@ -12,6 +12,7 @@ import typer
 
 from .. import __version__
 from ..errors import FetchError, InputError, RenderError
+from ..plain import plain
 from .arguments import with_cluster
 from .bench import bench
 from .creator import creator
@@ -88,5 +89,5 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {' '.join(str(message).split())}", file=sys.stderr)
+    print(f"shackled: {plain(' '.join(str(message).split()))}", file=sys.stderr)
     return code

@@ -50,12 +50,12 @@ class Demo:
     tokens: list[Shown] = field(default_factory=list)
 
 
-def run(connection: Connection, folder: Path, tell: Callable[[str], None]) -> Demo:
-    """Plays both collections through and writes the files. tell: is told what happens.
+def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_fee: int | None = None) -> Demo:
+    """Plays both collections through and writes the files. tell: is told what happens. max_fee: see `current_fees`.
 
     InputError if the node is not a fresh development node; RenderError if anything is not as it should be.
     """
-    users = development_transactors(connection)
+    users = development_transactors(connection, max_fee)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -117,7 +117,11 @@ def _genesis(
     tell(f"{blocks} blocks pass, and a passer-by reveals all tokens")
     connection.request("anvil_mine", hex(blocks))
     (step,) = steps(collection, rounds)
-    _pay(demo, "Genesis: reveal all of a round", perform(passer_by, contract, step.function, *step.arguments))
+    _pay(
+        demo,
+        "Genesis: reveal all of a round",
+        perform(passer_by, contract, step.function, *step.arguments, ours=step.gas),
+    )
     _after_sale(collection, owner, dave, friend, demo, tell)
     return collection
 

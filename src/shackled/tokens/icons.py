@@ -15,8 +15,6 @@ from .licence import licence_of
 
 #: Pixels that each pixel becomes in the picture of a token: 128 become 512.
 SCALE = 4
-#: What adding an icon to a collection takes, in gas, at most.
-ADD_GAS = 160_000
 
 
 @dataclass(frozen=True)

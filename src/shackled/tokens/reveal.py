@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..deploy import Quote, Transactor
+from ..deploy.quote import make_quotes
 from ..errors import NodeError
+from .actions import call_of, plan
 from .collection import Collection
 from .header import encode_header
 
@@ -67,6 +70,17 @@ def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
         headers = [header_of(collection, each.block) for each in some]
         made.append(Step("reveal", ([each.number for each in some], headers), FIRST_GAS + REVEAL_GAS * len(some)))
     return made
+
+
+def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[Step]) -> list[Quote]:
+    """The prices of some steps, of which there is at least one. RevertError, in words, if the first would be refused;
+    the others follow from those before.
+    """
+    first, *rest = todo
+    contract = collection.contract
+    quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
+    calls = [call_of(contract, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest]
+    return [quote, *make_quotes(transactor.connection, calls, quote.fees, [quote], transactor.address)]
 
 
 def header_of(collection: Collection, number: int) -> bytes:

@@ -13,7 +13,7 @@ from ...checks import number
 from ...errors import InputError
 from ..option import option
 from ..payer import open_signer
-from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named
+from .common import MOST, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named
 
 
 def allow_list(
@@ -28,6 +28,7 @@ def allow_list(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     signer: Annotated[
         str | None, option("--signer", "Whose signatures allow others; else the one there is.", "ADDRESS")
     ] = None,
@@ -54,7 +55,7 @@ def allow_list(
     collection = open_named(which, rpc, chain_id)
     trusted = collection.terms().allow_list_signer if signer is None else address(signer, "--signer")
     title = "set the allow-list"
-    receipt = do(collection, account, private_key_env, yes, title, "setAllowList", listed.root, trusted)
+    receipt = do(collection, account, private_key_env, max_fee, yes, title, "setAllowList", listed.root, trusted)
     print(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
 
 

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import InputError
-from ...tokens.ether import roughly
 from ..option import option
-from ..payer import ask, open_signer
-from .common import MOST, Account, Chain, Json, Key, Rpc, Which, Yes, address, open_named, say, send
+from ..payer import ask, open_signer, parse_max_fee, price
+from .common import MOST, Account, Chain, Json, Key, MaxFee, Rpc, Which, Yes, address, open_named, say, send
 
 if TYPE_CHECKING:
     from ...deploy import Receipt
@@ -30,6 +29,7 @@ def mint(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     allow_list: Annotated[
         Path | None, option("--allow-list", "The list that you are on, as the owner published it.", "FILE")
     ] = None,
@@ -60,7 +60,7 @@ def mint(
     call = mint_call(collection, str(signer.address), quantity, allow_list, permission, receiver, kind)
     first = collection.minted()
     title = f"mint {quantity}" if chosen is None else f"mint {quantity} of {chosen.name}, {chosen.left} left"
-    receipt = send(collection, signer, yes, title, call.function, *call.arguments, value=call.value)
+    receipt = send(collection, signer, max_fee, yes, title, call.function, *call.arguments, value=call.value)
     numbers = minted_numbers(receipt, collection.address)
     if as_json:
         print(json.dumps({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value}))
@@ -86,14 +86,14 @@ def reveal(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     wait: Annotated[bool, option("--wait", "Wait for blocks that are still to come.")] = False,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
     """Reveal the tokens whose blocks are there. Anyone may; it is the same whoever does, whenever."""
     from ...deploy import Transactor
-    from ...tokens.actions import perform
-    from ...tokens.reveal import hidden_rounds, latest_block, steps
+    from ...tokens.reveal import hidden_rounds, latest_block, price_steps, steps
 
     collection = open_named(which, rpc, chain_id)
     if not collection.kind.hidden:
@@ -115,17 +115,18 @@ def reveal(
             f"block {rounds[0].block:,} draws the next seeds, and the chain is at {latest:,}: "
             f"wait for {rounds[0].block - latest} more blocks, or add --wait"
         )
-    transactor = Transactor(collection.connection, open_signer(account, private_key_env))
+    signer = open_signer(account, private_key_env)
+    transactor = Transactor(collection.connection, signer, max_fee=parse_max_fee(max_fee))
     todo = steps(collection, ready)
-    gas = sum(step.gas for step in todo)
+    quotes = price_steps(transactor, collection, todo)
     late = sum(step.function != "reveal" for step in todo)
     rounds_ready = f"{len(ready)} round{'s' * (len(ready) > 1)}"
     say(rounds_ready + (f", and {late} transaction{'s' * (late > 1)} to prove old blocks" if late else ""))
-    say(f"about {gas:,} gas, about {roughly(gas * transactor.fees().likely)}")
+    say(f"it costs {price(quotes)}")
     if not yes:
         ask(transactor.name)
-    for step in todo:
-        receipt = perform(transactor, collection.contract, step.function, *step.arguments)
+    for step, quote in zip(todo, quotes, strict=True):
+        receipt = transactor.send(quote)
         print(f"{'revealed' if step.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
     if len(ready) < len(rounds):
         print(f"{len(rounds) - len(ready)} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
@@ -138,6 +139,7 @@ def transfer(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -148,5 +150,7 @@ def transfer(
     signer = open_signer(account, private_key_env)
     if owner != str(signer.address):
         raise InputError(f"token {token_id} belongs to {owner}, not to {signer.address}")
-    receipt = send(collection, signer, yes, f"give #{token_id} to {receiver}", SAFE_TRANSFER, owner, receiver, token_id)
+    receipt = send(
+        collection, signer, max_fee, yes, f"give #{token_id} to {receiver}", SAFE_TRANSFER, owner, receiver, token_id
+    )
     print(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")

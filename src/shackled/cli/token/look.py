@@ -10,8 +10,8 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError, RenderError
+from ...plain import plain
 from ...tokens.ether import amount, ether
-from ...tokens.plain import plain
 from ..option import option
 from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table
 
