@@ -11,13 +11,14 @@ import pytest
 from eth_account import Account
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
+from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
 from shackled.deploy.quote import ETHER, GWEI, ether
-from shackled.errors import NodeUnreachableError, TransactionError
+from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
 
 pytestmark = needs_anvil
 
@@ -83,6 +84,75 @@ def test_fees_of_a_chain_with_eip_1559(node: Anvil) -> None:
     receipt = payer.send(replace(quoted(payer), fees=Fees(fees.likely, fees.most, 5)))
     sent = node.rpc("eth_getTransactionByHash", receipt.hash)
     assert (int(sent["type"], 16), int(sent["maxPriorityFeePerGas"], 16)) == (2, 5)
+
+
+def test_headroom_for_a_base_fee_that_rises(node: Anvil) -> None:
+    """It may double between the quote and the block; beyond that nothing is sent."""
+    payer, base = transactor(node.url), 100 * GWEI
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(base))
+    node.rpc("evm_mine")
+    quote, owned = quoted(payer, value=1), payer.balance()
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(19 * base // 10))
+    receipt = payer.send(quote)
+    assert receipt.fee > quote.gas * base
+    assert owned - payer.balance() <= quote.ceiling
+    quote, owned = quoted(payer, value=1), payer.balance()
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(10 * base))
+    node.rpc("evm_mine")
+    with pytest.raises(TransactionError, match=r"^gas has become more expensive meanwhile, 1,000 gwei, .* was not sent"):
+        payer.send(quote)
+    assert payer.balance() == owned
+
+
+def test_what_is_signed_is_what_was_quoted(node: Anvil) -> None:
+    payer = transactor(node.url)
+    quote = quoted(payer, value=5)
+    sent = node.rpc("eth_getTransactionByHash", payer.send(quote).hash)
+    fields = ("gas", "value", "maxFeePerGas", "maxPriorityFeePerGas", "type")
+    tip = quote.fees.tip
+    assert [int(sent[each], 16) for each in fields] == [quote.gas, 5, quote.fees.most, tip, 2]
+    assert quote.ceiling == quote.gas * quote.fees.most + 5
+
+
+@pytest.mark.parametrize(
+    ("lies", "words"),
+    [
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "zz"}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": 5}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "0x" + 65 * "f"}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: ["no"]}, "what is no block"),
+        ({"eth_getTransactionCount": lambda count, _: "0x" + 64 * "f"}, "has made 115,79"),
+        ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "what is no number"),
+    ],
+)
+def test_odd_answers_are_told_before_anything_is_sent(node: Anvil, lies: Any, words: str) -> None:
+    before = node.rpc("eth_blockNumber")
+    with Liar(lies).before(node.url) as url, pytest.raises(RenderError, match=words):
+        transactor(url).send(quoted(transactor(url)))
+    assert node.rpc("eth_blockNumber") == before
+
+
+@pytest.mark.parametrize("logs", ["zz", ["zz"], [{"topics": []}], [{"address": "0x" + 40 * "0", "topics": ["0x"]}], {}])
+def test_odd_events_of_a_transaction_that_succeeded(node: Anvil, logs: Any) -> None:
+    lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": logs}}
+    before = balance(node, SOMEONE)
+    words = r"^the transaction 0x\w{64} succeeded, so do not send it again; but the node .* events that are none"
+    with Liar(lies).before(node.url) as url:
+        if logs:
+            with pytest.raises(TransactionError, match=words):
+                transactor(url).send(quoted(transactor(url), value=9))
+        else:
+            transactor(url).send(quoted(transactor(url), value=9))
+    assert balance(node, SOMEONE) - before == 9
+
+
+@pytest.mark.parametrize("receipt", ["zz", {}, {"status": "0x1"}, {"status": "0x" + 99 * "1"}])
+def test_what_is_no_receipt(node: Anvil, receipt: Any) -> None:
+    """The transaction was sent all the same, which is told."""
+    lies = {"eth_getTransactionReceipt": lambda right, _: receipt}
+    words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .*what is no receipt"
+    with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
+        transactor(url).send(quoted(transactor(url)))
 
 
 def test_no_suggestion_of_a_tip(node: Anvil) -> None:

@@ -14,7 +14,8 @@ from ..chain.addresses import show_address
 from ..chain.connection import PATIENCE, Connection
 from ..errors import InputError
 from .option import option
-from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, say
+from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee
+from .telling import say, tell
 
 if TYPE_CHECKING:
     from ..deploy import Plan, Receipt, Step
@@ -95,11 +96,11 @@ def deploy(
         print(json.dumps(_object(plan, receipts, connection, str(deployer.book.path), str(folder))))
         return
     if not receipts:
-        print("everything is there already: nothing was sent")
+        tell("everything is there already: nothing was sent")
         for step in plan.steps:
-            print(f"{step.name:10} {show_address(step.address)}")
-    print(f"addresses: {deployer.book.path}")
-    print(f"for the verification of the sources: {folder}")
+            tell(f"{step.name:10} {show_address(step.address)}")
+    tell(f"addresses: {deployer.book.path}")
+    tell(f"for the verification of the sources: {folder}")
 
 
 def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
@@ -128,7 +129,7 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
 
 def _tell(step: Step, receipts: Sequence[Receipt]) -> None:
     gas = sum(receipt.gas for receipt in receipts)
-    print(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}", flush=True)
+    tell(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
 
 def _object(plan: Plan, receipts: Sequence[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:

@@ -12,7 +12,8 @@ import typer
 from ..chain.addresses import show_address
 from ..errors import InputError
 from .option import option
-from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price, say
+from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
+from .telling import say, tell
 
 if TYPE_CHECKING:
     from ..deploy import Receipt, Step
@@ -91,10 +92,11 @@ def mint(
         if not yes:
             ask(transactor.name)
 
-        def tell(step: Step, receipts: Sequence[Receipt]) -> None:
-            say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+        def report(step: Step, receipts: Sequence[Receipt]) -> None:
+            gas = sum(each.gas for each in receipts)
+            say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
-        gas = sum(receipt.gas for receipt in store(storage, transactor, tell))
+        gas = sum(receipt.gas for receipt in store(storage, transactor, report))
     else:
         say(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)
@@ -116,9 +118,9 @@ def mint(
             )
         )
         return
-    print(f"pointer  {pointer}")
-    print(f"studio   {storage.studio}")
+    tell(f"pointer  {pointer}")
+    tell(f"studio   {storage.studio}")
     drawing = "not told" if image.gas is None else f"{image.gas:,} gas"
-    print(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
-    print(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
-    print(f"from here:   shackled token picture {pointer} -o FILE.png")
+    tell(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
+    tell(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
+    tell(f"from here:   shackled token picture {pointer} -o FILE.png")

@@ -39,11 +39,6 @@ def parse_max_fee(gwei: float | None) -> int | None:
     return None if gwei is None else max(1, round(number(gwei, "--max-fee", 1e-9, 1e9) * 10**9))
 
 
-def say(text: str) -> None:
-    """Prints what is no result."""
-    print(plain(text), file=sys.stderr, flush=True)
-
-
 def price(quotes: Sequence[Quote]) -> str:
     """What transactions cost, for people: value, gas by the node and as counted here, and the most in all."""
     from ..deploy.quote import at_most

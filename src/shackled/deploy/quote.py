@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import ROUND_UP, Context, Decimal
+from typing import Any
 
 from ..chain.connection import Connection, quantity
 from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
@@ -94,7 +95,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         price = connection.number("eth_gasPrice")
         if max_fee is None:
             raise TransactionError(
-                f"the {connection.name} tells no base fee, and asks {price / GWEI:.6g} gwei for a gas, which nothing "
+                f"the {connection.name} tells no base fee, and asks {price / GWEI:,.12g} gwei for a gas, which nothing "
                 "bounds: if its chain is one without EIP-1559, say how much a gas may cost, --max-fee GWEI"
             )
         _require(price, max_fee)
@@ -108,7 +109,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
     if max_fee is None:
         if tip > MOST_TIP:
             raise TransactionError(
-                f"the {connection.name} suggests a tip of {tip / GWEI:,.6g} gwei for a gas, and "
+                f"the {connection.name} suggests a tip of {tip / GWEI:,.12g} gwei for a gas, and "
                 f"{MOST_TIP // GWEI} at most are paid unasked: if so much is right, say how much a gas may cost, "
                 "--max-fee GWEI"
             )
@@ -166,7 +167,7 @@ def make_quotes(
 
 def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
     """The gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
-    plain = [call.request(sender)]
+    plain: list[Any] = [call.request(sender)]
     overrides = {_hex(place): {"code": _hex(code)} for place, code in call.needs.items()}
     # nodes that know no overrides refuse them
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
@@ -184,8 +185,8 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
 def _require(price: int, max_fee: int) -> None:
     if price > max_fee:
         raise TransactionError(
-            f"a gas costs {price / GWEI:,.6g} gwei now, above the {max_fee / GWEI:,.6g} of --max-fee: wait until it is "
-            "cheaper, or raise it"
+            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of --max-fee: wait until "
+            "it is cheaper, or raise it"
         )
 
 

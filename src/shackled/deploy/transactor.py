@@ -107,8 +107,8 @@ class Transactor:
         base = base_fee(self.connection)
         if base is not None and base > quote.fees.most:
             raise TransactionError(
-                f"gas has become more expensive meanwhile, {base / GWEI:,.6g} gwei, and at most "
-                f"{quote.fees.most / GWEI:,.6g} were told: the transaction was not sent; run the same again"
+                f"gas has become more expensive meanwhile, {base / GWEI:,.12g} gwei, and at most "
+                f"{quote.fees.most / GWEI:,.12g} were told: the transaction was not sent; run the same again"
             )
         nonce = self.connection.number("eth_getTransactionCount", _hex(self.address), "pending")
         if nonce >= 1 << 64:

@@ -210,7 +210,8 @@ def _read_back(collection: Collection, demo: Demo, tell: Callable[[str], None]) 
     gas = []
     for token in collection.tokens():
         uri = collection.token_uri(token.number)
-        _require(check_token(collection, token.number, local, uri).failure, f"token {token.number}")
+        check = check_token(collection, token.number, local, uri)
+        _require(check.failure or check.unread, f"token {token.number}")
         used = collection.contract.gas("tokenURI", token.number)
         metadata = read_token_uri(uri)
         demo.tokens.append(

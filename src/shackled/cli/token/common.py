@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ...chain.addresses import parse_address, show_address
 from ...errors import InputError
-from ...plain import plain
 from ...tokens.kinds import KINDS
 from ..option import option
-from ..payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price, say
+from ..payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
+from ..telling import say, tell
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -36,7 +36,6 @@ __all__ = [
     "do",
     "open_icons",
     "open_named",
-    "say",
     "send",
     "table",
 ]
@@ -159,4 +158,4 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
             cell.rjust(width) if column and cell[:1].isdigit() else cell.ljust(width)
             for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
-        print(plain("  ".join(cells).rstrip()))
+        tell("  ".join(cells).rstrip())

@@ -8,7 +8,8 @@ from typing import Annotated
 from ...errors import InputError
 from ..option import option
 from ..payer import MaxFee, parse_max_fee
-from .common import Rpc, connect, say, table
+from ..telling import say, tell
+from .common import Rpc, connect, table
 
 
 def demo(
@@ -28,5 +29,5 @@ def demo(
     result = run(connect(rpc, None), output, say, parse_max_fee(max_fee))
     head, *rows = comparison(result.costs)
     table(head, rows)
-    print(f"{result.gallery}: {len(result.tokens)} tokens, read back through tokenURI")
-    print(f"{result.listing}")
+    tell(f"{result.gallery}: {len(result.tokens)} tokens, read back through tokenURI")
+    tell(f"{result.listing}")

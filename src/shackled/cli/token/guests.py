@@ -13,6 +13,7 @@ from ...checks import number
 from ...errors import InputError
 from ..option import option
 from ..payer import open_signer
+from ..telling import tell
 from .common import MOST, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named
 
 
@@ -40,9 +41,7 @@ def allow_list(
     from ...whole_file import write_whole
 
     listed = read_allow_list(file)
-    print(
-        f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens"
-    )
+    tell(f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens")
     if output is not None:
         try:
             write_whole(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
@@ -56,7 +55,7 @@ def allow_list(
     trusted = collection.terms().allow_list_signer if signer is None else address(signer, "--signer")
     title = "set the allow-list"
     receipt = do(collection, account, private_key_env, max_fee, yes, title, "setAllowList", listed.root, trusted)
-    print(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
+    tell(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
 
 
 def permit(
@@ -94,4 +93,4 @@ def permit(
         write_whole(output, (text + "\n").encode())
     except OSError as error:
         raise InputError(f"{output} cannot be written: {error.strerror}") from None
-    print(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")
+    tell(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")

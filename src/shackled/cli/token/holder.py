@@ -12,7 +12,8 @@ import typer
 from ...errors import InputError
 from ..option import option
 from ..payer import ask, open_signer, parse_max_fee, price
-from .common import MOST, Account, Chain, Json, Key, MaxFee, Rpc, Which, Yes, address, open_named, say, send
+from ..telling import say, tell
+from .common import MOST, Account, Chain, Json, Key, MaxFee, Rpc, Which, Yes, address, open_named, send
 
 if TYPE_CHECKING:
     from ...deploy import Receipt
@@ -66,10 +67,10 @@ def mint(
         print(json.dumps({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value}))
         return
     numbers = numbers or list(range(first, first + quantity))
-    print(f"minted {', '.join(f'#{number}' for number in numbers)}; {receipt.gas:,} gas, transaction {receipt.hash}")
+    tell(f"minted {', '.join(f'#{number}' for number in numbers)}; {receipt.gas:,} gas, transaction {receipt.hash}")
     if collection.kind.hidden:
         block = collection.contract.call("blockOf", collection.round_of(numbers[0]))
-        print(f"block {block:,} draws the seeds; after it, anyone may reveal them: shackled token reveal")
+        tell(f"block {block:,} draws the seeds; after it, anyone may reveal them: shackled token reveal")
 
 
 def minted_numbers(receipt: Receipt, address: str) -> list[int]:
@@ -102,7 +103,7 @@ def reveal(
         )
     rounds = hidden_rounds(collection)
     if not rounds:
-        print("nothing is to be revealed")
+        tell("nothing is to be revealed")
         return
     latest = latest_block(collection)
     while wait and rounds[-1].block > latest:
@@ -127,9 +128,9 @@ def reveal(
         ask(transactor.name)
     for step, quote in zip(todo, quotes, strict=True):
         receipt = transactor.send(quote)
-        print(f"{'revealed' if step.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
+        tell(f"{'revealed' if step.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
     if len(ready) < len(rounds):
-        print(f"{len(rounds) - len(ready)} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
+        tell(f"{len(rounds) - len(ready)} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
 
 
 def transfer(
@@ -153,4 +154,4 @@ def transfer(
     receipt = send(
         collection, signer, max_fee, yes, f"give #{token_id} to {receiver}", SAFE_TRANSFER, owner, receiver, token_id
     )
-    print(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")
+    tell(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")

@@ -9,6 +9,7 @@ import typer
 from ...errors import InputError
 from ...tokens.ether import parse_ether
 from ..option import option
+from ..telling import tell
 from .common import Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_icons
 
 
@@ -47,7 +48,7 @@ def add(
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
     receipt = do(collection, account, private_key_env, max_fee, yes, f"add {name}", "add", *arguments)
-    print(f"{name} is added; {receipt.gas:,} gas")
+    tell(f"{name} is added; {receipt.gas:,} gas")
 
 
 def seal(
@@ -66,4 +67,4 @@ def seal(
     icons = icons_of(collection)
     title = f"fix {len(icons)} icons for ever"
     receipt = do(collection, account, private_key_env, max_fee, yes, title, "seal")
-    print(f"{collection.name} has {len(icons)} icons, for ever; {receipt.gas:,} gas")
+    tell(f"{collection.name} has {len(icons)} icons, for ever; {receipt.gas:,} gas")

@@ -18,7 +18,8 @@ from ...tokens.kinds import KINDS
 from ..option import option
 from ..payer import ask, open_signer, parse_max_fee
 from ..payer import price as price_of
-from .common import Account, Chain, Json, Key, MaxFee, Rpc, Yes, address, connect, say
+from ..telling import say, tell
+from .common import Account, Chain, Json, Key, MaxFee, Rpc, Yes, address, connect
 
 if TYPE_CHECKING:
     from ...deploy import Receipt, Step
@@ -138,17 +139,18 @@ def deploy(
 
     spent: list[int] = []
 
-    def tell(step: Step, receipts: Sequence[Receipt]) -> None:
+    def report(step: Step, receipts: Sequence[Receipt]) -> None:
         spent.extend(each.gas for each in receipts)
-        say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+        gas = sum(each.gas for each in receipts)
+        say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
-    made, receipt = launch(plan, transactor, tell)
+    made, receipt = launch(plan, transactor, report)
     if storage is not None:
-        store(storage, transactor, tell)
+        store(storage, transactor, report)
     for each in equipment:
         done = transactor.send(each.quote)
         spent.append(done.gas)
-        say(f"{each.what}, {done.gas:,} gas")
+        say(f"{each.what}, {done.gas:,} gas, transaction {done.hash}")
     if as_json:
         document = {
             "collection": kind.name,
@@ -159,7 +161,7 @@ def deploy(
         }
         print(json.dumps(document))
         return
-    print(f"{kind.title}: {made.address}" + ("" if receipt is None else f", transaction {receipt.hash}"))
+    tell(f"{kind.title}: {made.address}" + ("" if receipt is None else f", transaction {receipt.hash}"))
     if chosen:
-        print("look at the icons, then fix them for ever: shackled token seal -c icons")
-    print(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")
+        tell("look at the icons, then fix them for ever: shackled token seal -c icons")
+    tell(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")

@@ -12,6 +12,7 @@ from ...errors import InputError
 from ...tokens.ether import ether
 from ..option import option
 from ..payer import open_signer
+from ..telling import tell
 from .common import PHASES, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named, send
 
 
@@ -29,7 +30,7 @@ def phase(
     number = PHASES.index(choice(to, "the phase", PHASES))
     collection = open_named(which, rpc, chain_id)
     receipt = do(collection, account, private_key_env, max_fee, yes, f"the sale becomes {to}", "setPhase", number)
-    print(f"{collection.name} is {collection.terms().phase_words}; {receipt.gas:,} gas")
+    tell(f"{collection.name} is {collection.terms().phase_words}; {receipt.gas:,} gas")
 
 
 def withdraw(
@@ -48,10 +49,10 @@ def withdraw(
     receiver = str(signer.address) if to is None else address(to, "--to")
     balance = collection.terms().balance
     if not balance:
-        print("there is nothing to withdraw")
+        tell("there is nothing to withdraw")
         return
     receipt = send(collection, signer, max_fee, yes, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
-    print(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
+    tell(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
 
 
 def royalty(
@@ -72,7 +73,7 @@ def royalty(
     whose = collection.terms().royalty_receiver if given is None else given
     title = f"royalties of {parts / 100:g} % for {whose}"
     receipt = do(collection, account, private_key_env, max_fee, yes, title, "setRoyalty", whose, parts)
-    print(f"royalties are {parts / 100:g} % for {whose}; {receipt.gas:,} gas")
+    tell(f"royalties are {parts / 100:g} % for {whose}; {receipt.gas:,} gas")
 
 
 def hand_over(
@@ -90,7 +91,7 @@ def hand_over(
     collection = open_named(which, rpc, chain_id)
     title = f"offer it to {heir}"
     receipt = do(collection, account, private_key_env, max_fee, yes, title, "transferOwnership", heir)
-    print(f"{heir} can take it over: shackled token take-over; {receipt.gas:,} gas")
+    tell(f"{heir} can take it over: shackled token take-over; {receipt.gas:,} gas")
 
 
 def take_over(
@@ -110,4 +111,4 @@ def take_over(
         offered = "to nobody" if int(heir, 16) == 0 else f"to {heir}"
         raise InputError(f"{collection.name} is offered {offered}, not to {signer.address}")
     receipt = send(collection, signer, max_fee, yes, "become its owner", "acceptOwnership")
-    print(f"{collection.name} belongs to {collection.terms().owner}; {receipt.gas:,} gas")
+    tell(f"{collection.name} belongs to {collection.terms().owner}; {receipt.gas:,} gas")
