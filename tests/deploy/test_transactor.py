@@ -17,8 +17,8 @@ from shackled.bench.anvil import Anvil
 from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
-from shackled.deploy.quote import ETHER, GWEI, ether
 from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
+from shackled.ether import ETHER, GWEI
 
 pytestmark = needs_anvil
 
@@ -86,8 +86,16 @@ def test_fees_of_a_chain_with_eip_1559(node: Anvil) -> None:
     assert (int(sent["type"], 16), int(sent["maxPriorityFeePerGas"], 16)) == (2, 5)
 
 
-def test_headroom_for_a_base_fee_that_rises(node: Anvil) -> None:
+@pytest.fixture
+def own_node() -> Iterator[Anvil]:
+    """One whose prices may be changed."""
+    with anvil() as running:
+        yield running
+
+
+def test_headroom_for_a_base_fee_that_rises(own_node: Anvil) -> None:
     """It may double between the quote and the block; beyond that nothing is sent."""
+    node = own_node
     payer, base = transactor(node.url), 100 * GWEI
     node.rpc("anvil_setNextBlockBaseFeePerGas", hex(base))
     node.rpc("evm_mine")
@@ -297,10 +305,3 @@ def test_a_node_that_dies_meanwhile() -> None:
         words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .* out of order"
         with serving(dead) as url, pytest.raises(NodeUnreachableError, match=words):
             transactor(url, patience=0.5).send(quoted(transactor(node.url)))
-
-
-@pytest.mark.parametrize(
-    ("wei", "text"), [(0, "0"), (ETHER, "1"), (ETHER // 100, "0.01"), (1, "1e-18"), (1234567 * 10**12, "1.234567")]
-)
-def test_ether_for_people(wei: int, text: str) -> None:
-    assert ether(wei) == text

@@ -107,7 +107,7 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..deploy.quote import GWEI, at_most, ether
+    from ..ether import GWEI, at_most, rounded
 
     console = Console(file=sys.stderr if quiet else sys.stdout, width=None if sys.stdout.isatty() else 120)
     table = Table("contract", "address", "gas", "the node's", "ether", "at most", box=None, header_style="bold")
@@ -119,9 +119,9 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
             continue
         estimate = None if step.quote is None else step.quote.estimate
         told = "not told" if estimate is None else f"{estimate:,}"
-        row = (f"{step.gas:,}", told, ether(step.cost), at_most(step.ceiling))
+        row = (f"{step.gas:,}", told, rounded(step.cost), at_most(step.ceiling))
         table.add_row(step.name, show_address(step.address), *row)
-    table.add_row("together", "", f"{plan.gas:,}", "", ether(plan.cost), at_most(plan.ceiling))
+    table.add_row("together", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling))
     price = f"{plan.fees.likely / GWEI:.6g} gwei a gas"
     console.print(f"on chain {connection.chain_id}, by the {connection.name}, at {price}:", highlight=False)
     console.print(table)

@@ -12,6 +12,7 @@ import typer
 
 from ..checks import number
 from ..errors import InputError
+from ..ether import at_most, ether, roughly
 from ..plain import plain
 from .option import option
 
@@ -41,9 +42,6 @@ def parse_max_fee(gwei: float | None) -> int | None:
 
 def price(quotes: Sequence[Quote]) -> str:
     """What transactions cost, for people: value, gas by the node and as counted here, and the most in all."""
-    from ..deploy.quote import at_most
-    from ..tokens.ether import ether, roughly
-
     value = sum(each.call.value for each in quotes)
     likely = sum(each.likely for each in quotes) - value
     gas, ours = sum(each.expected for each in quotes), sum(each.call.ours for each in quotes)

@@ -16,9 +16,10 @@ from ..errors import (
     TransactionError,
     WrongChainError,
 )
+from ..ether import rounded
 from .contract import PROXY_CODE, Deployment
 from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
-from .quote import Call, Fees, Quote, current_fees, ether, make_quotes
+from .quote import Call, Fees, Quote, current_fees, make_quotes
 from .transactor import Receipt, Transactor, block_gas
 
 #: The newest instruction that the contracts use, in a program that does nothing: PUSH0 PUSH0 PUSH0 MCOPY STOP.
@@ -153,8 +154,8 @@ class Deployer:
         plan = self.look_again(plan)
         if plan.missing and transactor.balance() < plan.cost:
             raise TransactionError(
-                f"{transactor.name} has {ether(transactor.balance())} ether on chain {self.connection.chain_id}, and "
-                f"{ether(plan.cost)} are needed: send it some"
+                f"{transactor.name} has {rounded(transactor.balance())} ether on chain {self.connection.chain_id}, and "
+                f"{rounded(plan.cost)} are needed: send it some"
             )
         for step in plan.missing:
             if step.deployment is None:

@@ -16,8 +16,9 @@ from ..errors import (
     RenderError,
     TransactionError,
 )
+from ..ether import GWEI
 from .contract import PROXY_CODE
-from .quote import GWEI, Call, Quote, base_fee
+from .quote import Call, Quote, base_fee
 from .transactor import Receipt, Transactor
 
 #: The account that signed, and what it must have: 100,000 gas at 100 gwei.

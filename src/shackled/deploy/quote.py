@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from decimal import ROUND_UP, Context, Decimal
 from typing import Any
 
 from ..chain.connection import Connection, quantity
 from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
+from ..ether import GWEI
 
-ETHER = 10**18
-GWEI = 10**9
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
 MARGIN = (21, 20)
 #: A tip for those who make blocks, where a node suggests none, in wei.
@@ -188,17 +186,6 @@ def _require(price: int, max_fee: int) -> None:
             f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of --max-fee: wait until "
             "it is cheaper, or raise it"
         )
-
-
-def ether(wei: int) -> str:
-    """As many ether, for people."""
-    text = f"{wei / ETHER:.6f}".rstrip("0").rstrip(".")
-    return text if wei == 0 or float(text) else f"{wei / ETHER:.2g}"
-
-
-def at_most(wei: int) -> str:
-    """As many ether in six digits, rounded up, for people."""
-    return f"{Context(prec=6, rounding=ROUND_UP).create_decimal(Decimal(wei)) / ETHER:f}"
 
 
 def _hex(data: bytes) -> str:

@@ -21,7 +21,8 @@ from ..errors import (
     RevertError,
     TransactionError,
 )
-from .quote import GWEI, Call, Fees, Quote, base_fee, current_fees, ether, make_quote
+from ..ether import GWEI, rounded
+from .quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -247,7 +248,7 @@ class Transactor:
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
             return TransactionError(
-                f"{self.name} has {ether(self.balance())} ether, a transaction may cost {ether(cost)}: send it some"
+                f"{self.name} has {rounded(self.balance())} ether, a transaction may cost {rounded(cost)}: send it some"
             )
         if "nonce" in said:
             return TransactionError(f"{self.name} was used by another program meanwhile ({error}): run the same again")

@@ -14,9 +14,9 @@ from ..deploy.contract import deployment, local_chain
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
+from ..ether import ether
 from .collection import Collection
 from .contract import constructor_arguments
-from .ether import ether
 from .immutables import immutable_values
 from .kinds import Kind
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..chain.connection import Connection
 from ..deploy import Transactor
 from ..errors import InputError
-from .ether import WEI, ether
+from ..ether import ETHER, ether
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -17,7 +17,7 @@ CHAIN_ID = 31337
 PHRASE = "test test test test test test test test test test test junk"
 ACCOUNTS = 10
 #: Each account of a fresh anvil has 10,000 ether; of one that is not quite fresh a little less.
-FUNDS = 9_000 * WEI
+FUNDS = 9_000 * ETHER
 
 
 def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..artifacts import artifact, contracts
 from ..errors import RevertError
-from .ether import ether
+from ..ether import ether
 
 PHASES = ("closed", "open for the allow-list", "open for all")
 

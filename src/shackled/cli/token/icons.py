@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError
-from ...tokens.ether import parse_ether
+from ...ether import parse_ether
 from ..option import option
 from ..telling import tell
 from .common import Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_icons

@@ -12,7 +12,7 @@ import typer
 from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...tokens.ether import parse_ether
+from ...ether import parse_ether
 from ...tokens.icons import SCALE
 from ...tokens.kinds import KINDS
 from ..option import option

@@ -9,7 +9,7 @@ import typer
 from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...tokens.ether import ether
+from ...ether import ether
 from ..option import option
 from ..payer import open_signer
 from ..telling import tell
