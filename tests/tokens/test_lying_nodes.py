@@ -190,3 +190,27 @@ def test_a_price_above_the_one_that_is_named_is_not_paid(
         code, paid, _, error = pay(node, Liar(lies), arguments, capsys, monkeypatch, yes=True)
         assert (code, paid) == (1, 0)
         assert "a gas costs 2,000,000 gwei now, above the 50 of --max-fee" in error
+
+
+@pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
+def test_blocks_that_are_none_reveal_nothing(
+    node: Anvil, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
+    code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+    assert (code, paid) in ((1, 0), (2, 0)), said
+    assert re.search("does not have block|does not tell the parentHash of block", error)
+
+
+def test_fields_that_are_none_reveal_nothing(
+    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for odd in ("zz", 1.5, -5, [300], 7):
+        lies = {
+            "eth_getBlockByNumber": lambda block, parameters, odd=odd: (
+                block if parameters[0] == "latest" else block | {"gasUsed": odd}
+            )
+        }
+        code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+        assert (code, paid) in ((1, 0), (2, 0)), said
+        assert re.search("with fields that are none|has the hash", error)

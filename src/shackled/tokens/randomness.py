@@ -49,7 +49,7 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
     try:
         encode_header(block)
         number = quantity(block.get("number"))
-    except (InputError, ValueError) as error:
+    except (OverflowError, TypeError, ValueError) as error:
         raise TransactionError(
             f"tokens could never be revealed on chain {chain}, whose headers are not Ethereum's: {error}"
         ) from None

@@ -154,7 +154,7 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     drawn = keccak256(
         randomness + parse_address(collection.address, "the collection").rjust(32, b"\0") + token.to_bytes(32, "big")
     )
-    if bytes.fromhex(block["mixHash"][2:]) != randomness:
+    if block.get("mixHash") != "0x" + randomness.hex():
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
     return drawn, ""
 
