@@ -206,7 +206,7 @@ def test_fields_that_are_none_reveal_nothing(
     node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for odd in ("zz", 1.5, -5, [300], 7):
-        lies = {
+        lies: dict[str, Any] = {
             "eth_getBlockByNumber": lambda block, parameters, odd=odd: (
                 block if parameters[0] == "latest" else block | {"gasUsed": odd}
             )
