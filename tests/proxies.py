@@ -7,7 +7,7 @@ import json
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from nodes import Reply, failure, forward, result, serving
@@ -80,3 +80,26 @@ def _repainted(body: bytes) -> bytes:
         middle = len(result) // 2
         answer["result"] = result[:middle] + ("0" if result[middle] != "0" else "f") + result[middle + 1 :]
     return json.dumps(answer).encode()
+
+
+@dataclass
+class Liar:
+    """What a lying node makes of answers: by method, another result of the right one and the parameters. It lies while
+    `lying` holds.
+    """
+
+    lies: dict[str, Callable[[Any, list[Any]], Any]]
+    lying: bool = True
+
+    def before(self, target: str) -> AbstractContextManager[str]:
+        """The address of the liar, in front of an honest node."""
+
+        def answer(request: dict[str, Any]) -> Reply:
+            reply = forward(target, request)
+            lie = self.lies.get(request["method"])
+            if lie is None or not self.lying:
+                return reply
+            told = json.loads(reply.body)
+            return result(lie(told["result"], request["params"])) if told.get("result") is not None else reply
+
+        return serving(answer)

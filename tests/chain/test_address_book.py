@@ -55,6 +55,8 @@ def test_where_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
         '{"chains": {"one": {}}}',
         '{"chains": {"1": 5}}',
         '{"chains": {"1": {"A": 5}}}',
+        '{"chains": {"' + 5_000 * "9" + '": {}}}',
+        '{"chains": {"²": {}}}',
     ],
 )
 def test_a_broken_book(tmp_path: Path, text: str) -> None:

@@ -294,3 +294,13 @@ def test_web3_over_a_connection() -> None:
     with serving(lambda request: result({"eth_chainId": "0x5", "eth_blockNumber": "0x20"}[request["method"]])) as url:
         web3 = Connection(url).web3
         assert (web3.eth.chain_id, web3.eth.block_number) == (5, 32)
+
+
+@pytest.mark.parametrize(
+    "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
+)
+def test_what_is_no_number_of_256_bits(number: Any) -> None:
+    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="what is no number"):
+        _ = Connection(url).chain_id
+    with serving(lambda _: result("0x" + 64 * "f")) as url:
+        assert Connection(url).number("eth_gasPrice") == 2**256 - 1

@@ -118,6 +118,42 @@ def test_json(node: Anvil, book: Path, deploy: Command) -> None:
     assert not any(each["deployed_now"] for each in told["contracts"])
 
 
+def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
+    names = "Studio,PngEncoder"
+    arguments = ["--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--json", "--contracts", names]
+    told = json.loads(deploy(*arguments).out)
+    assert [each["name"] for each in told["contracts"]] == [
+        "deployment proxy",
+        "Engine",
+        "Renderer",
+        "Studio",
+        "PngEncoder",
+    ]
+    for each in deployments(names.split(",")):
+        assert node.connection.data("eth_getCode", "0x" + each.address.hex(), "latest") == each.code
+
+
+def test_what_a_node_says_is_no_command_for_the_terminal(node: Anvil, deploy: Command) -> None:
+    owned = "\x1b]0;owned\x07\x1b[2J\x1b[1;1Hall is well\x1b[8m\x9b2J\u202e"
+
+    with serving(lambda _: failure(owned)) as url:
+        told = deploy("--rpc", url, "--private-key-env", "TEST_KEY", "--yes", "--contracts", "Engine")
+    assert told.code == 1
+    assert "all is well" in told.err
+    assert all(letter.isprintable() for letter in told.err.rstrip("\n"))
+    for name in ("--account", "--standard-json"):
+        told = deploy("--rpc", node.url, "--yes", name, f"no\x1b[2Jfile/{owned}")
+        assert told.code == 2
+        assert all(letter.isprintable() for letter in told.err.rstrip("\n"))
+
+
+@pytest.mark.parametrize("fee", ["0", "-1", "nan", "1e12"])
+def test_prices_that_are_none(node: Anvil, deploy: Command, fee: str) -> None:
+    told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes", "--max-fee", fee)
+    assert told.code == 2
+    assert told.err.startswith("shackled: --max-fee must be")
+
+
 def test_a_keystore(node: Anvil, folder: Path, deploy: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     keystore = Account.encrypt(bytes.fromhex(KEY[2:]), PASSWORD, kdf="pbkdf2", iterations=1000)
     (folder / "keystore").write_text(json.dumps(keystore))

@@ -259,7 +259,7 @@ def test_the_seconds_are_those_that_were_waited(
         write(path, data)
 
     monkeypatch.setattr(reference, "count", slow_count)
-    monkeypatch.setattr(image, "write_output", slow_write)
+    monkeypatch.setattr("shackled.image.write_output", slow_write)
     for options in ([], ["--tile", "8"]):
         started = time.perf_counter()
         assert run(["render", "shape.obj", "--size", "16", "--json", *options]) == 0

@@ -77,7 +77,38 @@ def test_a_variable_that_is_not_set(monkeypatch: pytest.MonkeyPatch) -> None:
         environment_account("SOME_KEY")
 
 
-def test_a_key_in_place_of_the_name_of_its_variable() -> None:
+#: What may stand in the place of a name by mistake: a key, or one with a mistake, and the words of a wallet.
+SLIPS = [
+    KEY,
+    KEY[2:],
+    KEY[:-1],
+    KEY[2:-1],
+    "0X" + KEY[2:],
+    f"{KEY},",
+    f"{KEY} ",
+    f'"{KEY}"',
+    KEY[2:36],
+    "test test test test test test test test test test test junk",
+]
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+def test_a_key_in_place_of_a_name(slip: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(InputError, match="takes the name of a variable, not the key") as error:
-        environment_account(KEY)
-    assert KEY[2:10] not in str(error.value)
+        environment_account(slip)
+    assert slip[4:12] not in str(error.value)
+    if len(slip) > 41:
+        monkeypatch.chdir(tmp_path)
+        with pytest.raises(InputError, match="takes the name of a file, not a key") as wrong:
+            keystore_account(Path(slip), "")
+        assert slip[4:12] not in str(wrong.value)
+
+
+def test_names_of_keystores_are_told() -> None:
+    """As geth and foundry make them."""
+    for name in (
+        "UTC--2016-03-22T12-57-55.920751759Z--7ef5a6135f1fd6a02593eedc869c6d41d934aef8",
+        "9ba0ef29-9d0e-4ee7-8d8e-3cbcdb5b4e3a",
+    ):
+        with pytest.raises(InputError, match=f"there is no keystore file {name}"):
+            keystore_account(Path(name), "")

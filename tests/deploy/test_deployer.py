@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,14 +10,15 @@ from typing import Any
 import pytest
 from eth_account import Account
 
-from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, serving
+from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
+from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import AddressBook
 from shackled.chain.addresses import PROXY, SALT, create2_address, keccak256, parse_address, show_address
 from shackled.chain.connection import Connection
 from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
-from shackled.deploy.contract import PROXY_CODE, STANDARD, deployment, local_chain
+from shackled.deploy.contract import CONTRACTS, PROXY_CODE, STANDARD, deployment, local_chain
 from shackled.deploy.proxy import COST, SIGNED, SIGNER
 from shackled.errors import InputError, RenderError, TransactionError, WrongChainError
 
@@ -69,7 +71,13 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
         assert len(each.code) == len(artifact(each.name).runtime)
     assert [each.name for each in deployments(["Renderer"])] == ["Engine", "Renderer"]
     assert [each.name for each in deployments(["Genesis", "Renderer"])] == ["Engine", "Renderer", "Genesis"]
-    with pytest.raises(InputError, match="there is no contract 'Meter' to deploy; the contracts are Engine, Renderer"):
+    assert [each.name for each in deployments(["Studio"])] == ["Engine", "Renderer", "Studio"]
+    assert [each.name for each in deployments(["PngEncoder"])] == ["PngEncoder"]
+    for name in CONTRACTS:
+        assert deployments([name])[-1].name == name
+    with pytest.raises(
+        InputError, match=r"no contract 'Meter' to deploy; the contracts are Engine, .* GenesisMetadata$"
+    ):
         deployments(["Meter"])
 
 
@@ -225,7 +233,9 @@ def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
     # leaves a contract of one byte: PUSH1 1 PUSH0 RETURN
     own = deployment("Stop", bytes.fromhex("60015ff3"))
     assert (own.code, own.address) == (b"\0", create2_address(own.creation))
-    receipt = deployer.deploy(own, transactor)
+    (quote,) = deployer.plan([own]).quotes
+    receipt = deployer.deploy(own, quote, transactor)
+    assert receipt is not None
     assert receipt.gas == own.gas
     assert deployer.stands(own)
 
@@ -250,6 +260,71 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
             deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
             deployer.carry_out(deployer.plan(wanted[:3]), transactor)
         assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+
+
+@needs_anvil
+def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list[Deployment]) -> None:
+    """A fork may count gas otherwise: seven times as much for code, say."""
+    lies = {"eth_estimateGas": lambda gas, _: hex(7 * int(gas, 16))}
+    with anvil("--gas-limit", "60000000") as node, Liar(lies).before(node.url) as url:
+        deployer = Deployer(Connection(url), book)
+        plan = deployer.plan(wanted)
+        assert all(
+            each.estimate is not None and each.gas >= each.estimate >= 7 * each.call.ours for each in plan.quotes
+        )
+        before = Transactor(node.connection, Account.from_key(KEY)).balance()
+        receipts = deployer.carry_out(plan, Transactor(Connection(url), Account.from_key(KEY)))
+        sent = [int(node.rpc("eth_getTransactionByHash", each.hash)["gas"], 16) for each in receipts]
+        assert sent == [each.gas for each in plan.quotes]
+        assert before - Transactor(node.connection, Account.from_key(KEY)).balance() <= plan.ceiling
+
+
+@needs_anvil
+def test_a_node_that_estimates_only_what_can_be_done_now(
+    node: Anvil, book: AddressBook, wanted: list[Deployment]
+) -> None:
+    """The renderer needs the engine, which is not there yet: its gas is taken to be as dear as that of the others."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] != "eth_estimateGas":
+            return forward(node.url, request)
+        if len(request["params"]) > 2:
+            return failure("too many arguments, want at most 2", -32602)
+        reply = json.loads(forward(node.url, request).body)
+        return result(hex(5 * int(reply["result"], 16))) if "result" in reply else forward(node.url, request)
+
+    with serving(answer) as url:
+        deployer = Deployer(Connection(url), book)
+        engine, renderer = deployer.plan(wanted[:2]).quotes
+        assert engine.estimate is not None
+        assert renderer.estimate is None
+        assert 5 * renderer.call.ours <= renderer.gas <= 6 * renderer.call.ours
+        deployer.carry_out(deployer.plan(wanted[:2]), Transactor(Connection(url), Account.from_key(KEY)))
+    assert [code(node, each.address) for each in wanted[:2]] == [each.code for each in wanted[:2]]
+
+
+@needs_anvil
+def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
+    book: AddressBook, wanted: list[Deployment]
+) -> None:
+    words = r"chain 31337 has no deployment proxy, and the published transaction that deploys it has 100,000 gas, and 2"
+    lies = {"eth_estimateGas": lambda gas, _: hex(3 * int(gas, 16))}
+    with anvil(*NO_PROXY) as bare, Liar(lies).before(bare.url) as url:
+        with pytest.raises(TransactionError, match=words):
+            Deployer(Connection(url), book).plan(wanted)
+
+        # a node that says so only when the transaction is there
+        def answer(request: dict[str, Any]) -> Reply:
+            if request["method"] == "eth_sendRawTransaction" and request["params"][0] == "0x" + SIGNED.hex():
+                return failure("intrinsic gas too low: have 100000, want 214898")
+            return forward(bare.url, request)
+
+        with serving(answer) as other:
+            transactor = Transactor(Connection(other), Account.from_key(KEY))
+            deployer, before = Deployer(transactor.connection, book), transactor.balance()
+            with pytest.raises(TransactionError, match="has 100,000 gas, which the node finds too little"):
+                deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+            assert transactor.balance() == before
 
 
 @needs_anvil

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from eth_account import Account
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
+from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
-from shackled.deploy import Fees, Transactor
-from shackled.deploy.transactor import ETHER, ether
-from shackled.errors import NodeUnreachableError, TransactionError
+from shackled.deploy import Call, Fees, Quote, Transactor
+from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
+from shackled.ether import ETHER, GWEI
 
 pytestmark = needs_anvil
 
@@ -28,8 +31,26 @@ def node() -> Iterator[Anvil]:
         yield running
 
 
-def transactor(url: str, patience: float = 20) -> Transactor:
-    return Transactor(Connection(url), Account.from_key(KEY), patience)
+def transactor(url: str, patience: float = 20, max_fee: int | None = None) -> Transactor:
+    return Transactor(Connection(url), Account.from_key(KEY), patience, max_fee)
+
+
+def quoted(payer: Transactor, to: bytes | None = SOMEONE, data: bytes = b"", value: int = 0) -> Quote:
+    return payer.quote(Call(to, data, 21_000 + 100 * len(data), value))
+
+
+def blind(payer: Transactor, to: bytes | None, data: bytes, gas: int) -> Quote:
+    """A quote for which nobody asked the node."""
+    return Quote(Call(to, data, gas), payer.fees(), gas, gas, None)
+
+
+def without_estimates(node: Anvil) -> AbstractContextManager[str]:
+    """A node in front of another, that says of everything that it takes 21,000 gas."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        return result("0x5208") if request["method"] == "eth_estimateGas" else forward(node.url, request)
+
+    return serving(answer)
 
 
 def balance(node: Anvil, address: bytes) -> int:
@@ -39,7 +60,7 @@ def balance(node: Anvil, address: bytes) -> int:
 def test_sending_ether(node: Anvil) -> None:
     payer, before = transactor(node.url), balance(node, SOMEONE)
     owned = payer.balance()
-    receipt = payer.send(SOMEONE, value=ETHER)
+    receipt = payer.send(quoted(payer, value=ETHER))
     assert balance(node, SOMEONE) - before == ETHER
     assert receipt.gas == 21000
     assert owned - payer.balance() == ETHER + receipt.fee
@@ -47,9 +68,9 @@ def test_sending_ether(node: Anvil) -> None:
 
 def test_fees_of_a_chain_without_eip_1559() -> None:
     with anvil("--hardfork", "berlin") as node:
-        payer = transactor(node.url)
+        payer = transactor(node.url, max_fee=100 * GWEI)
         assert payer.fees().tip is None
-        receipt = payer.send(SOMEONE, value=7)
+        receipt = payer.send(quoted(payer, value=7))
         assert balance(node, SOMEONE) == 7
         assert receipt.gas == 21000
         assert int(node.rpc("eth_getTransactionByHash", receipt.hash)["type"], 16) == 0
@@ -60,9 +81,86 @@ def test_fees_of_a_chain_with_eip_1559(node: Anvil) -> None:
     fees = payer.fees()
     assert fees.tip is not None
     assert fees.likely <= fees.most
-    receipt = payer.send(SOMEONE, agreed=Fees(fees.likely, fees.most, 5))
+    receipt = payer.send(replace(quoted(payer), fees=Fees(fees.likely, fees.most, 5)))
     sent = node.rpc("eth_getTransactionByHash", receipt.hash)
     assert (int(sent["type"], 16), int(sent["maxPriorityFeePerGas"], 16)) == (2, 5)
+
+
+@pytest.fixture
+def own_node() -> Iterator[Anvil]:
+    """One whose prices may be changed."""
+    with anvil() as running:
+        yield running
+
+
+def test_headroom_for_a_base_fee_that_rises(own_node: Anvil) -> None:
+    """It may double between the quote and the block; beyond that nothing is sent."""
+    node = own_node
+    payer, base = transactor(node.url), 100 * GWEI
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(base))
+    node.rpc("evm_mine")
+    quote, owned = quoted(payer, value=1), payer.balance()
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(19 * base // 10))
+    receipt = payer.send(quote)
+    assert receipt.fee > quote.gas * base
+    assert owned - payer.balance() <= quote.ceiling
+    quote, owned = quoted(payer, value=1), payer.balance()
+    node.rpc("anvil_setNextBlockBaseFeePerGas", hex(10 * base))
+    node.rpc("evm_mine")
+    with pytest.raises(TransactionError, match=r"^gas has become more expensive .*, 1,000 gwei, .* was not sent"):
+        payer.send(quote)
+    assert payer.balance() == owned
+
+
+def test_what_is_signed_is_what_was_quoted(node: Anvil) -> None:
+    payer = transactor(node.url)
+    quote = quoted(payer, value=5)
+    sent = node.rpc("eth_getTransactionByHash", payer.send(quote).hash)
+    fields = ("gas", "value", "maxFeePerGas", "maxPriorityFeePerGas", "type")
+    tip = quote.fees.tip
+    assert [int(sent[each], 16) for each in fields] == [quote.gas, 5, quote.fees.most, tip, 2]
+    assert quote.ceiling == quote.gas * quote.fees.most + 5
+
+
+@pytest.mark.parametrize(
+    ("lies", "words"),
+    [
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "zz"}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": 5}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "0x" + 65 * "f"}}, "what is no block"),
+        ({"eth_getBlockByNumber": lambda block, _: ["no"]}, "what is no block"),
+        ({"eth_getTransactionCount": lambda count, _: "0x" + 64 * "f"}, "has made 115,79"),
+        ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "what is no number"),
+    ],
+)
+def test_odd_answers_are_told_before_anything_is_sent(node: Anvil, lies: Any, words: str) -> None:
+    before = node.rpc("eth_blockNumber")
+    with Liar(lies).before(node.url) as url, pytest.raises(RenderError, match=words):
+        transactor(url).send(quoted(transactor(url)))
+    assert node.rpc("eth_blockNumber") == before
+
+
+@pytest.mark.parametrize("logs", ["zz", ["zz"], [{"topics": []}], [{"address": "0x" + 40 * "0", "topics": ["0x"]}], {}])
+def test_odd_events_of_a_transaction_that_succeeded(node: Anvil, logs: Any) -> None:
+    lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": logs}}
+    before = balance(node, SOMEONE)
+    words = r"^the transaction 0x\w{64} succeeded, so do not send it again; but the node .* events that are none"
+    with Liar(lies).before(node.url) as url:
+        if logs:
+            with pytest.raises(TransactionError, match=words):
+                transactor(url).send(quoted(transactor(url), value=9))
+        else:
+            transactor(url).send(quoted(transactor(url), value=9))
+    assert balance(node, SOMEONE) - before == 9
+
+
+@pytest.mark.parametrize("receipt", ["zz", {}, {"status": "0x1"}, {"status": "0x" + 99 * "1"}])
+def test_what_is_no_receipt(node: Anvil, receipt: Any) -> None:
+    """The transaction was sent all the same, which is told."""
+    lies = {"eth_getTransactionReceipt": lambda right, _: receipt}
+    words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .*what is no receipt"
+    with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
+        transactor(url).send(quoted(transactor(url)))
 
 
 def test_no_suggestion_of_a_tip(node: Anvil) -> None:
@@ -79,7 +177,7 @@ def test_a_refusal_without_a_reason(node: Anvil) -> None:
     with pytest.raises(
         TransactionError, match=r"^the transaction would fail: the contract refused, and gave no reason$"
     ):
-        transactor(node.url).send(PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
+        quoted(transactor(node.url), PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
 
 
 def test_what_is_waited_for_is_told(node: Anvil, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -96,16 +194,16 @@ def test_what_is_waited_for_is_told(node: Anvil, monkeypatch: pytest.MonkeyPatch
     with serving(answer) as url:
         payer = transactor(url)
         payer.late = told.append
-        receipt = payer.send(SOMEONE, value=1)
+        receipt = payer.send(quoted(payer, value=1))
     assert told == [f"waiting for a block that takes the transaction {receipt.hash}"]
 
 
 def test_too_little_ether(node: Anvil) -> None:
     with pytest.raises(TransactionError, match=r"has \d+\.\d+ ether, a transaction may cost 1000000.* send it some"):
-        transactor(node.url).send(SOMEONE, value=10**6 * ETHER)
+        transactor(node.url).send(quoted(transactor(node.url), value=10**6 * ETHER))
     poor = Transactor(node.connection, Account.create())
     with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether, a transaction may cost 0\.0\d+: send"):
-        poor.send(SOMEONE, gas=10**7)
+        poor.send(blind(poor, SOMEONE, b"", 10**7))
 
 
 def reverting(node: Anvil) -> bytes:
@@ -120,16 +218,22 @@ def reverting(node: Anvil) -> bytes:
 def test_what_a_contract_refuses(node: Anvil) -> None:
     place = reverting(node)
     with pytest.raises(TransactionError, match=r"would fail: the contract refused: CanvasSize\(width=1, height=2\)"):
-        transactor(node.url).send(place)
-    # with a limit of gas nothing is estimated, and it fails on the chain
-    with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed.*CanvasSize\(width=1, height=2\)"):
-        transactor(node.url).send(place, gas=100_000)
+        quoted(transactor(node.url), place)
+    # where the node does not find out before, it fails on the chain
+    with (
+        without_estimates(node) as url,
+        pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed.*CanvasSize\(width=1, height=2\)"),
+    ):
+        transactor(url).send(blind(transactor(url), place, b"", 100_000))
 
 
 def test_a_contract_without_gas(node: Anvil) -> None:
     creation = artifact("Engine").creation
-    with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed: .* too little gas"):
-        transactor(node.url).send(None, creation, gas=2_000_000)
+    with (
+        without_estimates(node) as url,
+        pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} failed: .* too little gas"),
+    ):
+        transactor(url).send(blind(transactor(url), None, creation, 2_000_000))
 
 
 @pytest.mark.parametrize(
@@ -150,7 +254,7 @@ def test_what_nodes_say(node: Anvil, said: str, words: str) -> None:
         return forward(node.url, request)
 
     with serving(answer) as url, pytest.raises(TransactionError, match=words) as error:
-        transactor(url).send(SOMEONE)
+        transactor(url).send(quoted(transactor(url)))
     assert KEY[2:] not in str(error.value)
     assert "\n" not in str(error.value)
 
@@ -168,7 +272,8 @@ def test_an_answer_that_was_lost(node: Anvil) -> None:
 
     before = balance(node, SOMEONE)
     with serving(answer) as url:
-        transactor(url).send(SOMEONE, value=3)
+        payer = transactor(url)
+        payer.send(quoted(payer, value=3))
     assert balance(node, SOMEONE) - before == 3
     # a broken connection is tried again at once, and the node knows the transaction then
     assert {each["params"][0] for each in sent} == {sent[0]["params"][0]}
@@ -177,8 +282,8 @@ def test_an_answer_that_was_lost(node: Anvil) -> None:
 def test_a_transaction_that_is_in_no_block() -> None:
     with anvil("--no-mining") as node:
         payer = transactor(node.url, patience=0.3)
-        with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} is in no block after 0.3 s"):
-            payer.send(SOMEONE)
+        with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} is in no block after 0.3 s.*do not"):
+            payer.send(quoted(payer))
         with pytest.raises(TransactionError, match="has 1 transactions that are in no block"):
             payer.settle()
         node.rpc("evm_mine")
@@ -197,12 +302,6 @@ def test_a_node_that_dies_meanwhile() -> None:
         def dead(request: dict[str, Any]) -> Reply:
             return answer(request) if node.process.poll() is None else Reply(b"", 502)
 
-        with serving(dead) as url, pytest.raises(NodeUnreachableError, match="out of order"):
-            transactor(url, patience=0.5).send(SOMEONE)
-
-
-@pytest.mark.parametrize(
-    ("wei", "text"), [(0, "0"), (ETHER, "1"), (ETHER // 100, "0.01"), (1, "1e-18"), (1234567 * 10**12, "1.234567")]
-)
-def test_ether_for_people(wei: int, text: str) -> None:
-    assert ether(wei) == text
+        words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .* out of order"
+        with serving(dead) as url, pytest.raises(NodeUnreachableError, match=words):
+            transactor(url, patience=0.5).send(quoted(transactor(node.url)))

@@ -16,6 +16,7 @@ from ledger import World
 from shackled import InputError, Mesh, Object, Scene, load, render
 from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
+from shackled.errors import RenderError
 from shackled.scene.packed_mesh import pack
 from shackled.scene.rotation import from_euler, rotate
 from shackled.studio.compact_mesh import expand
@@ -40,7 +41,11 @@ def world() -> World:
 
 def happens(world: World, storings: list[Storing]) -> None:
     for storing in storings:
-        output = world.run(world.address("Studio"), storing.data, created=True)
+        # as much as it uses is not enough, since a call hands on all but a 64th
+        if storing.size > 2000:
+            with pytest.raises(RenderError):
+                world.run(world.address("Studio"), storing.data, storing.gas)
+        output = world.run(world.address("Studio"), storing.data, storing.gas_limit, created=True)
         assert output[12:32] == storing.pointer
         assert len(world.codes[storing.pointer]) == storing.size + 1
         gas = world.gas + intrinsic_gas(storing.data)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from eth_account import Account
 from PIL import Image as PillowImage
 from web3 import Web3
 
+from nodes import Reply, failure, forward, serving
 from shackled.artifacts import artifact
 from shackled.chain.address_book import AddressBook
 from shackled.chain.addresses import show_address
@@ -21,6 +24,7 @@ from shackled.deploy.contract import local_chain
 from shackled.errors import NodeError, RenderError, RevertError
 from shackled.tokens.allow_list import read_allow_list
 from shackled.tokens.collection import open_collection
+from shackled.tokens.contract import Contract
 from shackled.tokens.development import development_accounts
 from shackled.tokens.immutables import immutable_places
 from shackled.tokens.verify import check_collection_code, check_token
@@ -60,15 +64,24 @@ def test_terms_are_those_of_the_command(node: Node, address: str, allow_list: Pa
 
 def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, shackled: Shackled) -> None:
     sale = ["--price", "0.2", "--reserve", "1012", "--royalty", "7.5", "--yes"]
-    said = shackled("token", "deploy", "genesis", *sale, user=OWNER, expect=2)
-    assert f"this very collection stands at {address} on chain 31337 already" in said.error
-    assert "--salt" in said.error
+    before = node.web3.eth.block_number
+    said = shackled("token", "deploy", "genesis", *sale, user=OWNER)
+    assert f"this very collection stands at {address} on chain 31337 already" in said.err
+    assert "nothing was sent; another --salt makes another collection" in said.err
+    assert node.web3.eth.block_number == before
+    assert json.loads(shackled("token", "deploy", "genesis", *sale, "--json", user=OWNER).out) == {
+        "collection": "genesis",
+        "address": address,
+        "chain_id": 31337,
+        "transaction": None,
+        "gas": 0,
+    }
 
 
 def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
     before = node.web3.eth.block_number
     said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
-    assert "gas, about" in said.err
+    assert re.search("it costs about .* gas by the node, .* as counted here; at most .* ether in all", said.err)
     assert "nothing was sent" in said.error
     assert node.web3.eth.block_number == before
 
@@ -197,6 +210,50 @@ def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> 
         node.rpc("anvil_setCode", address, "0x" + code.hex())
     assert f"WRONG  GenesisCollection at {address}" in said.out
     assert said.error == "shackled: 1 of the checks failed"
+
+
+@pytest.mark.parametrize("silent", [False, True], ids=["out of gas", "a revert that says nothing"])
+def test_what_a_node_does_not_let_be_read_is_not_wrong(
+    node: Node, address: str, shackled: Shackled, capsys: pytest.CaptureFixture[str], silent: bool
+) -> None:
+    """Some nodes give a call less gas than a tokenURI takes, and say of it only that it was reverted."""
+    data = Contract(Connection(node.url), "GenesisCollection", address).encode("tokenURI", 0).hex()
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if data in json.dumps(request):
+            error = ("Transaction reverted without a reason string", -32603) if silent else ("out of gas", -32000)
+            return failure(*error, data="0x" if silent else None)
+        return forward(node.url, request)
+
+    limit = hex(node.web3.eth.get_block("latest")["gasLimit"])
+    try:
+        node.rpc("evm_setBlockGasLimit", hex(16_000_000))
+        with serving(answer) as url:
+            assert run(["token", "show", "0", "--rpc", url]) == 1
+            assert "too little gas for tokenURI" in capsys.readouterr().err
+            assert run(["token", "verify", "0", "--rpc", url]) == 1
+    finally:
+        node.rpc("evm_setBlockGasLimit", limit)
+    said = capsys.readouterr()
+    assert "WRONG" not in said.out
+    line = next(line for line in said.out.splitlines() if line.startswith("unread"))
+    assert line.startswith("unread Shackled Genesis #0: the node")
+    assert "too little gas for tokenURI" in line
+    assert not silent or "about 15,9" in line
+    assert said.err.startswith("shackled: nothing is wrong, but 1 of the tokens could not be read")
+
+
+def test_a_real_node_with_little_gas(node: Node, address: str, shackled: Shackled) -> None:
+    limit = hex(node.web3.eth.get_block("latest")["gasLimit"])
+    try:
+        node.rpc("evm_setBlockGasLimit", hex(1_500_000))
+        shown = shackled("token", "show", 0, expect=1)
+        said = shackled("token", "verify", 0, expect=1)
+    finally:
+        node.rpc("evm_setBlockGasLimit", limit)
+    assert "too little gas for tokenURI" in shown.error
+    assert "WRONG" not in said.out
+    assert "unread Shackled Genesis #0" in said.out
 
 
 def test_another_randomness_than_that_of_the_block_is_found(

@@ -64,7 +64,7 @@ def test_the_whole_way_of_tokens(
     # for all, and from the reserve
     shackled("token", "phase", "public", "--yes", user=OWNER)
     said = shackled("token", "mint", 6, "--yes", user=CAROL, expect=1)
-    assert said.error == "shackled: a transaction mints 1 to 5 tokens, not 6"
+    assert said.error == "shackled: a call mints 1 to 5 tokens, not 6"
     numbers = json.loads(shackled("token", "mint", 5, "--yes", "--json", user=CAROL).out)["tokens"]
     assert numbers == [3, 4, 5, 6, 7]
     said = shackled("token", "mint", 5, "--yes", user=CAROL, expect=1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -90,7 +91,9 @@ class AddressBook:
                 f"the address book {self.path} is broken, it is not the JSON that it was: {hint}"
             ) from None
         valid = isinstance(chains, dict) and all(
-            key.isdecimal() and isinstance(chain, dict) and all(isinstance(text, str) for text in chain.values())
+            re.fullmatch("[0-9]{1,78}", key)
+            and isinstance(chain, dict)
+            and all(isinstance(text, str) for text in chain.values())
             for key, chain in chains.items()
         )
         if not valid:

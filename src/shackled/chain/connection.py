@@ -73,11 +73,11 @@ class Connection:
         raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
 
     def number(self, method: str, *parameters: Any) -> int:
-        """The result of a method that answers with a number."""
+        """The result of a method that answers with a number, of at most 256 bits."""
         result = self.request(method, *parameters)
         try:
-            return int(result, 16)
-        except (TypeError, ValueError):
+            return quantity(result)
+        except ValueError:
             raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
 
     def data(self, method: str, *parameters: Any) -> bytes:
@@ -126,6 +126,13 @@ class Connection:
         for secret in self._secrets:
             text = text.replace(secret, "***")
         return text
+
+
+def quantity(value: Any) -> int:
+    """The number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
+    if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
+        return int(value, 16)
+    raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
 
 
 def _without_key(url: str) -> str:

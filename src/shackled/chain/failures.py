@@ -20,6 +20,7 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
+from ..plain import plain
 
 #: How nodes word it, in small letters and without anything but letters. The first group with a word that fits is taken.
 TOO_LITTLE_GAS = (
@@ -216,7 +217,7 @@ def _quote(said: str) -> str:
 
 
 def _shorten(said: str, most: int = 200) -> str:
-    line = " ".join(said.split())
+    line = plain(" ".join(said.split()))
     return line if len(line) <= most else f"{line[:most]}..."
 
 

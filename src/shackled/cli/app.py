@@ -13,6 +13,7 @@ import typer
 
 from .. import __version__
 from ..errors import FetchError, InputError, InputWarning, OutputError, RenderError
+from ..plain import plain
 from .arguments import with_cluster
 from .bench import bench
 from .creator import creator
@@ -99,7 +100,7 @@ def _note(show: Callable[..., object]) -> Callable[..., None]:
             show(message, category, *place, **more)
         elif str(message) not in told:
             told.add(str(message))
-            print(f"shackled: note: {_one_line(message)}", file=sys.stderr)
+            print(f"shackled: note: {plain(' '.join(str(message).split()))}", file=sys.stderr)
 
     return showwarning
 
@@ -114,11 +115,5 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {_one_line(message)}", file=sys.stderr)
+    print(f"shackled: {plain(' '.join(str(message).split()))}", file=sys.stderr)
     return code
-
-
-def _one_line(message: object) -> str:
-    """What a terminal shows as one line: names of files may hold characters that steer it."""
-    text = " ".join(str(message).split())
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +14,8 @@ from ..chain.addresses import show_address
 from ..chain.connection import PATIENCE, Connection
 from ..errors import InputError
 from .option import option
-from .payer import PASSWORD, ask, open_signer
+from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee
+from .telling import say, tell
 
 if TYPE_CHECKING:
     from ..deploy import Plan, Receipt, Step
@@ -33,8 +33,15 @@ def deploy(
     private_key_env: Annotated[
         str | None, option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
     ] = None,
+    max_fee: MaxFee = None,
     contracts: Annotated[
-        str | None, option("--contracts", "Which, with commas; else all. Those that they call are added.", "NAMES")
+        str | None,
+        option(
+            "--contracts",
+            "Which, with commas, of Engine, Renderer, Original, Genesis, PngEncoder, Studio and GenesisMetadata; else "
+            "the first four. Those that they call are added.",
+            "NAMES",
+        ),
     ] = None,
     chain_id: Annotated[int | None, option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
     yes: Annotated[bool, option("--yes -y", "Do not ask.")] = False,
@@ -49,7 +56,8 @@ def deploy(
 ) -> None:
     """Put the contracts on a chain, at the same addresses as on every chain. What is there already is left alone."""
     from ..deploy import Deployer, Transactor, deployments
-    from ..deploy.contract import STANDARD
+    from ..deploy.contract import CONTRACTS, STANDARD
+    from ..deploy.quote import current_fees
     from ..deploy.verification import write_verification
 
     if rpc is None or not rpc.strip():
@@ -58,22 +66,23 @@ def deploy(
         raise InputError("--account and --private-key-env both say who pays: give one of them")
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
     if not names:
-        raise InputError(f"--contracts names none; the contracts are {', '.join(STANDARD)}")
+        raise InputError(f"--contracts names none; the contracts are {', '.join(CONTRACTS)}")
+    most = parse_max_fee(max_fee)
     wanted = deployments(names)
     connection = Connection(rpc.split()[0], rpc_timeout, attempts=4)
     connection.expect_chain(chain_id)
     deployer = Deployer(connection)
     deployer.book.entries(connection.chain_id)  # a broken book is told before anything is paid
-    plan = deployer.plan(wanted)
+    plan = deployer.plan(wanted, current_fees(connection, most))
     folder = standard_json or Path(f"deployed-{connection.chain_id}")
     receipts: list[Receipt] = []
     if plan.missing:
         _show(plan, connection, as_json)
-        transactor = Transactor(connection, open_signer(account, private_key_env))
-        transactor.late = _say
+        transactor = Transactor(connection, open_signer(account, private_key_env), max_fee=most)
+        transactor.late = say
         transactor.settle()
         # nothing is paid for that was not told
-        plan = replace(deployer.plan(wanted), fees=plan.fees)
+        plan = deployer.look_again(plan)
         if plan.missing and not yes:
             ask(transactor.name)
         # while nothing is paid yet
@@ -87,39 +96,40 @@ def deploy(
         print(json.dumps(_object(plan, receipts, connection, str(deployer.book.path), str(folder))))
         return
     if not receipts:
-        print("everything is there already: nothing was sent")
+        tell("everything is there already: nothing was sent")
         for step in plan.steps:
-            print(f"{step.name:10} {show_address(step.address)}")
-    print(f"addresses: {deployer.book.path}")
-    print(f"for the verification of the sources: {folder}")
+            tell(f"{step.name:10} {show_address(step.address)}")
+    tell(f"addresses: {deployer.book.path}")
+    tell(f"for the verification of the sources: {folder}")
 
 
 def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..deploy.transactor import GWEI, ether
+    from ..ether import GWEI, at_most, rounded
 
     console = Console(file=sys.stderr if quiet else sys.stdout, width=None if sys.stdout.isatty() else 120)
-    table = Table("contract", "address", "gas", "ether", box=None, header_style="bold")
-    for column in (2, 3):
-        table.columns[column].justify = "right"
+    table = Table("contract", "address", "gas", "the node's", "ether", "at most", box=None, header_style="bold")
+    for column in table.columns[2:]:
+        column.justify = "right"
     for step in plan.steps:
-        gas, cost = ("is there", "") if step.there else (f"{step.gas:,}", ether(step.cost))
-        table.add_row(step.name, show_address(step.address), gas, cost)
-    table.add_row("together", "", f"{plan.gas:,}", ether(plan.cost))
+        if step.there:
+            table.add_row(step.name, show_address(step.address), "is there")
+            continue
+        estimate = None if step.quote is None else step.quote.estimate
+        told = "not told" if estimate is None else f"{estimate:,}"
+        row = (f"{step.gas:,}", told, rounded(step.cost), at_most(step.ceiling))
+        table.add_row(step.name, show_address(step.address), *row)
+    table.add_row("together", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling))
     price = f"{plan.fees.likely / GWEI:.6g} gwei a gas"
     console.print(f"on chain {connection.chain_id}, by the {connection.name}, at {price}:", highlight=False)
     console.print(table)
 
 
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
-
-
 def _tell(step: Step, receipts: Sequence[Receipt]) -> None:
     gas = sum(receipt.gas for receipt in receipts)
-    print(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}", flush=True)
+    tell(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
 
 def _object(plan: Plan, receipts: Sequence[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:

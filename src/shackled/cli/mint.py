@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -13,7 +12,8 @@ import typer
 from ..chain.addresses import show_address
 from ..errors import InputError
 from .option import option
-from .payer import PASSWORD, ask, open_signer
+from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
+from .telling import say, tell
 
 if TYPE_CHECKING:
     from ..deploy import Receipt, Step
@@ -31,6 +31,7 @@ def mint(
     private_key_env: Annotated[
         str | None, option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
     ] = None,
+    max_fee: MaxFee = None,
     licence: Annotated[str | None, option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
     output: Annotated[
         str | None, option("-o --output", "The picture as the chain draws it: .png .bmp .svg or .gif.", "FILE")
@@ -51,10 +52,10 @@ def mint(
     from ..chain.connection import Connection
     from ..datasets import Piece
     from ..deploy import Transactor
+    from ..deploy.quote import current_fees
     from ..image import check_output
     from ..load import load, locate
     from ..render import resize, simplify_scene
-    from ..tokens.ether import roughly
     from ..tokens.licence import licence_of
     from ..tokens.storage import Wanted, plan_storage, read_back, store
     from .parse import parse_size
@@ -71,30 +72,33 @@ def mint(
     wanted = Wanted(input, scene, position_bits)
     connection = Connection(rpc, attempts=4)
     connection.expect_chain(chain_id)
-    storage = plan_storage(connection, [wanted])
+    most = parse_max_fee(max_fee)
+    storage = plan_storage(connection, [wanted], current_fees(connection, most))
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
-        _say(source.notice)
+        say(source.notice)
     gas = 0
     if storage.missing or storage.parts.missing:
         triangles = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
-        _say(
-            f"{input}, {triangles:,} triangles, {sum(each.size for _, each in storage.missing):,} bytes on chain "
+        say(
+            f"{input}, {triangles:,} triangles, {sum(each.storing.size for each in storage.missing):,} bytes on chain "
             f"{connection.chain_id}; licence: {terms}"
         )
         if storage.parts.missing:
-            _say(f"first {', '.join(step.name for step in storage.parts.missing)}: {storage.parts.gas:,} gas")
-        _say(f"storing it: {storage.storing_gas:,} gas; together about {roughly(storage.cost)}, and nothing undoes it")
-        transactor = Transactor(connection, open_signer(account, private_key_env))
+            say(f"first {', '.join(step.name for step in storage.parts.missing)}: {storage.parts.gas:,} gas")
+        say(f"storing it: {storage.gas:,} gas; nothing undoes it")
+        say(f"it costs {price([*storage.parts.quotes, *storage.quotes])}")
+        transactor = Transactor(connection, open_signer(account, private_key_env), max_fee=most)
         if not yes:
             ask(transactor.name)
 
-        def tell(step: Step, receipts: Sequence[Receipt]) -> None:
-            _say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+        def report(step: Step, receipts: Sequence[Receipt]) -> None:
+            gas = sum(each.gas for each in receipts)
+            say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
-        gas = sum(receipt.gas for receipt in store(storage, transactor, tell))
+        gas = sum(receipt.gas for receipt in store(storage, transactor, report))
     else:
-        _say(f"{input} is on chain {connection.chain_id} already: nothing was sent")
+        say(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)
     if path is not None:
         image.save(path)
@@ -114,13 +118,9 @@ def mint(
             )
         )
         return
-    print(f"pointer  {pointer}")
-    print(f"studio   {storage.studio}")
+    tell(f"pointer  {pointer}")
+    tell(f"studio   {storage.studio}")
     drawing = "not told" if image.gas is None else f"{image.gas:,} gas"
-    print(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
-    print(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
-    print(f"from here:   shackled token picture {pointer} -o FILE.png")
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+    tell(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
+    tell(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
+    tell(f"from here:   shackled token picture {pointer} -o FILE.png")

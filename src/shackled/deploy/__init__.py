@@ -3,13 +3,16 @@
 from .account import environment_account, keystore_account
 from .contract import Deployment, deployments
 from .deployer import Deployer, Plan, Step
-from .transactor import Fees, Receipt, Transactor
+from .quote import Call, Fees, Quote
+from .transactor import Receipt, Transactor
 
 __all__ = [
+    "Call",
     "Deployer",
     "Deployment",
     "Fees",
     "Plan",
+    "Quote",
     "Receipt",
     "Step",
     "Transactor",

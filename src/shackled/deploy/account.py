@@ -20,9 +20,13 @@ def environment_account(name: str) -> LocalAccount:
 
     value = os.environ.get(name, "").strip()
     if not value:
-        hint = "; it takes the name of a variable, not the key" if re.fullmatch("(0x)?[0-9a-fA-F]{64}", name) else ""
-        shown = "of that name" if hint else name
-        raise InputError(f"there is no private key in the environment variable {shown}: set it to one{hint}")
+        # what is no name may be a key, or a mnemonic, typed wrong
+        if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]{0,39}", name) or re.fullmatch("[0-9a-fA-F]{16,}", name):
+            raise InputError(
+                "there is no private key in an environment variable of that name: --private-key-env takes the name of "
+                "a variable, not the key"
+            )
+        raise InputError(f"there is no private key in the environment variable {name}: set it to one")
     if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
         try:
             account: LocalAccount = Account.from_key(value)
@@ -36,9 +40,14 @@ def read_keystore(path: Path) -> str:
     """The text of a keystore file. InputError if it is none."""
     try:
         text = path.read_text("utf-8")
-    except FileNotFoundError:
-        raise InputError(f"there is no keystore file {path}") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
+        # a key, or a mnemonic, may stand where the name of a file should
+        if re.search("[0-9A-Za-z]{41,}", path.name) or len(path.name.split()) >= 6:
+            raise InputError(
+                "there is no keystore file of that name: --account takes the name of a file, not a key"
+            ) from None
+        if isinstance(error, FileNotFoundError):
+            raise InputError(f"there is no keystore file {path}") from None
         raise InputError(f"the keystore file {path} cannot be read: {getattr(error, 'strerror', 'no text')}") from None
     try:
         keystore = read_json(text)

@@ -13,6 +13,8 @@ from ..errors import InputError, RenderError
 
 #: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
 STANDARD = ("Engine", "Renderer", "Original", "Genesis")
+#: All that can be named.
+CONTRACTS = (*STANDARD, "PngEncoder", "Studio", "GenesisMetadata")
 
 #: The code of the proxy: it creates (CREATE2) what follows the first word of the data, with this word as salt.
 PROXY_CODE = bytes.fromhex(
@@ -55,8 +57,8 @@ def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
             chosen.append(name)
 
     for name in names:
-        if name not in STANDARD:
-            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(STANDARD)}")
+        if name not in CONTRACTS:
+            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(CONTRACTS)}")
         add(name)
     local = local_chain()
     return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..chain.address_book import AddressBook
 from ..chain.addresses import PROXY, show_address
@@ -16,9 +16,11 @@ from ..errors import (
     TransactionError,
     WrongChainError,
 )
-from .contract import Deployment
-from .proxy import GAS, TRANSFER_GAS, deploy_proxy, missing_funds, proxy_stands
-from .transactor import Fees, Receipt, Transactor, block_gas, current_fees, ether
+from ..ether import rounded
+from .contract import PROXY_CODE, Deployment
+from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
+from .quote import Call, Fees, Quote, current_fees, make_quotes
+from .transactor import Receipt, Transactor, block_gas
 
 #: The newest instruction that the contracts use, in a program that does nothing: PUSH0 PUSH0 PUSH0 MCOPY STOP.
 NEWEST = bytes.fromhex("5f5f5f5e00")
@@ -26,14 +28,26 @@ NEWEST = bytes.fromhex("5f5f5f5e00")
 
 @dataclass(frozen=True)
 class Step:
-    """Something that is to stand on a chain. gas, cost: of the transactions, cost in wei; 0 if it is there already."""
+    """Something that is to stand on a chain. gas: of the transactions, as counted here; 0 if it is there already.
+    quote: of the transaction that the account pays; None if it pays none.
+    """
 
     name: str
     address: bytes
     there: bool
     gas: int = 0
-    cost: int = 0
+    quote: Quote | None = None
     deployment: Deployment | None = None
+
+    @property
+    def cost(self) -> int:
+        """What is probably paid, in wei."""
+        return 0 if self.quote is None else self.quote.likely
+
+    @property
+    def ceiling(self) -> int:
+        """What is paid at most, in wei."""
+        return 0 if self.quote is None else self.quote.ceiling
 
 
 @dataclass(frozen=True)
@@ -50,13 +64,29 @@ class Plan:
 
     @property
     def gas(self) -> int:
-        """Of all transactions."""
+        """Of all transactions, as counted here."""
         return sum(step.gas for step in self.steps)
 
     @property
     def cost(self) -> int:
         """What is probably paid, in wei."""
         return sum(step.cost for step in self.steps)
+
+    @property
+    def ceiling(self) -> int:
+        """What is paid at most, in wei."""
+        return sum(step.ceiling for step in self.steps)
+
+    @property
+    def quotes(self) -> list[Quote]:
+        """Of the transactions that the account pays."""
+        return [step.quote for step in self.steps if step.quote is not None]
+
+    @property
+    def codes(self) -> dict[bytes, bytes]:
+        """The code, by address, of what is missing."""
+        known = {step.address: step.deployment.code for step in self.missing if step.deployment is not None}
+        return known | {step.address: PROXY_CODE for step in self.missing if step.deployment is None}
 
 
 class Deployer:
@@ -67,22 +97,40 @@ class Deployer:
         self.connection = connection
         self.book = AddressBook() if book is None else book
 
-    def plan(self, wanted: Sequence[Deployment]) -> Plan:
-        """What of the contracts is there, and what the rest costs now.
+    def plan(self, wanted: Sequence[Deployment], fees: Fees | None = None) -> Plan:
+        """What of the contracts is there, and what the rest costs. fees: None asks for those of now.
 
-        TransactionError if there is anything else, or a block cannot hold a contract; WrongChainError if the chain has
-        older rules than the contracts need.
+        TransactionError if there is anything else, a block cannot hold a contract, or the node's prices are not to be
+        believed (`current_fees`, `make_quote`); WrongChainError if the chain has older rules than the contracts need.
         """
-        fees = current_fees(self.connection)
+        fees = current_fees(self.connection) if fees is None else fees
         there = [self.stands(each) for each in wanted]
-        steps = []
-        if not all(there):
-            self._check_chain([each for each, done in zip(wanted, there, strict=True) if not done])
+        missing = [each for each, done in zip(wanted, there, strict=True) if not done]
+        steps, codes = [], {}
+        if missing:
+            self._check_chain(missing)
             steps.append(self._proxy_step(fees))
+            if not steps[0].there:
+                codes[PROXY] = PROXY_CODE
+        calls = []
+        for each in missing:
+            calls.append(Call(PROXY, each.data, each.gas, needs=dict(codes)))
+            codes[each.address] = each.code
+        quotes = iter(make_quotes(self.connection, calls, fees))
         for each, done in zip(wanted, there, strict=True):
-            gas = 0 if done else each.gas
-            steps.append(Step(each.name, each.address, done, gas, gas * fees.likely, each))
+            gas, quote = (0, None) if done else (each.gas, next(quotes))
+            steps.append(Step(each.name, each.address, done, gas, quote, each))
         return Plan(tuple(steps), fees)
+
+    def look_again(self, plan: Plan) -> Plan:
+        """The plan without what has come there meanwhile; its quotes stay what they were."""
+        return replace(plan, steps=tuple(self._look_again(step) for step in plan.steps))
+
+    def _look_again(self, step: Step) -> Step:
+        if step.there:
+            return step
+        stands = proxy_stands(self.connection) if step.deployment is None else self.stands(step.deployment)
+        return replace(step, there=True, gas=0, quote=None) if stands else step
 
     def stands(self, wanted: Deployment) -> bool:
         """Whether a contract is where it belongs. TransactionError if anything else is there."""
@@ -103,31 +151,28 @@ class Deployer:
         next plan goes on from there.
         """
         receipts: list[Receipt] = []
+        plan = self.look_again(plan)
         if plan.missing and transactor.balance() < plan.cost:
             raise TransactionError(
-                f"{transactor.name} has {ether(transactor.balance())} ether on chain {self.connection.chain_id}, and "
-                f"{ether(plan.cost)} are needed: send it some"
+                f"{transactor.name} has {rounded(transactor.balance())} ether on chain {self.connection.chain_id}, and "
+                f"{rounded(plan.cost)} are needed: send it some"
             )
         for step in plan.missing:
             if step.deployment is None:
-                done = deploy_proxy(transactor, plan.fees)
+                done = deploy_proxy(transactor, step.quote)
             else:
-                done = [self.deploy(step.deployment, transactor, plan.fees)]
+                assert step.quote is not None
+                receipt = self.deploy(step.deployment, step.quote, transactor)
+                done = [] if receipt is None else [receipt]
             receipts += done
-            if report is not None:
+            if report is not None and done:
                 report(step, done)
         self.note([step.deployment for step in plan.steps if step.deployment is not None])
         return receipts
 
-    def deploy(self, wanted: Deployment, transactor: Transactor, agreed: Fees | None = None) -> Receipt:
-        """Deploys one contract, and compares its code. agreed: fees, as `Transactor.send` has them."""
-        receipt = transactor.send(PROXY, wanted.data, agreed=agreed)
-        if not transactor.wait(lambda: self.stands(wanted) or None):
-            raise TransactionError(
-                f"{wanted.name} is not at {show_address(wanted.address)}, though its transaction {receipt.hash} "
-                "succeeded: is the node in step?"
-            )
-        return receipt
+    def deploy(self, wanted: Deployment, quote: Quote, transactor: Transactor) -> Receipt | None:
+        """Deploys one contract as it was quoted, and compares its code; None if somebody else was quicker."""
+        return create(transactor, quote, lambda: self.stands(wanted), wanted.name, wanted.address)
 
     def note(self, standing: Sequence[Deployment]) -> None:
         """Writes into the address book where contracts are."""
@@ -153,6 +198,35 @@ class Deployer:
     def _proxy_step(self, fees: Fees) -> Step:
         if proxy_stands(self.connection):
             return Step("deployment proxy", PROXY, True)
+        check_gas(self.connection)
         missing = missing_funds(self.connection)
-        gas = GAS + (TRANSFER_GAS if missing else 0)
-        return Step("deployment proxy", PROXY, False, gas, missing + (TRANSFER_GAS * fees.likely if missing else 0))
+        if not missing:
+            return Step("deployment proxy", PROXY, False, GAS)
+        (quote,) = make_quotes(self.connection, [funding(missing)], fees)
+        return Step("deployment proxy", PROXY, False, GAS + TRANSFER_GAS, quote)
+
+
+def create(
+    transactor: Transactor, quote: Quote, stands: Callable[[], bool], name: str, address: bytes
+) -> Receipt | None:
+    """Has a contract created at an address that is made of its code. None if it stands there by then: whoever created
+    it, it is the same.
+
+    stands: whether it does. TransactionError if it does not in the end.
+    """
+    try:
+        receipt = transactor.send(quote)
+    except TransactionError as error:
+        try:
+            there = stands()
+        except RenderError:
+            raise error from None
+        if there:
+            return None
+        raise
+    if not transactor.wait(lambda: stands() or None):
+        raise TransactionError(
+            f"{name} is not at {show_address(address)}, though its transaction {receipt.hash} succeeded: is the node "
+            "in step?"
+        )
+    return receipt

@@ -6,11 +6,20 @@ signed it, which is used for this only; it has to be given what the transaction 
 
 from __future__ import annotations
 
-from ..chain.addresses import PROXY, keccak256
+from ..chain.addresses import PROXY, keccak256, show_address
 from ..chain.connection import Connection
-from ..errors import TransactionError
+from ..errors import (
+    NodeBusyError,
+    NodeTimeoutError,
+    NodeUnreachableError,
+    OutOfGasError,
+    RenderError,
+    TransactionError,
+)
+from ..ether import GWEI
 from .contract import PROXY_CODE
-from .transactor import GWEI, Fees, Receipt, Transactor
+from .quote import Call, Quote, base_fee
+from .transactor import Receipt, Transactor
 
 #: The account that signed, and what it must have: 100,000 gas at 100 gwei.
 SIGNER = bytes.fromhex("3fab184622dc19b6109349b94811493bf2a45362")
@@ -25,6 +34,8 @@ SIGNED = bytes.fromhex(
     "22222222222222222222222222222222222222222222222a02222222222222222222222222222222222222222222222222222222222222"
     "222"
 )
+#: What it creates the proxy with.
+CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 
 def proxy_stands(connection: Connection) -> bool:
@@ -43,22 +54,51 @@ def missing_funds(connection: Connection) -> int:
     return max(0, COST - connection.number("eth_getBalance", "0x" + SIGNER.hex(), "latest"))
 
 
-def deploy_proxy(transactor: Transactor, agreed: Fees | None = None) -> list[Receipt]:
-    """Gives the account that signed what it needs, and sends the published transaction."""
-    price = transactor.fees().likely
+def check_gas(connection: Connection) -> None:
+    """TransactionError if the published transaction has too little gas for the chain, as the node estimates it."""
+    try:
+        needed = connection.number("eth_estimateGas", {"data": "0x" + CREATION.hex()})
+    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+        raise
+    except RenderError:
+        return
+    if needed > GAS:
+        raise too_little_gas(connection, f"and {needed:,} are needed there")
+
+
+def too_little_gas(connection: Connection, why: str) -> TransactionError:
+    """The error of a chain whose gas is too dear for the published transaction."""
+    return TransactionError(
+        f"chain {connection.chain_id} has no deployment proxy, and the published transaction that deploys it has "
+        f"{GAS:,} gas, {why}: take a chain that has the proxy at {show_address(PROXY)}, or, on a development node, put "
+        "its code there (anvil_setCode, hardhat_setCode)"
+    )
+
+
+def funding(missing: int) -> Call:
+    """What gives the account that signed the wei that it misses."""
+    return Call(SIGNER, b"", TRANSFER_GAS, missing)
+
+
+def deploy_proxy(transactor: Transactor, quote: Quote | None) -> list[Receipt]:
+    """Gives the account that signed what it needs, which was quoted, and sends the published transaction."""
+    connection = transactor.connection
+    price = base_fee(connection) or 0
     if price > PRICE:
         raise TransactionError(
             f"gas costs {price / GWEI:.6g} gwei now, and the published transaction that deploys the proxy offers "
             f"{PRICE // GWEI}: wait until it is cheaper"
         )
     receipts = []
-    missing = missing_funds(transactor.connection)
-    if missing:
-        # a node that takes no such transaction shall say so before anything is paid
-        transactor.offer(SIGNED)
-        receipts.append(transactor.send(SIGNER, value=missing, agreed=agreed))
-    receipts.append(transactor.send_signed(SIGNED, "0x" + keccak256(SIGNED).hex(), COST))
-    if not transactor.wait(lambda: proxy_stands(transactor.connection) or None):
+    try:
+        if quote is not None:
+            # a node that takes no such transaction shall say so before anything is paid
+            transactor.offer(SIGNED)
+            receipts.append(transactor.send(quote))
+        receipts.append(transactor.send_signed(SIGNED, "0x" + keccak256(SIGNED).hex(), COST))
+    except OutOfGasError:
+        raise too_little_gas(connection, "which the node finds too little") from None
+    if not transactor.wait(lambda: proxy_stands(connection) or None):
         raise TransactionError(
             "the deployment proxy is not there, though its transaction succeeded: is the node in step?"
         )

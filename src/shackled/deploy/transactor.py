@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..chain.addresses import show_address
-from ..chain.connection import Connection
+from ..chain.connection import Connection, quantity
 from ..chain.refusal import refusal
 from ..errors import (
     NodeBusyError,
@@ -20,38 +21,18 @@ from ..errors import (
     RevertError,
     TransactionError,
 )
+from ..ether import GWEI, rounded
+from .quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-ETHER = 10**18
-GWEI = 10**9
 #: Seconds that a transaction may take to come into a block.
 PATIENCE = 180.0
 #: Seconds after which it is told what is waited for.
 LATE = 1.0
-#: What an estimate of gas is multiplied by, since the chain moves on: 21 / 20.
-MARGIN = (21, 20)
-#: A tip for those who make blocks, where a node suggests none, in wei.
-TIP = GWEI
-
-
-@dataclass(frozen=True)
-class Fees:
-    """Prices of gas in wei. likely: what is probably paid. most: what is paid at most. tip: None on a chain without the
-    fees of EIP-1559, where `most` is the price.
-    """
-
-    likely: int
-    most: int
-    tip: int | None
-
-    @property
-    def fields(self) -> dict[str, int]:
-        """Of a transaction."""
-        if self.tip is None:
-            return {"gasPrice": self.most}
-        return {"maxFeePerGas": self.most, "maxPriorityFeePerGas": self.tip, "type": 2}
+#: Said of a transaction whose fate is not known.
+LOOK_FIRST = "do not send it again before you know what became of it"
 
 
 @dataclass(frozen=True)
@@ -68,9 +49,15 @@ class Receipt:
 class Transactor:
     """Makes the transactions of one account, one after the other. TransactionError says why one failed."""
 
-    def __init__(self, connection: Connection, account: LocalAccount, patience: float = PATIENCE) -> None:
-        """patience: seconds to wait for a receipt."""
-        self.connection, self.patience = connection, patience
+    def __init__(
+        self,
+        connection: Connection,
+        account: LocalAccount,
+        patience: float = PATIENCE,
+        max_fee: int | None = None,
+    ) -> None:
+        """patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
+        self.connection, self.patience, self.max_fee = connection, patience, max_fee
         self._account = account
         #: Told, if there is anyone, what is waited for, as soon as it takes more than a second.
         self.late: Callable[[str], None] | None = None
@@ -88,46 +75,58 @@ class Transactor:
         return self.connection.number("eth_getBalance", _hex(self.address), "latest")
 
     def fees(self) -> Fees:
-        """What gas costs now."""
-        return current_fees(self.connection)
+        """What gas costs now; TransactionError as `current_fees` has it."""
+        return current_fees(self.connection, self.max_fee)
 
-    def estimate(self, to: bytes | None, data: bytes = b"", value: int = 0) -> int:
+    def quote(self, call: Call) -> Quote:
+        """A quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
+        return make_quote(self.connection.name, call, self.fees(), self.estimate(call))
+
+    def estimate(self, call: Call) -> int:
         """The gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
         try:
-            return self.connection.number("eth_estimateGas", self._call(to, data, value))
+            return self.connection.number("eth_estimateGas", call.request(self.address))
         except RevertError as error:
             raise TransactionError(f"the transaction would fail: {_why(error.data)}") from None
         except OutOfGasError:
             raise TransactionError("the transaction would fail: it needs more gas than the chain allows one") from None
         except NodeError as error:
-            raise self._rejected(error, value) from None
+            raise self._rejected(error, call.value) from None
 
-    def send(
-        self, to: bytes | None, data: bytes = b"", value: int = 0, gas: int | None = None, agreed: Fees | None = None
-    ) -> Receipt:
-        """Sends a transaction and waits for its receipt.
+    def send(self, quote: Quote) -> Receipt:
+        """Sends a transaction as it was quoted, and waits for its receipt.
 
-        to: None creates a contract. value: in wei. gas: the limit; None takes the estimate and a little more. agreed:
-        fees that were told before, whose tip is kept, whatever the node suggests now.
+        TransactionError if the node wants more by now than the quote allows; then nothing is sent.
         """
-        if gas is None:
-            gas = self.estimate(to, data, value) * MARGIN[0] // MARGIN[1]
-        fees = self.fees()
-        if agreed is not None and agreed.tip is not None and fees.tip is not None and fees.tip > agreed.tip:
-            fees = Fees(fees.likely - fees.tip + agreed.tip, fees.most - fees.tip + agreed.tip, agreed.tip)
+        call = quote.call
+        needed = self.estimate(call)
+        if needed > quote.gas:
+            raise TransactionError(
+                f"the {self.connection.name} now estimates {needed:,} gas for a transaction whose price was told for "
+                f"{quote.gas:,} at most: it was not sent; run the same again for a new price"
+            )
+        base = base_fee(self.connection)
+        if base is not None and base > quote.fees.most:
+            raise TransactionError(
+                f"gas has become more expensive meanwhile, {base / GWEI:,.12g} gwei, and at most "
+                f"{quote.fees.most / GWEI:,.12g} were told: the transaction was not sent; run the same again"
+            )
+        nonce = self.connection.number("eth_getTransactionCount", _hex(self.address), "pending")
+        if nonce >= 1 << 64:
+            raise NodeError(f"the {self.connection.name} says that {self.name} has made {nonce:,} transactions")
         transaction: dict[str, Any] = {
             "chainId": self.connection.chain_id,
-            "nonce": max(self._nonce, self.connection.number("eth_getTransactionCount", _hex(self.address), "pending")),
-            "gas": gas,
-            "value": value,
-            "data": _hex(data),
-            **fees.fields,
+            "nonce": max(self._nonce, nonce),
+            "gas": quote.gas,
+            "value": call.value,
+            "data": _hex(call.data),
+            **quote.fees.fields,
         }
-        if to is not None:
-            transaction["to"] = show_address(to)
+        if call.to is not None:
+            transaction["to"] = show_address(call.to)
         signed = self._account.sign_transaction(transaction)
-        cost = gas * fees.most + value
-        receipt = self.send_signed(bytes(signed.raw_transaction), "0x" + bytes(signed.hash).hex(), cost, transaction)
+        digest = "0x" + bytes(signed.hash).hex()
+        receipt = self.send_signed(bytes(signed.raw_transaction), digest, quote.ceiling, transaction)
         self._nonce = transaction["nonce"] + 1
         return receipt
 
@@ -142,13 +141,24 @@ class Transactor:
             if not known and not isinstance(error, NodeTimeoutError | NodeUnreachableError):
                 raise self._rejected(error, cost) from None
         except OutOfGasError:
-            raise TransactionError("the transaction was refused: its gas is not what the chain allows one") from None
-        return self._follow(digest, transaction)
+            raise OutOfGasError("the transaction was refused: its gas is not what the chain allows one") from None
+        try:
+            return self._follow(digest, transaction)
+        except TransactionError:
+            raise
+        except RenderError as error:
+            error.args = (f"the transaction {digest} was sent, {LOOK_FIRST}: {error}",)
+            raise
 
     def offer(self, raw: bytes) -> None:
-        """Sends what somebody else signed and cannot pay yet. TransactionError if the node would not take it then."""
+        """Sends what somebody else signed and cannot pay yet.
+
+        TransactionError if the node would not take it then, OutOfGasError if its gas would not do.
+        """
         try:
             self.connection.request("eth_sendRawTransaction", _hex(raw))
+        except OutOfGasError:
+            raise
         except NodeError as error:
             if _unbound(error):
                 raise self._rejected(error, 0) from None
@@ -171,35 +181,37 @@ class Transactor:
                 "wait for them, or replace them, then try again"
             )
 
-    def _call(self, to: bytes | None, data: bytes, value: int) -> dict[str, str]:
-        call = {"from": _hex(self.address), "data": _hex(data), "value": hex(value)}
-        return call if to is None else call | {"to": _hex(to)}
-
     def _follow(self, digest: str, transaction: dict[str, Any] | None) -> Receipt:
         what = f"a block that takes the transaction {digest}"
         receipt = self.wait(lambda: self.connection.request("eth_getTransactionReceipt", digest), what)
         if receipt is None:
             raise TransactionError(
-                f"the transaction {digest} is in no block after {self.patience:g} s: run the same again later, "
-                "it takes up where it stopped"
+                f"the transaction {digest} is in no block after {self.patience:g} s: it was sent, and may still come; "
+                f"{LOOK_FIRST}"
             )
         try:
-            status, gas, block = (int(receipt[key], 16) for key in ("status", "gasUsed", "blockNumber"))
-            price = int(receipt.get("effectiveGasPrice") or "0x0", 16)
-        except (TypeError, LookupError, ValueError):
+            status, gas, block = (quantity(receipt[key]) for key in ("status", "gasUsed", "blockNumber"))
+            price = quantity(receipt.get("effectiveGasPrice") or "0x0")
+        except (AttributeError, TypeError, LookupError, ValueError):
             raise NodeError(f"the {self.connection.name} answered with what is no receipt: {receipt!r:.60}") from None
         if status != 1:
             raise TransactionError(f"the transaction {digest} failed{self._reason(transaction, block)}")
-        return Receipt(digest, block, gas, gas * price, tuple(receipt.get("logs") or ()))
+        logs = receipt.get("logs") or []
+        if not _are_logs(logs):
+            raise TransactionError(
+                f"the transaction {digest} succeeded, so do not send it again; but the {self.connection.name} tells "
+                f"events that are none: {logs!r:.60}"
+            )
+        return Receipt(digest, block, gas, gas * price, tuple(logs))
 
     def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
         """Why a transaction failed, by making it again as a call."""
         if transaction is None:
             return ""
-        call = self._call(None, bytes.fromhex(transaction["data"][2:]), transaction["value"])
+        call = {"from": _hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
         call |= {"gas": hex(transaction["gas"])} | ({"to": transaction["to"]} if "to" in transaction else {})
         try:
-            self.connection.request("eth_call", call, hex(block - 1))
+            self.connection.request("eth_call", call, hex(max(0, block - 1)))
         except RevertError as error:
             return f": {_why(error.data, transaction['gas'])}"
         except RenderError as error:
@@ -236,7 +248,7 @@ class Transactor:
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
             return TransactionError(
-                f"{self.name} has {ether(self.balance())} ether, a transaction may cost {ether(cost)}: send it some"
+                f"{self.name} has {rounded(self.balance())} ether, a transaction may cost {rounded(cost)}: send it some"
             )
         if "nonce" in said:
             return TransactionError(f"{self.name} was used by another program meanwhile ({error}): run the same again")
@@ -262,37 +274,29 @@ def block_gas(connection: Connection) -> int:
     """The gas that all transactions of a block may use."""
     block = connection.request("eth_getBlockByNumber", "latest", False)
     try:
-        return int(block["gasLimit"], 16)
+        return quantity(block["gasLimit"])
     except (TypeError, LookupError, ValueError):
         raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
-def current_fees(connection: Connection) -> Fees:
-    """What gas costs on a chain now."""
-    block = connection.request("eth_getBlockByNumber", "latest", False)
-    base = block.get("baseFeePerGas") if isinstance(block, dict) else None
-    if base is None:
-        price = connection.number("eth_gasPrice")
-        return Fees(price, price, None)
-    try:
-        tip = connection.number("eth_maxPriorityFeePerGas")
-    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
-        raise
-    except RenderError:
-        tip = TIP
-    # the base may rise by an eighth each block
-    return Fees(int(base, 16) + tip, 2 * int(base, 16) + tip, tip)
+def _are_logs(logs: Any) -> bool:
+    """Whether these are events as a receipt has them."""
+    return isinstance(logs, list) and all(
+        isinstance(log, dict)
+        and _is_hex(log.get("address"), 20)
+        and isinstance(log.get("topics"), list)
+        and all(_is_hex(topic, 32) for topic in log["topics"])
+        for log in logs
+    )
+
+
+def _is_hex(value: Any, size: int) -> bool:
+    return isinstance(value, str) and re.fullmatch(f"0x[0-9a-fA-F]{{{2 * size}}}", value) is not None
 
 
 def _why(data: bytes, gas: int = 0) -> str:
     """What a contract that reverted a transaction said."""
     return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"
-
-
-def ether(wei: int) -> str:
-    """As many ether, for people."""
-    text = f"{wei / ETHER:.6f}".rstrip("0").rstrip(".")
-    return text if wei == 0 or float(text) else f"{wei / ETHER:.2g}"
 
 
 def _hex(data: bytes) -> str:

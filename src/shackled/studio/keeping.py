@@ -43,8 +43,8 @@ SCENE_STRUCT = (
 class Storing:
     """A transaction to the Studio.
 
-    what: in words. data: of the call. pointer: where the Studio will keep it. size: bytes that are kept. gas: of the
-    whole transaction, if nothing of it is kept yet.
+    what: in words. data: of the call. pointer: where the Studio will keep it. size: bytes that are kept. gas: what
+    the whole transaction uses, if nothing of it is kept yet.
     """
 
     what: str
@@ -52,6 +52,11 @@ class Storing:
     pointer: bytes
     size: int
     gas: int
+
+    @property
+    def gas_limit(self) -> int:
+        """What a transaction must be given for that: more than it uses, since a call hands on all but a 64th."""
+        return self.gas * 21 // 20
 
 
 def store_scene(

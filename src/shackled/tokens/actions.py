@@ -1,39 +1,54 @@
-"""What accounts do with contracts: checked and priced before it is sent."""
+"""What accounts do with collections: checked and priced before it is sent."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
-from ..deploy import Fees, Receipt, Transactor
+from ..chain.embedded import intrinsic_gas
+from ..deploy import Call, Quote, Receipt, Transactor
 from ..errors import NodeError, RevertError
-from .contract import Contract
+from .contract import Contract, Interface
+
+#: About the gas that each function takes, without what is paid for the call and its data.
+USUAL = {
+    "acceptOwnership": 8_000,
+    "add": 135_000,
+    "mint": 65_000,
+    "mintReserve": 65_000,
+    "mintWithProof": 60_000,
+    "mintWithSignature": 75_000,
+    "safeTransferFrom": 55_000,
+    "seal": 28_000,
+    "setAllowList": 55_000,
+    "setPhase": 12_000,
+    "setRoyalty": 9_000,
+    "transferFrom": 55_000,
+    "transferOwnership": 28_000,
+    "withdraw": 30_000,
+}
 
 
-@dataclass(frozen=True)
-class Action:
-    """A transaction that would succeed now. value: what is sent along, in wei. gas: as the node estimates it."""
-
-    contract: Contract
-    data: bytes
-    value: int
-    gas: int
-    fees: Fees
-
-    @property
-    def fee(self) -> int:
-        """What its gas probably costs, in wei."""
-        return self.gas * self.fees.likely
-
-    def send(self, transactor: Transactor) -> Receipt:
-        """Sends it, and waits until it is in a block."""
-        return transactor.send(_bytes(self.contract.address), self.data, self.value)
+def call_of(
+    interface: Interface, address: str, function: str, *arguments: Any, value: int = 0, ours: int | None = None
+) -> Call:
+    """The call of a function as a transaction. ours: its gas as counted here; None takes what is usual."""
+    data = interface.encode(function, *arguments)
+    usual = USUAL[function.partition("(")[0]] + intrinsic_gas(data) if ours is None else ours
+    return Call(bytes.fromhex(address.removeprefix("0x")), data, usual, value)
 
 
-def plan(transactor: Transactor, contract: Contract, function: str, *arguments: Any, value: int = 0) -> Action:
-    """The call of a function as a transaction.
+def plan(
+    transactor: Transactor,
+    contract: Contract,
+    function: str,
+    *arguments: Any,
+    value: int = 0,
+    ours: int | None = None,
+) -> Quote:
+    """The price of a call that would succeed now.
 
-    RevertError, in words, if the contract would refuse it; TransactionError if it would fail otherwise.
+    RevertError, in words, if the contract would refuse it; TransactionError if it would fail otherwise, or if the
+    prices of the node are not to be believed.
     """
     try:
         contract.call(function, *arguments, sender="0x" + transactor.address.hex(), value=value)
@@ -41,15 +56,16 @@ def plan(transactor: Transactor, contract: Contract, function: str, *arguments: 
         raise
     except NodeError:
         pass  # what the estimate says in better words, such as an account without ether
-    data = contract.encode(function, *arguments)
-    gas = transactor.estimate(_bytes(contract.address), data, value)
-    return Action(contract, data, value, gas, transactor.fees())
+    return transactor.quote(call_of(contract, contract.address, function, *arguments, value=value, ours=ours))
 
 
-def perform(transactor: Transactor, contract: Contract, function: str, *arguments: Any, value: int = 0) -> Receipt:
+def perform(
+    transactor: Transactor,
+    contract: Contract,
+    function: str,
+    *arguments: Any,
+    value: int = 0,
+    ours: int | None = None,
+) -> Receipt:
     """Plans a transaction and sends it."""
-    return plan(transactor, contract, function, *arguments, value=value).send(transactor)
-
-
-def _bytes(address: str) -> bytes:
-    return bytes.fromhex(address.removeprefix("0x"))
+    return transactor.send(plan(transactor, contract, function, *arguments, value=value, ours=ours))

@@ -10,7 +10,8 @@ from typing import Any
 
 from ..chain.addresses import show_address
 from ..chain.connection import Connection
-from ..errors import InputError, NodeError, RevertError
+from ..chain.node import GAS_LEFT
+from ..errors import InputError, NodeError, OutOfGasError, RenderError, RevertError
 from .contract import Contract
 from .kinds import KINDS, Kind
 from .metadata import Metadata, read_contract_uri, read_token_uri
@@ -94,8 +95,25 @@ class Collection:
         return int(self._of_token("roundOf", token))
 
     def token_uri(self, token: int) -> str:
-        """The whole `tokenURI`, in one call that names no gas: the limit of the node holds."""
-        return str(self._of_token("tokenURI", token))
+        """The whole `tokenURI`, in one call that names no gas: the node's limit holds, OutOfGasError if it is low."""
+        try:
+            return str(self._of_token("tokenURI", token))
+        except RevertError as error:
+            if error.data:
+                raise
+            # what our contracts refuse they say; a call within a call that runs out of gas says nothing
+            raise OutOfGasError(
+                f"the {self.connection.name} gives a read call too little gas for tokenURI{self._given()}: raise its "
+                "limit, or take another node"
+            ) from None
+
+    def _given(self) -> str:
+        """How much gas the node gives a call, for people; nothing if it does not tell."""
+        try:
+            left = int.from_bytes(self.connection.data("eth_call", {"data": "0x" + GAS_LEFT.hex()}, "latest"), "big")
+        except RenderError:
+            return ""
+        return f", about {left:,}" if 0 < left < 1 << 64 else ""
 
     def metadata(self, token: int) -> Metadata:
         """What a token says of itself."""

@@ -98,7 +98,9 @@ class Contract(Interface):
             ) from None
 
     def gas(self, function: str, *arguments: Any) -> int | None:
-        """The exact gas of the execution of a read call; None where the node takes no state overrides."""
+        """The exact gas of the execution of a read call; None where the node takes no state overrides, or gives a call
+        too little to count it.
+        """
         from ..chain.node import METER
 
         # a contract that counts gas is placed beside this one, for the length of the call
@@ -111,7 +113,7 @@ class Contract(Interface):
             raise in_words(error) from None
         except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
             raise
-        except NodeError:
+        except (NodeError, OutOfGasError):
             return None
         return int.from_bytes(answer[:32], "big") if len(answer) > 32 else None
 

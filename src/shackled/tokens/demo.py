@@ -50,12 +50,12 @@ class Demo:
     tokens: list[Shown] = field(default_factory=list)
 
 
-def run(connection: Connection, folder: Path, tell: Callable[[str], None]) -> Demo:
-    """Plays both collections through and writes the files. tell: is told what happens.
+def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_fee: int | None = None) -> Demo:
+    """Plays both collections through and writes the files. tell: is told what happens. max_fee: see `current_fees`.
 
     InputError if the node is not a fresh development node; RenderError if anything is not as it should be.
     """
-    users = development_transactors(connection)
+    users = development_transactors(connection, max_fee)
     make_output_folder(folder)
     demo = Demo(folder / GALLERY, folder / LISTING)
     for play in (_genesis, _icons):
@@ -111,7 +111,11 @@ def _genesis(
     tell(f"{blocks} blocks pass, and a passer-by reveals all tokens")
     connection.request("anvil_mine", hex(blocks))
     (step,) = steps(collection, rounds)
-    _pay(demo, "Genesis: reveal all of a round", perform(passer_by, contract, step.function, *step.arguments))
+    _pay(
+        demo,
+        "Genesis: reveal all of a round",
+        perform(passer_by, contract, step.function, *step.arguments, ours=step.gas),
+    )
     _after_sale(collection, owner, dave, friend, demo, tell)
     return collection
 
@@ -200,7 +204,8 @@ def _read_back(collection: Collection, demo: Demo, tell: Callable[[str], None]) 
     gas = []
     for token in collection.tokens():
         uri = collection.token_uri(token.number)
-        _require(check_token(collection, token.number, local, uri).failure, f"token {token.number}")
+        check = check_token(collection, token.number, local, uri)
+        _require(check.failure or check.unread, f"token {token.number}")
         used = collection.contract.gas("tokenURI", token.number)
         metadata = read_token_uri(uri)
         demo.tokens.append(

@@ -9,12 +9,14 @@ from typing import Any
 from ..artifacts import artifact
 from ..chain.addresses import PROXY, create2_address, show_address
 from ..chain.connection import Connection
-from ..deploy import Deployer, Deployment, Plan, Receipt, Step, Transactor
+from ..deploy import Call, Deployer, Deployment, Fees, Plan, Quote, Receipt, Step, Transactor
 from ..deploy.contract import deployment, local_chain
-from ..errors import InputError, TransactionError
+from ..deploy.deployer import create
+from ..deploy.quote import current_fees, make_quotes
+from ..errors import InputError
+from ..ether import ether
 from .collection import Collection
 from .contract import constructor_arguments
-from .ether import ether
 from .immutables import immutable_values
 from .kinds import Kind
 
@@ -46,7 +48,7 @@ class Offer:
             (0 <= self.reserve <= GENESIS_SUPPLY, f"the reserve must be 0 to {GENESIS_SUPPLY:,}, not {self.reserve}"),
             (
                 1 <= self.per_transaction <= MAX_PER_TRANSACTION,
-                f"a transaction may mint 1 to {MAX_PER_TRANSACTION} tokens, not {self.per_transaction}",
+                f"a call may mint 1 to {MAX_PER_TRANSACTION} tokens, not {self.per_transaction}",
             ),
             (
                 0 <= self.royalty <= MAX_ROYALTY,
@@ -94,13 +96,15 @@ def address_of(deployments: Sequence[Deployment], name: str) -> str:
 
 @dataclass(frozen=True)
 class Launch:
-    """A collection that is to be deployed. parts: what is missing before. gas: of its own transaction."""
+    """A collection that is to be deployed. parts: what is missing before. quote: of its own transaction; None if the
+    collection stands already.
+    """
 
     kind: Kind
     parts: Plan
     creation: bytes
     salt: bytes
-    gas: int
+    quote: Quote | None
 
     @property
     def address(self) -> str:
@@ -108,14 +112,14 @@ class Launch:
         return show_address(create2_address(self.creation, self.salt))
 
     @property
-    def whole_gas(self) -> int:
+    def quotes(self) -> list[Quote]:
         """Of all transactions."""
-        return self.parts.gas + self.gas
+        return self.parts.quotes + ([] if self.quote is None else [self.quote])
 
     @property
-    def cost(self) -> int:
-        """What is probably paid for all of it, in wei."""
-        return self.parts.cost + self.gas * self.parts.fees.likely
+    def gas(self) -> int:
+        """Of all transactions, as counted here."""
+        return self.parts.gas + (0 if self.quote is None else self.quote.call.ours)
 
 
 def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> bytes:
@@ -125,43 +129,47 @@ def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> byte
     return artifact(kind.contract).creation + constructor_arguments(kind.contract, *arguments, offer.struct)
 
 
-def plan_launch(connection: Connection, kind: Kind, offer: Offer) -> Launch:
-    """What is to be deployed. InputError if the same collection is there already."""
+def plan_launch(connection: Connection, kind: Kind, offer: Offer, fees: Fees | None = None) -> Launch:
+    """What is to be deployed. fees: None asks for those of now. RenderError if something else is at its address."""
+    fees = current_fees(connection) if fees is None else fees
     parts = parts_of(kind.contract)
     creation = creation_code(kind, parts, offer)
     salt = offer.salt.to_bytes(32, "big")
-    address = create2_address(creation, salt)
-    if connection.data("eth_getCode", "0x" + address.hex(), "latest"):
-        raise InputError(
-            f"this very collection stands at {show_address(address)} on chain {connection.chain_id} already: "
-            "another --salt makes another one"
-        )
-    plan = Deployer(connection).plan(parts)
+    plan = Deployer(connection).plan(parts, fees)
+    if _stands(connection, kind, create2_address(creation, salt)):
+        return Launch(kind, plan, creation, salt, None)
     # the constructor is run here; on the chain other numbers of blocks may change it by a few hundred gas
     gas = deployment(kind.contract, creation, [each.name for each in parts]).gas
-    return Launch(kind, plan, creation, salt, gas)
+    (quote,) = make_quotes(connection, [Call(PROXY, salt + creation, gas, needs=plan.codes)], fees, plan.quotes)
+    return Launch(kind, plan, creation, salt, quote)
 
 
 def launch(
     launch: Launch,
     transactor: Transactor,
     report: Callable[[Step, Sequence[Receipt]], None] | None = None,
-) -> tuple[Collection, Receipt]:
-    """Deploys what is missing, then the collection, and compares its code; the collection, and the receipt of its own.
+) -> tuple[Collection, Receipt | None]:
+    """Deploys what is missing, then the collection, and compares its code; the collection, and the receipt of its own,
+    None if it stood there already, whoever had deployed it.
 
     TransactionError if anything fails; what was done before stays, and the next time goes on from there.
     """
-    connection = transactor.connection
+    connection, kind = transactor.connection, launch.kind
     deployer = Deployer(connection)
     deployer.carry_out(launch.parts, transactor, report)
-    receipt = transactor.send(PROXY, launch.salt + launch.creation)
-    collection = Collection(connection, launch.kind, launch.address)
-    code = connection.data("eth_getCode", launch.address, "latest")
-    if not code:
-        raise TransactionError(f"{launch.kind.title} is not at {launch.address}, though its transaction succeeded")
-    immutable_values(code, artifact(launch.kind.contract).runtime)
-    deployer.book.write(connection.chain_id, {launch.kind.contract: bytes.fromhex(launch.address[2:])})
-    if report is not None:
-        step = Step(launch.kind.contract, bytes.fromhex(launch.address[2:]), False, receipt.gas, receipt.fee)
-        report(step, [receipt])
-    return collection, receipt
+    place = bytes.fromhex(launch.address[2:])
+    receipt = None
+    if launch.quote is not None:
+        receipt = create(transactor, launch.quote, lambda: _stands(connection, kind, place), kind.title, place)
+    deployer.book.write(connection.chain_id, {kind.contract: place})
+    if report is not None and receipt is not None:
+        report(Step(kind.contract, place, False), [receipt])
+    return Collection(connection, kind, launch.address), receipt
+
+
+def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
+    """Whether a collection is at its address. RenderError if anything else is there."""
+    code = connection.data("eth_getCode", "0x" + place.hex(), "latest")
+    if code:
+        immutable_values(code, artifact(kind.contract).runtime)
+    return bool(code)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..chain.connection import Connection
 from ..deploy import Transactor
 from ..errors import InputError
-from .ether import WEI, ether
+from ..ether import ETHER, ether
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -17,7 +17,7 @@ CHAIN_ID = 31337
 PHRASE = "test test test test test test test test test test test junk"
 ACCOUNTS = 10
 #: Each account of a fresh anvil has 10,000 ether; of one that is not quite fresh a little less.
-FUNDS = 9_000 * WEI
+FUNDS = 9_000 * ETHER
 
 
 def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
@@ -28,8 +28,11 @@ def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
     return [Account.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
 
 
-def development_transactors(connection: Connection) -> list[Transactor]:
-    """Whoever may sign for the accounts of a development node. InputError if the node is anything else."""
+def development_transactors(connection: Connection, max_fee: int | None = None) -> list[Transactor]:
+    """Whoever may sign for the accounts of a development node. InputError if the node is anything else.
+
+    max_fee: see `current_fees`.
+    """
     if connection.chain_id != CHAIN_ID:
         raise InputError(
             f"the demo is for a fresh anvil, whose chain is {CHAIN_ID}; the {connection.name} belongs to chain "
@@ -38,7 +41,7 @@ def development_transactors(connection: Connection) -> list[Transactor]:
     version = str(connection.request("web3_clientVersion"))
     if not version.lower().startswith("anvil"):
         raise InputError(f"the demo is for a fresh anvil, and the {connection.name} is {version[:60]!r}")
-    transactors = [Transactor(connection, account) for account in development_accounts()]
+    transactors = [Transactor(connection, account, max_fee=max_fee) for account in development_accounts()]
     for transactor in transactors:
         if transactor.balance() < FUNDS:
             raise InputError(

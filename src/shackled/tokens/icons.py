@@ -9,14 +9,12 @@ from typing import Any
 from ..chain.addresses import show_address
 from ..datasets import Piece, find, pieces
 from ..errors import InputError
+from ..ether import amount
 from .collection import Collection
-from .ether import amount
 from .licence import licence_of
 
 #: Pixels that each pixel becomes in the picture of a token: 128 become 512.
 SCALE = 4
-#: What adding an icon to a collection takes, in gas, at most.
-ADD_GAS = 160_000
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from PIL import Image as PillowImage
 
 from ..errors import RenderError
 from ..json_text import read_json
-from .plain import plain
+from ..plain import plain
 
 #: Marketplaces cut off, or do not show, what is longer.
 MAX_LENGTH = 100_000

@@ -7,14 +7,14 @@ from typing import Any
 
 from ..artifacts import artifact, contracts
 from ..errors import RevertError
-from .ether import ether
+from ..ether import ether
 
 PHASES = ("closed", "open for the allow-list", "open for all")
 
 #: A sentence for each error that users meet, of its values by their names.
 SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "WrongPhase": lambda v: f"the sale is {_phase(v['phase'])}; for this it must be {_phase(v['needed'])}",
-    "Quantity": lambda v: f"a transaction mints 1 to {v['perTransaction']} tokens, not {v['quantity']}",
+    "Quantity": lambda v: f"a call mints 1 to {v['perTransaction']} tokens, not {v['quantity']}",
     "Payment": lambda v: f"the price is {ether(v['due'])}, and {ether(v['sent'])} were sent",
     "PaymentForNothing": lambda v: f"{ether(v['sent'])} were sent where nothing is to be paid",
     "NotOnAllowList": lambda v: f"the account {v['account']} is not on the allow-list for {v['quantity']} tokens",
@@ -33,7 +33,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     ),
     "WithdrawalRefused": lambda v: f"{v['to']} does not take the {ether(v['amount'])}; choose another account",
     "OwnerNeeded": lambda v: "a collection cannot be without an owner",
-    "PerTransaction": lambda v: f"a transaction may mint 1 to 100 tokens, not {v['perTransaction']}",
+    "PerTransaction": lambda v: f"a call may mint 1 to 100 tokens, not {v['perTransaction']}",
     "Reserve": lambda v: f"the reserve can be 0 to {v['supply']} tokens, not {v['reserve']}",
     "Royalty": lambda v: f"royalties can be 0 to {v['highest'] / 100:g} %, not {v['royalty'] / 100:g} %",
     "OwnableUnauthorizedAccount": lambda v: f"only the owner may do this, and {v['account']} is not the owner",

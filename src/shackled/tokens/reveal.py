@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import NodeError
+from ..deploy import Quote, Transactor
+from ..deploy.quote import make_quotes
+from ..errors import InputError, NodeError
+from .actions import call_of, plan
 from .collection import Collection
 from .header import encode_header
 
@@ -69,19 +72,39 @@ def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
     return made
 
 
+def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[Step]) -> list[Quote]:
+    """The prices of some steps, of which there is at least one. RevertError, in words, if the first would be refused;
+    the others follow from those before.
+    """
+    first, *rest = todo
+    contract = collection.contract
+    quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
+    calls = [call_of(contract, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest]
+    return [quote, *make_quotes(transactor.connection, calls, quote.fees, [quote], transactor.address)]
+
+
 def header_of(collection: Collection, number: int) -> bytes:
     """The header of a block, whose hash the node says and we check."""
-    return encode_header(block_of(collection, number))
+    block = block_of(collection, number)
+    try:
+        return encode_header(block)
+    except InputError:
+        raise
+    except (OverflowError, TypeError, ValueError):
+        raise NodeError(
+            f"the {collection.connection.name} tells a block {number:,} with fields that are none: {block!r:.60}"
+        ) from None
 
 
 def block_of(collection: Collection, number: int) -> dict[str, Any]:
     """A block as the node tells it. NodeError if it does not have it."""
-    block: dict[str, Any] | None = collection.connection.request("eth_getBlockByNumber", hex(number), False)
-    if block is None:
+    block = collection.connection.request("eth_getBlockByNumber", hex(number), False)
+    if not isinstance(block, dict):
         raise NodeError(
             f"the {collection.connection.name} does not have block {number:,}; take one that keeps them all"
         )
-    return block
+    found: dict[str, Any] = block
+    return found
 
 
 def _proofs(collection: Collection, forgotten: list[int]) -> Iterator[Step]:

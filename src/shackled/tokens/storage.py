@@ -5,11 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from ..chain.addresses import show_address
 from ..chain.connection import Connection
-from ..deploy import Deployer, Plan, Receipt, Step, Transactor
-from ..errors import RenderError, TransactionError
+from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor
+from ..deploy.deployer import create
+from ..deploy.quote import current_fees, make_quotes
+from ..errors import RenderError
 from ..image import Image, decode_bmp
 from ..render import render
 from ..scene.scene import Scene
@@ -32,36 +35,41 @@ class Wanted:
 
 
 @dataclass(frozen=True)
+class Due:
+    """Something that is to be stored, of the scene of that name."""
+
+    name: str
+    storing: Storing
+    quote: Quote
+
+
+@dataclass(frozen=True)
 class Storage:
-    """What is to be done. parts: contracts that are missing. missing: what is to be stored, in this order, with
-    the name of its scene. pointers: of the scenes, in the order in which they were wanted.
+    """What is to be done. parts: contracts that are missing. missing: what is to be stored, in this order. pointers: of
+    the scenes, in the order in which they were wanted.
     """
 
     parts: Plan
     studio: str
-    missing: tuple[tuple[str, Storing], ...]
+    missing: tuple[Due, ...]
     pointers: tuple[str, ...]
 
     @property
     def gas(self) -> int:
-        """Of all transactions."""
-        return self.parts.gas + self.storing_gas
+        """Of those transactions that store, as counted here."""
+        return sum(each.storing.gas for each in self.missing)
 
     @property
-    def storing_gas(self) -> int:
+    def quotes(self) -> list[Quote]:
         """Of those that store."""
-        return sum(each.gas for _, each in self.missing)
-
-    @property
-    def cost(self) -> int:
-        """What is probably paid, in wei."""
-        return self.parts.cost + self.storing_gas * self.parts.fees.likely
+        return [each.quote for each in self.missing]
 
 
-def plan_storage(connection: Connection, wanted: Iterable[Wanted]) -> Storage:
+def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | None = None) -> Storage:
     """What of some scenes a chain does not have yet. Each scene is drawn here first, since none that cannot be drawn is
-    worth the price.
+    worth the price. fees: None asks for those of now.
     """
+    fees = current_fees(connection) if fees is None else fees
     parts = parts_of(STUDIO, itself=True)
     studio = address_of(parts, STUDIO)
     missing: dict[bytes, tuple[str, Storing]] = {}
@@ -73,7 +81,12 @@ def plan_storage(connection: Connection, wanted: Iterable[Wanted]) -> Storage:
         for storing in storings:
             if storing.pointer not in missing and not _stands(connection, storing):
                 missing[storing.pointer] = each.name, storing
-    return Storage(Deployer(connection).plan(parts), studio, tuple(missing.values()), tuple(pointers))
+    plan = Deployer(connection).plan(parts, fees)
+    place = bytes.fromhex(studio[2:])
+    calls = [Call(place, storing.data, storing.gas, needs=plan.codes) for _, storing in missing.values()]
+    quotes = make_quotes(connection, calls, fees, plan.quotes)
+    due = (Due(name, storing, quote) for (name, storing), quote in zip(missing.values(), quotes, strict=True))
+    return Storage(plan, studio, tuple(due), tuple(pointers))
 
 
 def store(
@@ -85,22 +98,19 @@ def store(
 
     What was done before a failure stays, and the next time goes on from there.
     """
-    deployer = Deployer(transactor.connection)
-    # planned anew: some of the contracts may have come there meanwhile
-    deployer.carry_out(deployer.plan(parts_of(STUDIO, itself=True)), transactor, report)
+    Deployer(transactor.connection).carry_out(storage.parts, transactor, report)
     receipts = []
-    for name, each in storage.missing:
-        receipt = transactor.send(bytes.fromhex(storage.studio[2:]), each.data)
+    for due in storage.missing:
+        each = due.storing
         # the address is made of the bytes that are kept: if anything is there, it is these
-        if not _stands(transactor.connection, each):
-            raise TransactionError(
-                f"the {each.what} is not at {show_address(each.pointer)}, though its transaction {receipt.hash} "
-                "succeeded: is the node in step?"
-            )
+        receipt = create(
+            transactor, due.quote, partial(_stands, transactor.connection, each), f"the {each.what}", each.pointer
+        )
+        if receipt is None:
+            continue
         receipts.append(receipt)
         if report is not None:
-            what = f"{name}, {each.what}, {each.size:,} bytes"
-            report(Step(what, each.pointer, False, receipt.gas, receipt.fee), [receipt])
+            report(Step(f"{due.name}, {each.what}, {each.size:,} bytes", each.pointer, False), [receipt])
     return receipts
 
 

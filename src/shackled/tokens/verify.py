@@ -14,7 +14,7 @@ from ..chain.addresses import keccak256, parse_address, show_address
 from ..chain.embedded import EmbeddedChain
 from ..deploy import Deployer
 from ..deploy.contract import deployment, local_chain
-from ..errors import NodeError, RenderError
+from ..errors import NodeError, OutOfGasError, RenderError
 from ..studio.keeping import STUDIO
 from .collection import Collection
 from .contract import Interface
@@ -33,10 +33,13 @@ SIDE = 128
 
 @dataclass(frozen=True)
 class Check:
-    """Something that was compared. failure: what is wrong; "" if nothing is."""
+    """Something that was compared. failure: what is wrong; "" if nothing is. unread: why it could not be read, and so
+    not be compared; "" if it was.
+    """
 
     what: str
     failure: str = ""
+    unread: str = ""
 
 
 def check_code(collection: Collection) -> Iterator[Check]:
@@ -121,6 +124,8 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
         if uri != _local_call(local, "GenesisMetadata", "tokenURI", token, drawn):
             return Check(what, "what it says of itself is not what is computed here from its seed")
         return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture is not that of its seed")
+    except OutOfGasError as error:
+        return Check(what, unread=str(error))
     except RenderError as error:
         if isinstance(error, NodeError):
             raise
@@ -149,7 +154,7 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     drawn = keccak256(
         randomness + parse_address(collection.address, "the collection").rjust(32, b"\0") + token.to_bytes(32, "big")
     )
-    if bytes.fromhex(block["mixHash"][2:]) != randomness:
+    if block.get("mixHash") != "0x" + randomness.hex():
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
     return drawn, ""
 

@@ -2,23 +2,43 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ...chain.addresses import parse_address, show_address
 from ...errors import InputError
-from ...tokens.ether import ether, roughly
 from ...tokens.kinds import KINDS
-from ...tokens.plain import plain
 from ..option import option
-from ..payer import PASSWORD, ask, open_signer
+from ..payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
+from ..telling import say, tell
 
 if TYPE_CHECKING:
+    from eth_account.signers.local import LocalAccount
+
     from ...chain.connection import Connection
-    from ...deploy import Receipt, Transactor
+    from ...deploy import Receipt
     from ...tokens.collection import Collection
+
+__all__ = [
+    "MOST",
+    "PHASES",
+    "Account",
+    "Chain",
+    "Json",
+    "Key",
+    "MaxFee",
+    "Rpc",
+    "Which",
+    "Yes",
+    "address",
+    "connect",
+    "do",
+    "open_icons",
+    "open_named",
+    "send",
+    "table",
+]
 
 #: What `phase` takes, in the order of the contract's numbers.
 PHASES = ("closed", "allow-list", "public")
@@ -89,30 +109,40 @@ def do(
     collection: Collection,
     account: Path | None,
     variable: str | None,
+    max_fee: float | None,
     yes: bool,
     title: str,
     function: str,
     *arguments: Any,
 ) -> Receipt:
     """As `send`, for the account of the options."""
-    return send(collection, open_signer(account, variable), yes, title, function, *arguments)
+    return send(collection, open_signer(account, variable), max_fee, yes, title, function, *arguments)
 
 
 def send(
-    collection: Collection, signer: Any, yes: bool, title: str, function: str, *arguments: Any, value: int = 0
+    collection: Collection,
+    signer: LocalAccount,
+    max_fee: float | None,
+    yes: bool,
+    title: str,
+    function: str,
+    *arguments: Any,
+    value: int = 0,
 ) -> Receipt:
-    """Plans a transaction, tells its price, asks, and sends it."""
+    """Plans a transaction, tells its price, asks, and sends it. max_fee: of the option, in gwei."""
     from ...deploy import Transactor
     from ...tokens.actions import plan
 
-    transactor: Transactor = Transactor(collection.connection, signer)
-    action = plan(transactor, collection.contract, function, *arguments, value=value)
-    price = f"{ether(value)} and " if value else ""
+    transactor = Transactor(collection.connection, signer, max_fee=parse_max_fee(max_fee))
+    quote = plan(transactor, collection.contract, function, *arguments, value=value)
     say(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
-    say(f"it costs {price}about {roughly(action.fee)} for {action.gas:,} gas")
+    say(f"it costs {price([quote])}")
     if not yes:
         ask(transactor.name)
-    return action.send(transactor)
+    receipt = transactor.send(quote)
+    # whatever fails from here on, it is known that this was done
+    say(f"done: transaction {receipt.hash}")
+    return receipt
 
 
 def address(text: str, name: str) -> str:
@@ -128,9 +158,4 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
             cell.rjust(width) if column and cell[:1].isdigit() else cell.ljust(width)
             for column, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
-        print(plain("  ".join(cells).rstrip()))
-
-
-def say(text: str) -> None:
-    """Prints what is no result."""
-    print(text, file=sys.stderr, flush=True)
+        tell("  ".join(cells).rstrip())

@@ -13,7 +13,8 @@ from ...checks import number
 from ...errors import InputError
 from ..option import option
 from ..payer import open_signer
-from .common import MOST, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named
+from ..telling import tell
+from .common import MOST, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named
 
 
 def allow_list(
@@ -28,6 +29,7 @@ def allow_list(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     signer: Annotated[
         str | None, option("--signer", "Whose signatures allow others; else the one there is.", "ADDRESS")
     ] = None,
@@ -39,9 +41,7 @@ def allow_list(
     from ...whole_file import write_output
 
     listed = read_allow_list(file)
-    print(
-        f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens"
-    )
+    tell(f"root 0x{listed.root.hex()}, {len(listed.allowances):,} accounts, {sum(listed.allowances.values()):,} tokens")
     if output is not None:
         write_output(output, (json.dumps(listed.document(), indent=1) + "\n").encode())
     source, nobody = context.get_parameter_source("rpc"), account is None and private_key_env is None
@@ -51,8 +51,8 @@ def allow_list(
     collection = open_named(which, rpc, chain_id)
     trusted = collection.terms().allow_list_signer if signer is None else address(signer, "--signer")
     title = "set the allow-list"
-    receipt = do(collection, account, private_key_env, yes, title, "setAllowList", listed.root, trusted)
-    print(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, title, "setAllowList", listed.root, trusted)
+    tell(f"{collection.name} has this allow-list now; {receipt.gas:,} gas")
 
 
 def permit(
@@ -87,4 +87,4 @@ def permit(
         print(text)
         return
     write_output(output, (text + "\n").encode())
-    print(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")
+    tell(f"{output}: {allowed} may mint {quantity}; with it: shackled token mint --permission {output}")

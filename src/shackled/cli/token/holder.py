@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import InputError
-from ...tokens.ether import roughly
 from ..option import option
-from ..payer import ask, open_signer
-from .common import MOST, Account, Chain, Json, Key, Rpc, Which, Yes, address, open_named, say, send
+from ..payer import ask, open_signer, parse_max_fee, price
+from ..telling import say, tell
+from .common import MOST, Account, Chain, Json, Key, MaxFee, Rpc, Which, Yes, address, open_named, send
 
 if TYPE_CHECKING:
     from ...deploy import Receipt
@@ -30,6 +30,7 @@ def mint(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     allow_list: Annotated[
         Path | None, option("--allow-list", "The list that you are on, as the owner published it.", "FILE")
     ] = None,
@@ -60,16 +61,16 @@ def mint(
     call = mint_call(collection, str(signer.address), quantity, allow_list, permission, receiver, kind)
     first = collection.minted()
     title = f"mint {quantity}" if chosen is None else f"mint {quantity} of {chosen.name}, {chosen.left} left"
-    receipt = send(collection, signer, yes, title, call.function, *call.arguments, value=call.value)
+    receipt = send(collection, signer, max_fee, yes, title, call.function, *call.arguments, value=call.value)
     numbers = minted_numbers(receipt, collection.address)
     if as_json:
         print(json.dumps({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value}))
         return
     numbers = numbers or list(range(first, first + quantity))
-    print(f"minted {', '.join(f'#{number}' for number in numbers)}; {receipt.gas:,} gas, transaction {receipt.hash}")
+    tell(f"minted {', '.join(f'#{number}' for number in numbers)}; {receipt.gas:,} gas, transaction {receipt.hash}")
     if collection.kind.hidden:
         block = collection.contract.call("blockOf", collection.round_of(numbers[0]))
-        print(f"block {block:,} draws the seeds; after it, anyone may reveal them: shackled token reveal")
+        tell(f"block {block:,} draws the seeds; after it, anyone may reveal them: shackled token reveal")
 
 
 def minted_numbers(receipt: Receipt, address: str) -> list[int]:
@@ -86,14 +87,14 @@ def reveal(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     wait: Annotated[bool, option("--wait", "Wait for blocks that are still to come.")] = False,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
     """Reveal the tokens whose blocks are there. Anyone may; it is the same whoever does, whenever."""
     from ...deploy import Transactor
-    from ...tokens.actions import perform
-    from ...tokens.reveal import hidden_rounds, latest_block, steps
+    from ...tokens.reveal import hidden_rounds, latest_block, price_steps, steps
 
     collection = open_named(which, rpc, chain_id)
     if not collection.kind.hidden:
@@ -102,7 +103,7 @@ def reveal(
         )
     rounds = hidden_rounds(collection)
     if not rounds:
-        print("nothing is to be revealed")
+        tell("nothing is to be revealed")
         return
     latest = latest_block(collection)
     while wait and rounds[-1].block > latest:
@@ -115,20 +116,21 @@ def reveal(
             f"block {rounds[0].block:,} draws the next seeds, and the chain is at {latest:,}: "
             f"wait for {rounds[0].block - latest} more blocks, or add --wait"
         )
-    transactor = Transactor(collection.connection, open_signer(account, private_key_env))
+    signer = open_signer(account, private_key_env)
+    transactor = Transactor(collection.connection, signer, max_fee=parse_max_fee(max_fee))
     todo = steps(collection, ready)
-    gas = sum(step.gas for step in todo)
+    quotes = price_steps(transactor, collection, todo)
     late = sum(step.function != "reveal" for step in todo)
     rounds_ready = f"{len(ready)} round{'s' * (len(ready) > 1)}"
     say(rounds_ready + (f", and {late} transaction{'s' * (late > 1)} to prove old blocks" if late else ""))
-    say(f"about {gas:,} gas, about {roughly(gas * transactor.fees().likely)}")
+    say(f"it costs {price(quotes)}")
     if not yes:
         ask(transactor.name)
-    for step in todo:
-        receipt = perform(transactor, collection.contract, step.function, *step.arguments)
-        print(f"{'revealed' if step.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
+    for step, quote in zip(todo, quotes, strict=True):
+        receipt = transactor.send(quote)
+        tell(f"{'revealed' if step.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
     if len(ready) < len(rounds):
-        print(f"{len(rounds) - len(ready)} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
+        tell(f"{len(rounds) - len(ready)} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
 
 
 def transfer(
@@ -138,6 +140,7 @@ def transfer(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -148,5 +151,7 @@ def transfer(
     signer = open_signer(account, private_key_env)
     if owner != str(signer.address):
         raise InputError(f"token {token_id} belongs to {owner}, not to {signer.address}")
-    receipt = send(collection, signer, yes, f"give #{token_id} to {receiver}", SAFE_TRANSFER, owner, receiver, token_id)
-    print(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")
+    receipt = send(
+        collection, signer, max_fee, yes, f"give #{token_id} to {receiver}", SAFE_TRANSFER, owner, receiver, token_id
+    )
+    tell(f"#{token_id} belongs to {collection.owner_of(token_id)}; {receipt.gas:,} gas")

@@ -7,9 +7,10 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError
-from ...tokens.ether import parse_ether
+from ...ether import parse_ether
 from ..option import option
-from .common import Account, Chain, Key, Rpc, Which, Yes, address, do, open_icons
+from ..telling import tell
+from .common import Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_icons
 
 
 def add(
@@ -24,6 +25,7 @@ def add(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -45,8 +47,8 @@ def add(
             raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
-    receipt = do(collection, account, private_key_env, yes, f"add {name}", "add", *arguments)
-    print(f"{name} is added; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, f"add {name}", "add", *arguments)
+    tell(f"{name} is added; {receipt.gas:,} gas")
 
 
 def seal(
@@ -54,6 +56,7 @@ def seal(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -63,5 +66,5 @@ def seal(
     collection = open_icons(which, rpc, chain_id)
     icons = icons_of(collection)
     title = f"fix {len(icons)} icons for ever"
-    receipt = do(collection, account, private_key_env, yes, title, "seal")
-    print(f"{collection.name} has {len(icons)} icons, for ever; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, title, "seal")
+    tell(f"{collection.name} has {len(icons)} icons, for ever; {receipt.gas:,} gas")

@@ -12,11 +12,14 @@ import typer
 from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...tokens.ether import parse_ether, roughly
+from ...ether import parse_ether
+from ...tokens.icons import SCALE
 from ...tokens.kinds import KINDS
 from ..option import option
-from ..payer import ask, open_signer
-from .common import Account, Chain, Json, Key, Rpc, Yes, address, connect, say
+from ..payer import ask, open_signer, parse_max_fee
+from ..payer import price as price_of
+from ..telling import say, tell
+from .common import Account, Chain, Json, Key, MaxFee, Rpc, Yes, address, connect
 
 if TYPE_CHECKING:
     from ...deploy import Receipt, Step
@@ -30,6 +33,7 @@ def deploy(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     price: Annotated[
         str | None, option("--price", "Of each token, in ether; else 0.15, of an icon 0.02.", "ETHER")
     ] = None,
@@ -41,7 +45,7 @@ def deploy(
     ] = None,
     supply: Annotated[int | None, option("--supply", "Tokens of each icon; else 100.", "N")] = None,
     per_transaction: Annotated[
-        int, option("--per-transaction", "The most tokens that one transaction mints; else 5.", "N")
+        int, option("--per-transaction", "The most tokens that one call mints; else 5.", "N")
     ] = 5,
     royalty: Annotated[float, option("--royalty", "Of resales, in percent, 0 to 10; else 5.", "PERCENT")] = 5,
     royalty_receiver: Annotated[
@@ -55,15 +59,21 @@ def deploy(
     signer: Annotated[str | None, option("--signer", "Whose signatures allow others to mint early.", "ADDRESS")] = None,
     salt: Annotated[int, option("--salt", "Another number gives the same collection another address.", "N")] = 0,
     chain_id: Chain = None,
+    any_chain: Annotated[
+        bool, option("--any-chain", "Genesis on another chain than Ethereum, its test networks and development nodes.")
+    ] = False,
     yes: Yes = False,
     as_json: Json = False,
 ) -> None:
-    """Put a collection on a chain, after the contracts that it needs. What it costs is told first."""
+    """Put a collection on a chain, after the contracts that it needs. What it costs is told first; what is there
+    already is left alone.
+    """
     from ...deploy import Transactor
-    from ...tokens.actions import perform
     from ...tokens.allow_list import read_allow_list
     from ...tokens.deploying import Offer, launch, plan_launch
-    from ...tokens.icons import ADD_GAS, SCALE, check_sale, chosen_pieces
+    from ...tokens.equipping import plan_equipment
+    from ...tokens.icons import check_sale, chosen_pieces
+    from ...tokens.randomness import check_randomness
     from ...tokens.storage import Wanted, plan_storage, store
 
     kind = KINDS[choice(collection, "the collection", tuple(KINDS))]
@@ -77,7 +87,10 @@ def deploy(
     chosen = [] if kind.hidden else chosen_pieces(icons)
     if not kind.hidden:
         check_sale(chosen, *of_each)
+    most = parse_max_fee(max_fee)
     connection = connect(rpc, chain_id)
+    if kind.hidden:
+        check_randomness(connection, any_chain)
     payer = open_signer(account, private_key_env)
     mine = str(payer.address)
     whose = mine if owner is None else address(owner, "--owner")
@@ -95,49 +108,60 @@ def deploy(
         royalty=round(100 * percent),
         salt=salt,
     )
-    transactor = Transactor(connection, payer)
+    transactor = Transactor(connection, payer, max_fee=most)
     transactor.settle()
-    plan = plan_launch(connection, kind, offer)
+    fees = transactor.fees()
+    plan = plan_launch(connection, kind, offer, fees)
     missing = [step.name for step in plan.parts.missing]
     before = f", after {', '.join(missing)}" if missing else ""
-    say(f"{kind.title} on chain {connection.chain_id}, at {plan.address}{before}")
-    storage = plan_storage(connection, [Wanted(piece.name, piece.make()) for piece in chosen]) if chosen else None
-    gas = plan.whole_gas
-    if storage is not None:
-        gas += storage.storing_gas + len(chosen) * ADD_GAS
+    if plan.quote is None:
+        say(f"{kind.title}: this very collection stands at {plan.address} on chain {connection.chain_id} already")
+    else:
+        say(f"{kind.title} on chain {connection.chain_id}, at {plan.address}{before}")
+    wanted = [Wanted(piece.name, piece.make()) for piece in chosen]
+    storage = plan_storage(connection, wanted, fees) if chosen else None
+    icons_wanted = [
+        (piece.title, pointer, SCALE, *of_each)
+        for piece, pointer in zip(chosen, () if storage is None else storage.pointers, strict=True)
+    ]
+    stored = [] if storage is None else storage.quotes
+    listing = None if listed is None and trusted is None else (bytes(32) if listed is None else listed.root, trusted)
+    equipment = plan_equipment(connection, plan, fees, listing, icons_wanted, [*plan.quotes, *stored])
+    if chosen:
         say(f"with {len(chosen)} icons: {', '.join(piece.title for piece in chosen)}")
-    say(f"together {gas:,} gas, about {roughly(gas * plan.parts.fees.likely)}")
-    if not yes:
-        ask(transactor.name)
+    quotes = [*plan.quotes, *stored, *(each.quote for each in equipment)]
+    if quotes:
+        say(f"it costs {price_of(quotes)}")
+        if not yes:
+            ask(transactor.name)
+    else:
+        say("nothing is missing, and nothing was sent; another --salt makes another collection")
 
     spent: list[int] = []
 
-    def tell(step: Step, receipts: Sequence[Receipt]) -> None:
+    def report(step: Step, receipts: Sequence[Receipt]) -> None:
         spent.extend(each.gas for each in receipts)
-        say(f"{step.name}: at {show_address(step.address)}, {sum(each.gas for each in receipts):,} gas")
+        gas = sum(each.gas for each in receipts)
+        say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
-    made, receipt = launch(plan, transactor, tell)
-    if listed is not None or trusted is not None:
-        root = bytes(32) if listed is None else listed.root
-        spent.append(perform(transactor, made.contract, "setAllowList", root, trusted or "0x" + "00" * 20).gas)
-        say("the allow-list is set")
+    made, receipt = launch(plan, transactor, report)
     if storage is not None:
-        store(storage, transactor, tell)
-    for piece, pointer in zip(chosen, () if storage is None else storage.pointers, strict=True):
-        done = perform(transactor, made.contract, "add", piece.title, pointer, SCALE, *of_each)
+        store(storage, transactor, report)
+    for each in equipment:
+        done = transactor.send(each.quote)
         spent.append(done.gas)
-        say(f"{piece.title}: added, {done.gas:,} gas")
+        say(f"{each.what}, {done.gas:,} gas, transaction {done.hash}")
     if as_json:
         document = {
             "collection": kind.name,
             "address": made.address,
             "chain_id": connection.chain_id,
-            "transaction": receipt.hash,
+            "transaction": None if receipt is None else receipt.hash,
             "gas": sum(spent),
         }
         print(json.dumps(document))
         return
-    print(f"{kind.title}: {made.address}, transaction {receipt.hash}")
+    tell(f"{kind.title}: {made.address}" + ("" if receipt is None else f", transaction {receipt.hash}"))
     if chosen:
-        print("look at the icons, then fix them for ever: shackled token seal -c icons")
-    print(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")
+        tell("look at the icons, then fix them for ever: shackled token seal -c icons")
+    tell(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")

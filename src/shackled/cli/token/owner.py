@@ -9,10 +9,11 @@ import typer
 from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...tokens.ether import ether
+from ...ether import ether
 from ..option import option
 from ..payer import open_signer
-from .common import PHASES, Account, Chain, Key, Rpc, Which, Yes, address, do, open_named, send
+from ..telling import tell
+from .common import PHASES, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named, send
 
 
 def phase(
@@ -21,14 +22,15 @@ def phase(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
     """Say who may mint from now on; for the owner."""
     number = PHASES.index(choice(to, "the phase", PHASES))
     collection = open_named(which, rpc, chain_id)
-    receipt = do(collection, account, private_key_env, yes, f"the sale becomes {to}", "setPhase", number)
-    print(f"{collection.name} is {collection.terms().phase_words}; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, f"the sale becomes {to}", "setPhase", number)
+    tell(f"{collection.name} is {collection.terms().phase_words}; {receipt.gas:,} gas")
 
 
 def withdraw(
@@ -37,6 +39,7 @@ def withdraw(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -46,10 +49,10 @@ def withdraw(
     receiver = str(signer.address) if to is None else address(to, "--to")
     balance = collection.terms().balance
     if not balance:
-        print("there is nothing to withdraw")
+        tell("there is nothing to withdraw")
         return
-    receipt = send(collection, signer, yes, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
-    print(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
+    receipt = send(collection, signer, max_fee, yes, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
+    tell(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
 
 
 def royalty(
@@ -59,6 +62,7 @@ def royalty(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -68,8 +72,8 @@ def royalty(
     collection = open_named(which, rpc, chain_id)
     whose = collection.terms().royalty_receiver if given is None else given
     title = f"royalties of {parts / 100:g} % for {whose}"
-    receipt = do(collection, account, private_key_env, yes, title, "setRoyalty", whose, parts)
-    print(f"royalties are {parts / 100:g} % for {whose}; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, title, "setRoyalty", whose, parts)
+    tell(f"royalties are {parts / 100:g} % for {whose}; {receipt.gas:,} gas")
 
 
 def hand_over(
@@ -78,6 +82,7 @@ def hand_over(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -85,8 +90,8 @@ def hand_over(
     heir = address(to, "the new owner")
     collection = open_named(which, rpc, chain_id)
     title = f"offer it to {heir}"
-    receipt = do(collection, account, private_key_env, yes, title, "transferOwnership", heir)
-    print(f"{heir} can take it over: shackled token take-over; {receipt.gas:,} gas")
+    receipt = do(collection, account, private_key_env, max_fee, yes, title, "transferOwnership", heir)
+    tell(f"{heir} can take it over: shackled token take-over; {receipt.gas:,} gas")
 
 
 def take_over(
@@ -94,6 +99,7 @@ def take_over(
     rpc: Rpc = None,
     account: Account = None,
     private_key_env: Key = None,
+    max_fee: MaxFee = None,
     chain_id: Chain = None,
     yes: Yes = False,
 ) -> None:
@@ -104,5 +110,5 @@ def take_over(
     if heir != str(signer.address):
         offered = "to nobody" if int(heir, 16) == 0 else f"to {heir}"
         raise InputError(f"{collection.name} is offered {offered}, not to {signer.address}")
-    receipt = send(collection, signer, yes, "become its owner", "acceptOwnership")
-    print(f"{collection.name} belongs to {collection.terms().owner}; {receipt.gas:,} gas")
+    receipt = send(collection, signer, max_fee, yes, "become its owner", "acceptOwnership")
+    tell(f"{collection.name} belongs to {collection.terms().owner}; {receipt.gas:,} gas")

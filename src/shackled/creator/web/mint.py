@@ -11,8 +11,8 @@ from ...chain.address_book import AddressBook
 from ...chain.addresses import show_address
 from ...datasets import require
 from ...errors import InputError
+from ...ether import ether
 from ...tokens.contract import Interface
-from ...tokens.ether import ether
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
 from ..state import Source

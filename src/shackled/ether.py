@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from decimal import Decimal
+from decimal import ROUND_UP, Context, Decimal
 
-from ..errors import InputError
+from .errors import InputError
 
-WEI = 10**18
+#: In wei.
+ETHER = 10**18
+GWEI = 10**9
+#: More than there is.
 MAX_ETHER = 10**9
 
 
@@ -18,23 +21,34 @@ def ether(wei: int) -> str:
 
 def amount(wei: int) -> str:
     """An amount in ether, exact, in decimal digits."""
-    whole, rest = divmod(wei, WEI)
+    whole, rest = divmod(wei, ETHER)
     return f"{whole}.{rest:018}".rstrip("0").rstrip(".")
 
 
 def roughly(wei: int) -> str:
     """An amount for people, to three digits."""
     if wei < 10**11:
-        return ether(wei) if wei == 0 else f"{Decimal(f'{wei:.3g}') / 10**9:f} gwei"
-    return f"{Decimal(f'{wei:.3g}') / WEI:f} ether"
+        return ether(wei) if wei == 0 else f"{Decimal(f'{wei:.3g}') / GWEI:f} gwei"
+    return f"{Decimal(f'{wei:.3g}') / ETHER:f} ether"
+
+
+def rounded(wei: int) -> str:
+    """An amount in ether to six places behind the point, for people; what is less, to two digits."""
+    text = f"{wei / ETHER:.6f}".rstrip("0").rstrip(".")
+    return text if wei == 0 or float(text) else f"{wei / ETHER:.2g}"
+
+
+def at_most(wei: int) -> str:
+    """An amount in ether in six digits, rounded up, for people."""
+    return f"{Context(prec=6, rounding=ROUND_UP).create_decimal(Decimal(wei)) / ETHER:f}"
 
 
 def parse_ether(text: str, name: str) -> int:
     """The wei of an amount in ether, such as 0.15; in wei or gwei with the unit behind it. InputError if it is none."""
     match = re.fullmatch(r"(\d{1,30})(?:\.(\d{1,18}))?\s*(ether|eth|gwei|wei)?", text.strip())
     if match:
-        unit = {"wei": 1, "gwei": 10**9}.get(match[3] or "ether", WEI)
+        unit = {"wei": 1, "gwei": GWEI}.get(match[3] or "ether", ETHER)
         value = Decimal(f"{match[1]}.{match[2] or 0}").scaleb(0) * unit
-        if value == int(value) and value <= MAX_ETHER * WEI:
+        if value == int(value) and value <= MAX_ETHER * ETHER:
             return int(value)
     raise InputError(f"{name} must be an amount of ether such as 0.15, or with its unit as 20gwei, not {text!r:.60}")

@@ -1,4 +1,4 @@
-"""What strangers have put on a chain, made safe for a terminal."""
+"""What strangers say, on a chain, from a node or in the name of a file, made safe for a terminal."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.tokens.ether import ether, parse_ether, roughly
+from shackled.ether import ETHER, at_most, ether, parse_ether, roughly, rounded
 
 
 @pytest.mark.parametrize(
@@ -46,3 +46,18 @@ def test_amounts_are_told() -> None:
         "12 ether",
         "12300 ether",
     ]
+
+
+@pytest.mark.parametrize(
+    ("wei", "text"), [(0, "0"), (ETHER, "1"), (ETHER // 100, "0.01"), (1, "1e-18"), (1234567 * 10**12, "1.234567")]
+)
+def test_ether_in_a_table(wei: int, text: str) -> None:
+    assert rounded(wei) == text
+
+
+@pytest.mark.parametrize(
+    ("wei", "text"),
+    [(0, "0"), (1, "0.000000000000000001"), (ETHER, "1"), (300_181_000_000_000_001, "0.300182"), (10**24, "1000000")],
+)
+def test_the_most_is_rounded_up(wei: int, text: str) -> None:
+    assert at_most(wei) == text

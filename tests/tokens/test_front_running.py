@@ -1,0 +1,69 @@
+"""Somebody else sends the creation of a collection first: it is the same collection, and its owner goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from nodes import anvil, needs_anvil
+from shackled.bench.anvil import Anvil
+from shackled.chain.address_book import VARIABLE, AddressBook
+from shackled.chain.addresses import show_address
+from shackled.cli.app import run
+from shackled.deploy import Transactor
+from shackled.tokens.collection import Collection
+from shackled.tokens.deploying import Offer, launch, plan_launch
+from shackled.tokens.development import development_accounts
+from shackled.tokens.icons import icons_of
+from shackled.tokens.kinds import KINDS
+
+pytestmark = needs_anvil
+KIND = KINDS["icons"]
+
+
+@pytest.fixture
+def node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Anvil]:
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "addresses.json"))
+    monkeypatch.setenv("KEY", development_accounts()[0].key.hex())
+    with anvil() as started:
+        yield started
+
+
+def transactors(node: Anvil) -> tuple[Transactor, Transactor, Offer]:
+    owner, other = (Transactor(node.connection, account) for account in development_accounts()[:2])
+    return owner, other, Offer(show_address(owner.address), show_address(owner.address))
+
+
+def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> None:
+    _, other, offer = transactors(node)
+    plan = plan_launch(node.connection, KIND, offer)
+    launch(plan, other)
+    AddressBook().path.unlink()
+    collection = Collection(node.connection, KIND, plan.address)
+    arguments = ["token", "deploy", "icons", "--icons", "tetrahedron", "--rpc", node.url, "--private-key-env", "KEY"]
+    arguments += ["--signer", str(development_accounts()[5].address)]
+    assert run([*arguments, "--yes"]) == 0
+    said = capsys.readouterr()
+    assert f"this very collection stands at {plan.address} on chain 31337 already" in said.err
+    assert f"Shackled Icons: {plan.address}\n" in said.out
+    assert [icon.name for icon in icons_of(collection)] == ["Tetrahedron"]
+    assert collection.terms().allow_list_signer == development_accounts()[5].address
+    assert AddressBook().find(31337, KIND.contract) == bytes.fromhex(plan.address[2:])
+    # and again where it stopped
+    blocks = node.rpc("eth_blockNumber")
+    assert run(arguments) == 0
+    assert "nothing is missing, and nothing was sent" in capsys.readouterr().err
+    assert node.rpc("eth_blockNumber") == blocks
+
+
+def test_between_the_price_and_the_transaction(node: Anvil) -> None:
+    owner, other, offer = transactors(node)
+    plan = plan_launch(node.connection, KIND, offer)
+    launch(plan_launch(node.connection, KIND, offer), other)
+    before = owner.balance()
+    collection, receipt = launch(plan, owner)
+    assert (collection.address, receipt) == (plan.address, None)
+    assert owner.balance() == before
+    assert collection.terms().owner == offer.owner

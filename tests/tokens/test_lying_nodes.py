@@ -1,0 +1,216 @@
+"""Nodes that lie about prices: what is paid is never above what was told, or nothing is sent."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable, Iterator
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from nodes import ANVIL, anvil
+from proxies import Liar
+from shackled.bench.anvil import Anvil
+from shackled.chain.address_book import VARIABLE
+from shackled.chain.connection import Connection
+from shackled.cli.app import run
+from shackled.deploy import Transactor
+from shackled.tokens.actions import perform
+from shackled.tokens.deploying import Offer, launch, plan_launch
+from shackled.tokens.development import development_accounts
+from shackled.tokens.kinds import KINDS
+from shackled.tokens.storage import plan_storage, store
+
+ETHER, GWEI = 10**18, 10**9
+USER = 3
+TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
+
+#: Everything that costs something, with the contracts there that it needs.
+COMMANDS = {
+    "mint": ("token", "mint", "2"),
+    "deploy": ("deploy", "--contracts", "Original"),
+    "reveal": ("token", "reveal"),
+    "store": ("mint", "triangle.obj", "--licence", "MIT", "--size", "8"),
+}
+
+
+#: More than all the ether of the account, for the gas of a mint.
+DEAR = hex(2_000_000 * GWEI)
+
+
+def latest(change: Callable[[dict[str, Any]], dict[str, Any]]) -> Callable[[Any, list[Any]], Any]:
+    """A lie about the last block: of older ones the hash is known."""
+    return lambda block, parameters: change(block) if parameters[0] == "latest" else block
+
+
+TIP = {"eth_maxPriorityFeePerGas": lambda tip, _: DEAR}
+NO_BASE = {
+    "eth_getBlockByNumber": latest(lambda block: {key: block[key] for key in block if key != "baseFeePerGas"}),
+    "eth_gasPrice": lambda price, _: DEAR,
+}
+GAS = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
+JUMP = {"eth_getBlockByNumber": latest(lambda block: block | {"baseFeePerGas": DEAR})}
+
+
+@pytest.fixture(scope="module")
+def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Anvil]:
+    """A collection whose sale is open, with a token that can be revealed, and the Studio."""
+    if ANVIL is None:
+        pytest.skip("anvil is not installed: npm ci in contracts/")
+    with anvil() as started, pytest.MonkeyPatch.context() as patch:
+        patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
+        patch.setenv("KEY", development_accounts()[USER].key.hex())
+        owner = Transactor(started.connection, development_accounts()[0])
+        offer = Offer("0x" + owner.address.hex(), "0x" + owner.address.hex())
+        collection, _ = launch(plan_launch(started.connection, KINDS["genesis"], offer), owner)
+        perform(owner, collection.contract, "setPhase", 2)
+        perform(owner, collection.contract, "mint", 1, value=collection.contract.call("price"))
+        started.rpc("anvil_mine", hex(200))
+        store(plan_storage(started.connection, []), owner)
+        started.rpc("anvil_setNextBlockBaseFeePerGas", hex(GWEI))
+        started.rpc("anvil_mine", "0x1")
+        yield started
+
+
+@pytest.fixture(autouse=True)
+def fresh(node: Anvil, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Each test finds the same chain."""
+    monkeypatch.chdir(tmp_path)
+    Path("triangle.obj").write_text(TRIANGLE)
+    before = node.rpc("evm_snapshot")
+    yield
+    node.rpc("evm_revert", before)
+
+
+def balance(node: Anvil) -> int:
+    return Connection(node.url).number("eth_getBalance", str(development_accounts()[USER].address), "latest")
+
+
+def ceiling(said: str) -> int:
+    """The most that was told, in wei."""
+    found = re.findall(r"at most ([\d.]+) ether in all", said) or re.findall(r"together.* ([\d.]+)\s*$", said, re.M)
+    (told,) = found
+    return int(Decimal(told) * ETHER)
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def pay(
+    node: Anvil,
+    liar: Liar,
+    arguments: tuple[str, ...],
+    capsys: pytest.CaptureFixture[str],
+    patch: pytest.MonkeyPatch,
+    yes: bool = False,
+) -> tuple[int, int, str, str]:
+    """Runs a command. Without `yes` the node lies as soon as the price was told and agreed to.
+
+    The code, what was paid, all that was said, and the last line on stderr.
+    """
+
+    def agree(*_: Any, **__: Any) -> bool:
+        liar.lying = True
+        return True
+
+    if not yes:
+        liar.lying = False
+        patch.setattr("sys.stdin", Terminal())
+        patch.setattr("typer.confirm", agree)
+    before = balance(node)
+    with liar.before(node.url) as url:
+        code = run([*arguments, "--rpc", url, "--private-key-env", "KEY", *(["--yes"] if yes else [])])
+    said = capsys.readouterr()
+    assert "Traceback" not in said.err
+    return code, before - balance(node), said.out + said.err, (said.err.splitlines() or [""])[-1]
+
+
+@pytest.mark.parametrize("lies", [TIP, NO_BASE], ids=["tip", "no base"])
+@pytest.mark.parametrize("what", COMMANDS)
+def test_later_fees_change_nothing(
+    node: Anvil, what: str, lies: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code, paid, said, _ = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+    assert code == 0, said
+    assert 0 < paid <= ceiling(said)
+
+
+@pytest.mark.parametrize(
+    ("lies", "words"),
+    [(GAS, "estimates .* gas for a transaction whose price was told for"), (JUMP, "gas has become more expensive")],
+    ids=["gas", "base"],
+)
+@pytest.mark.parametrize("what", COMMANDS)
+def test_whoever_wants_more_than_was_told_gets_nothing(
+    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
+    assert (code, paid) == (1, 0), said
+    assert re.search(rf"^shackled: .*{words}.*run the same again", error)
+
+
+@pytest.mark.parametrize(
+    ("lies", "words"),
+    [
+        (TIP, "suggests a tip of 2,000,000 gwei for a gas, and 3 at most are paid unasked"),
+        (NO_BASE, "tells no base fee, and asks 2,000,000 gwei for a gas"),
+        (GAS, "more than 10 times as much"),
+    ],
+    ids=["tip", "no base", "gas"],
+)
+@pytest.mark.parametrize("what", COMMANDS)
+def test_a_first_price_that_is_a_lie_is_refused_unasked(
+    node: Anvil, what: str, lies: Any, words: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch, yes=True)
+    assert (code, paid) == (1, 0), said
+    assert re.search(rf"^shackled: .*{words}.*--max-fee GWEI", error)
+
+
+@pytest.mark.parametrize("what", COMMANDS)
+def test_a_price_that_is_named_is_the_most(
+    node: Anvil, what: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arguments = (*COMMANDS[what], "--max-fee", "50")
+    code, paid, said, _ = pay(node, Liar(TIP), arguments, capsys, monkeypatch, yes=True)
+    assert code == 0, said
+    assert paid <= ceiling(said)
+
+
+def test_a_price_above_the_one_that_is_named_is_not_paid(
+    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for lies in (JUMP, NO_BASE):
+        arguments = (*COMMANDS["mint"], "--max-fee", "50")
+        code, paid, _, error = pay(node, Liar(lies), arguments, capsys, monkeypatch, yes=True)
+        assert (code, paid) == (1, 0)
+        assert "a gas costs 2,000,000 gwei now, above the 50 of --max-fee" in error
+
+
+@pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
+def test_blocks_that_are_none_reveal_nothing(
+    node: Anvil, odd: Any, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
+    code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+    assert (code, paid) in ((1, 0), (2, 0)), said
+    assert re.search("does not have block|does not tell the parentHash of block", error)
+
+
+def test_fields_that_are_none_reveal_nothing(
+    node: Anvil, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for odd in ("zz", 1.5, -5, [300], 7):
+        lies: dict[str, Any] = {
+            "eth_getBlockByNumber": lambda block, parameters, odd=odd: (
+                block if parameters[0] == "latest" else block | {"gasUsed": odd}
+            )
+        }
+        code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
+        assert (code, paid) in ((1, 0), (2, 0)), said
+        assert re.search("with fields that are none|has the hash", error)

@@ -1,0 +1,48 @@
+"""What is taken to be the usual gas of each function is about what it takes, so that 10 times as much is a lie."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+pytest.importorskip("pyrevm", reason="the tests of tokens need it")
+
+from shackled.chain.embedded import intrinsic_gas
+from shackled.tokens.actions import USUAL
+from tokens.merkle import proof_of, root_of
+from tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
+from tokens.world import Contract, account
+
+
+def test_the_usual_gas_of_each_function() -> None:
+    s = stage()
+    new = s.world.deploy("IconsCollection", s.studio, (s.owner, 10, s.owner, 500), sender=s.owner)
+    pointer = store_scene(s.studio, icon_scene("icons/lightning"))
+    listed = {s.alice: 20} | {account(f"listed {number}"): 2 for number in range(99)}
+    price = list(ICONS.values())[1][3]
+    calls: list[tuple[Contract, str, tuple[Any, ...], str, int]] = [
+        (s.genesis, "mint", (1,), s.alice, PRICE),
+        (s.genesis, "mint", (1,), s.alice, PRICE),
+        (s.genesis, "mint", (10,), s.bob, 10 * PRICE),
+        (s.icons, "mint", (1, 3), s.bob, 3 * price),
+        (s.genesis, "mintReserve", (s.bob, 2), s.owner, 0),
+        (s.genesis, "setPhase", (ALLOW_LIST,), s.owner, 0),
+        (s.genesis, "setAllowList", (root_of(listed), s.owner), s.owner, 0),
+        (s.genesis, "mintWithProof", (1, 20, proof_of(listed, s.alice)), s.alice, PRICE),
+        (s.genesis, "setRoyalty", (s.bob, 100), s.owner, 0),
+        (s.genesis, "transferFrom", (s.bob, s.alice, 3), s.bob, 0),
+        (s.genesis, "safeTransferFrom", (s.bob, s.alice, 4), s.bob, 0),
+        (s.genesis, "withdraw", (account("treasury"),), s.owner, 0),
+        (s.genesis, "transferOwnership", (s.bob,), s.owner, 0),
+        (s.genesis, "acceptOwnership", (), s.bob, 0),
+        (new, "add", ("Lightning", pointer, 4, price, 100, 1), s.owner, 0),
+        (new, "seal", (), s.owner, 0),
+        (new, "setPhase", (PUBLIC,), s.owner, 0),
+    ]
+    for contract, function, arguments, sender, value in calls:
+        used = contract.send(function, *arguments, sender=sender, value=value).gas
+        usual = USUAL[function] + intrinsic_gas(contract.encode(function, arguments)[1])
+        assert usual / 2 < used < 2 * usual, function
+    # a signature is looked at where it is needed, on a node
+    assert USUAL.keys() - {each[1] for each in calls} == {"mintWithSignature"}
