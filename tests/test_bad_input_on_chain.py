@@ -144,7 +144,7 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(OBJECTS, 0, POSITION, value=[0, 0, -FAR - 1]), f"PositionOutOfRange(object=0, x=0, y=0, z={-FAR - 1})"),
     (put(OBJECTS, 1, ROTATION, value=[0, 0, 0, 0]), "RotationIsZero(object=1)"),
     (put(OBJECTS, 1, ROTATION, value=[5, FAR + 1, 6, 7]), f"RotationOutOfRange(object=1, x=5, y={FAR + 1}, z=6, w=7)"),
-    (put(OBJECTS, 1, ROTATION, value=[5, 6, 7, -FAR - 1]), f"RotationOutOfRange(object=1, x=5, y=6, z=7, w={-FAR - 1})"),
+    (put(OBJECTS, 1, ROTATION, value=[5, 6, 7, -BIG]), f"RotationOutOfRange(object=1, x=5, y=6, z=7, w={-BIG})"),
     (put(OBJECTS, 0, SCALE, value=-1), "ScaleOutOfRange(object=0, scale=-1)"),
     (put(OBJECTS, 0, SCALE, value=(1 << 44) + 1), f"ScaleOutOfRange(object=0, scale={(1 << 44) + 1})"),
     (put(OBJECTS, 0, MATERIAL, 0, value=3), "UnknownShading(object=0, shading=3)"),

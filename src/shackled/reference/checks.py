@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..errors import RenderError
 from .mesh import NORMALS, WIDE
 from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
-from .vector import Vector
 
 MAX_CANVAS = 2048
 MAX_LIGHTS = 4
