@@ -61,7 +61,9 @@ class World:
     def _keep(self, evm: Any, address: bytes) -> None:
         if address not in self.codes:
             # pyrevm adds 33 bytes of zeros to what was created
-            code = bytes(evm.get_code(_hex(address)))[:-33]
+            code = bytes(evm.get_code(_hex(address)) or b"")[:-33]
+            if not code:  # a list may name what is not there
+                return
             self.codes[address] = code
             for at in range(2, len(code), 20) if code[1] == 0x13 else ():
                 self._keep(evm, code[at : at + 20])

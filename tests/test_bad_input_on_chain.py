@@ -124,9 +124,9 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(CAMERA, 5, value=0), "NearOutOfRange(near=0)"),
     (put(CAMERA, 5, value=-1), "NearOutOfRange(near=-1)"),
     (put(CAMERA, 5, value=FAR + 1), f"NearOutOfRange(near={FAR + 1})"),
-    (put(CAMERA, 0, value=[FAR + 1, 0, 0]), f"CoordinateOutOfRange(x={FAR + 1}, y=0, z=0)"),
-    (put(CAMERA, 1, value=[0, -FAR - 1, 7]), f"CoordinateOutOfRange(x=0, y={-FAR - 1}, z=7)"),
-    (put(CAMERA, 2, value=[0, 1, BIG]), f"CoordinateOutOfRange(x=0, y=1, z={BIG})"),
+    (put(CAMERA, 0, value=[FAR + 1, 0, 0]), f"CameraOutOfRange(x={FAR + 1}, y=0, z=0)"),
+    (put(CAMERA, 1, value=[0, -FAR - 1, 7]), f"CameraOutOfRange(x=0, y={-FAR - 1}, z=7)"),
+    (put(CAMERA, 2, value=[0, 1, BIG]), f"CameraOutOfRange(x=0, y=1, z={BIG})"),
     (put(CAMERA, 1, value=[0, 0, 0]), "NoViewDirection()"),
     (put(CAMERA, 2, value=[0, 0, 0]), "NoViewDirection()"),
     (put(CAMERA, 2, value=[0, 0, 5 * ONE]), "NoViewDirection()"),
@@ -134,17 +134,17 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(BACKGROUND, 0, value=1 << 24), f"NotAColor(value={1 << 24})"),
     (put(BACKGROUND, 1, value=2**256 - 1), f"NotAColor(value={2**256 - 1})"),
     (put(AMBIENT, value=1 << 24), f"NotAColor(value={1 << 24})"),
-    (put(LIGHTS, 1, 2, value=1 << 200), f"NotAColor(value={1 << 200})"),
+    (put(LIGHTS, 1, 2, value=1 << 200), f"LightNotAColor(light=1, value={1 << 200})"),
     (put(INVERT, value=2), "NotAFlag(value=2)"),
     (put(LIGHTS, value=[[0, [1, 1, 1], 0]] * 5), "TooManyLights(count=5)"),
     (put(LIGHTS, value=[[0, [1, 1, 1], 0]] * 300), "TooManyLights(count=300)"),
     (put(LIGHTS, 1, 0, value=2), "UnknownLight(light=1, kind=2)"),
     (put(LIGHTS, 0, 1, value=[0, 0, 0]), "LightWithoutDirection(light=0)"),
-    (put(LIGHTS, 1, 1, value=[0, FAR + 1, 0]), f"CoordinateOutOfRange(x=0, y={FAR + 1}, z=0)"),
-    (put(OBJECTS, 0, POSITION, value=[0, 0, -FAR - 1]), f"CoordinateOutOfRange(x=0, y=0, z={-FAR - 1})"),
+    (put(LIGHTS, 1, 1, value=[0, FAR + 1, 0]), f"LightOutOfRange(light=1, x=0, y={FAR + 1}, z=0)"),
+    (put(OBJECTS, 0, POSITION, value=[0, 0, -FAR - 1]), f"PositionOutOfRange(object=0, x=0, y=0, z={-FAR - 1})"),
     (put(OBJECTS, 1, ROTATION, value=[0, 0, 0, 0]), "RotationIsZero(object=1)"),
-    (put(OBJECTS, 1, ROTATION, value=[5, FAR + 1, 6, 7]), f"CoordinateOutOfRange(x=5, y={FAR + 1}, z=6)"),
-    (put(OBJECTS, 1, ROTATION, value=[5, 6, 7, -FAR - 1]), "CoordinateOutOfRange(x=5, y=6, z=7)"),
+    (put(OBJECTS, 1, ROTATION, value=[5, FAR + 1, 6, 7]), f"RotationOutOfRange(object=1, x=5, y={FAR + 1}, z=6, w=7)"),
+    (put(OBJECTS, 1, ROTATION, value=[5, 6, 7, -BIG]), f"RotationOutOfRange(object=1, x=5, y=6, z=7, w={-BIG})"),
     (put(OBJECTS, 0, SCALE, value=-1), "ScaleOutOfRange(object=0, scale=-1)"),
     (put(OBJECTS, 0, SCALE, value=(1 << 44) + 1), f"ScaleOutOfRange(object=0, scale={(1 << 44) + 1})"),
     (put(OBJECTS, 0, MATERIAL, 0, value=3), "UnknownShading(object=0, shading=3)"),
@@ -252,13 +252,15 @@ def test_tiles_outside_the_canvas(tile: tuple[int, int, int, int]) -> None:
     assert refusal(tile_call(*tile)) == expected
 
 
-@pytest.mark.parametrize("angle", [2**59 + 2, -(2**59) - 3, 2**255 - 1, -(2**255)])
+@pytest.mark.parametrize("angle", [2**58 + 1, -(2**58) - 1, 3 * 2**57, 2**59 + 2, 2**255 - 1, -(2**255)])
 def test_angles_out_of_range(angle: int) -> None:
+    """2^26 degrees either way; the error has the angle that was given."""
     data = artifact("Renderer").selectors["eulerRotation"]
+    chain().call("Renderer", data + words(2**58, -(2**58), 0))
     for position in range(3):
         angles = [0, 0, 0]
         angles[position] = angle
-        assert refusal(data + words(*angles)) == f"AngleOutOfRange(degrees_={angle >> 1})"
+        assert refusal(data + words(*angles)) == f"AngleOutOfRange(degrees_={angle})"
 
 
 def test_too_little_gas() -> None:

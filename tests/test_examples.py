@@ -83,13 +83,14 @@ def test_call_from_contract() -> None:
     chain = open_chain()
     assert isinstance(chain, EmbeddedChain)
     creation, selectors = compile_example("examples/call_from_contract/Tetrahedron.sol")
-    code = chain._create("Tetrahedron", creation + chain.address("Renderer").rjust(32, b"\0"))
+    parts = (chain.address(name).rjust(32, b"\0") for name in ("Renderer", "PngEncoder"))
+    code = chain._create("Tetrahedron", creation + b"".join(parts))
     address = b"\x7e" * 20
     chain._codes[address] = code
     try:
         turn = (-25).to_bytes(32, "big", signed=True)
-        bitmap, svg = (
-            text(chain._run(address, selectors[f"{name}(int256)"] + turn, 10**9).output) for name in ("bitmap", "svg")
+        bitmap, uri = (
+            text(chain._run(address, selectors[f"{name}(int256)"] + turn, 10**9).output) for name in ("bitmap", "image")
         )
     finally:
         del chain._codes[address]
@@ -98,7 +99,9 @@ def test_call_from_contract() -> None:
     # the mesh and the numbers of a scene are rounded in another way here
     difference = np.abs(decode_bmp(bitmap, 64, 64).astype(int) - image.pixels)
     assert np.mean(difference.max(axis=2) > 2) < 0.01
-    assert svg.startswith(b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 64 64">')
+    png = base64.b64decode(uri.removeprefix(b"data:image/png;base64,"), validate=True)
+    with PillowImage.open(io.BytesIO(png)) as opened:
+        assert np.array_equal(np.asarray(opened), decode_bmp(bitmap, 64, 64).repeat(4, 0).repeat(4, 1))
 
 
 @pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")

@@ -21,6 +21,7 @@ import {
     WIREFRAME
 } from "./scene/Scene.sol";
 import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT, MAX_EXTENT} from "./scene/Checks.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
 import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";
 import {Text} from "./encode/Text.sol";
@@ -31,7 +32,7 @@ import {Renderer} from "./Renderer.sol";
 /// and inversion carry over exactly, except where the original drew them wrong. Its light becomes one directional light: the colour of
 /// the surface shows in full, as there; the highlight is its highlight; the diffuse term is multiplied by the colour of the surface. The
 /// ambient power and a diffuse colour of another hue than the highlight have no counterpart.
-contract Original {
+contract Original is SceneErrors {
     struct LightingParams {
         bool applyLighting;
         int256 lightAmbiPower;

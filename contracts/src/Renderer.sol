@@ -6,20 +6,19 @@ import {Quaternion} from "./math/Quaternion.sol";
 import {fromEuler} from "./math/Euler.sol";
 import {Scene, Rectangle} from "./scene/Scene.sol";
 import {checkScene} from "./scene/Checks.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
 import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {Engine} from "./Engine.sol";
 
 /// @title Renderer: pictures of 3D scenes.
-/// @notice Stateless. What is wrong with a scene is reported by the errors of `Checks.sol`.
-contract Renderer {
+/// @notice Stateless. What is wrong with a scene is told by the errors of `SceneErrors.sol`.
+contract Renderer is SceneErrors {
     /// @notice What computes the pixels.
     Engine public immutable engine;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
-    /// @notice The engine has used up the gas of the call.
-    error OutOfGas();
 
     /// @dev A bitmap in memory. There are 128 free bytes before it and a word of zeros after it.
     struct File {

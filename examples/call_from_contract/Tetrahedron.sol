@@ -17,20 +17,23 @@ import {
     PERSPECTIVE
 } from "../../contracts/src/scene/Scene.sol";
 import {Renderer} from "../../contracts/src/Renderer.sol";
+import {PngEncoder} from "../../contracts/src/studio/PngEncoder.sol";
 
-/// @notice A contract that shows itself: a tetrahedron, turned as far as the caller wants, as an SVG or as a bitmap.
+/// @notice A contract that shows itself: a tetrahedron, turned as far as the caller wants, as a PNG file or as a bitmap.
 contract Tetrahedron {
     Renderer public immutable renderer;
+    PngEncoder public immutable encoder;
 
-    constructor(Renderer renderer_) {
-        renderer = renderer_;
+    constructor(Renderer renderer_, PngEncoder encoder_) {
+        (renderer, encoder) = (renderer_, encoder_);
     }
 
-    function svg(int256 degrees_) external view returns (string memory) {
-        return renderer.renderSVG(scene(degrees_));
+    /// @notice The `image` of a token: a `data:` URI of a PNG file, each pixel of the picture a square of 4 x 4.
+    function image(int256 degrees_) external view returns (string memory) {
+        return encoder.dataURI(bitmap(degrees_), 4);
     }
 
-    function bitmap(int256 degrees_) external view returns (bytes memory) {
+    function bitmap(int256 degrees_) public view returns (bytes memory) {
         return renderer.render(scene(degrees_));
     }
 

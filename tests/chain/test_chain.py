@@ -85,7 +85,7 @@ def test_refusals_are_read_from_the_abi(chain: EmbeddedChain) -> None:
         chain.call("Renderer", bytes(data))
     data[4 + 32 : 4 + 64] = (24).to_bytes(32, "big")
     data[4 + 96 : 4 + 128] = (-(2**100)).to_bytes(32, "big", signed=True)
-    with pytest.raises(RenderError, match=rf"^the contract refused: CoordinateOutOfRange\(x={-(2**100)}, y="):
+    with pytest.raises(RenderError, match=rf"^the contract refused: CameraOutOfRange\(x={-(2**100)}, y="):
         chain.call("Renderer", bytes(data))
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -124,6 +126,31 @@ def test_a_node_without_overrides(bare: Anvil, embedded: EmbeddedChain, refuse: 
 def test_deployed(deployed: Anvil, embedded: EmbeddedChain) -> None:
     check(open_node(deployed.url), embedded, "deployed")
     check(open_node(deployed.url, show_address(embedded.address("Renderer"))), embedded, "deployed")
+
+
+def test_gas_where_the_caller_has_code(embedded: EmbeddedChain) -> None:
+    """The account in whose name a node makes calls may delegate to a contract (EIP-7702): its code takes no part."""
+    with anvil() as node:
+        # GAS POP, 100 times
+        put(node, b"\xc0" * 20, bytes.fromhex("5a50") * 100)
+        (account, *_) = node.rpc("eth_accounts")
+        put(node, bytes.fromhex(account[2:]), bytes.fromhex("ef0100") + b"\xc0" * 20)
+        node.rpc("anvil_impersonateAccount", account)
+        with in_the_name_of(node.url, account) as url:
+            assert open_node(url).draw(SCENES["smooth"]) == embedded.draw(SCENES["smooth"])
+
+
+@contextmanager
+def in_the_name_of(url: str, account: str) -> Iterator[str]:
+    """A node that makes all calls in the name of an account if none is named."""
+
+    def answer(request: dict[str, Any]) -> Reply:
+        if request["method"] == "eth_call":
+            request["params"][0].setdefault("from", account)
+        return forward(url, request)
+
+    with serving(answer) as proxy:
+        yield proxy
 
 
 def test_deployed_on_a_node_without_overrides(deployed: Anvil, embedded: EmbeddedChain) -> None:

@@ -42,6 +42,16 @@ contract BuilderProbe {
         return m.pack();
     }
 
+    /// @notice A scene of two objects of one model, which has room for more.
+    function twoOfOne(uint256 spareVertices, uint256 spareFaces) external pure returns (Scene memory) {
+        Model memory m = ModelMaker.model(8 + spareVertices, 12 + spareFaces);
+        m.box(-10, -20, -30, 40, 50, 60, 0x102030);
+        Stage memory stage = StageMaker.stage(20, 10, 2);
+        stage.add(m.pack(), StageMaker.unlit());
+        stage.add(m.pack(), StageMaker.unlit());
+        return stage.scene;
+    }
+
     function scene(uint256 objects, uint256 added, uint256 lights) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(20, 10, objects);
         for (uint256 k; k < added; ++k) {

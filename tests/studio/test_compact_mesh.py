@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from eth_abi.abi import decode
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ledger import call_data
@@ -19,14 +21,14 @@ from shackled.studio.compact_mesh import COMPACT, compact, expand, take_apart
 from shackled.studio.keeping import kept_at
 
 
-def opened(stored: bytes) -> bytes:
-    """What the Studio makes of it, had it been kept."""
+def opened(stored: bytes, gas: int | None = None) -> bytes:
+    """What the Studio makes of it, had it been kept, with so much gas."""
     place = chain()
     assert isinstance(place, EmbeddedChain)
     pointer = kept_at(stored, place.address("Studio"))
     place._codes[pointer] = b"\0" + stored
     try:
-        output = place.call("Studio", call_data("mesh(address)", "0x" + pointer.hex())).output
+        output = place.call("Studio", call_data("mesh(address)", "0x" + pointer.hex()), gas).output
     finally:
         del place._codes[pointer]
     return bytes(decode(["bytes"], output)[0])
@@ -178,6 +180,26 @@ def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
     if mesh:
         size = 5 + int.from_bytes(mesh[1:3], "big") * (9, 13, 12, 16)[mesh[0]] + 6 * int.from_bytes(mesh[3:5], "big")
         assert len(mesh) == size
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    kind=st.sampled_from([0, 1, 2, 3, 4, COMPACT, 0x11, 0x12, 0x13, 0x20, 0xFF]),
+    rest=st.one_of(st.binary(max_size=70), st.binary(min_size=15, max_size=15).map(bytes(8).__add__)),
+)
+@example(kind=0x11, rest=b"\xff\xff\xff\xff")
+@example(kind=0x11, rest=b"\xe0\xff\xff")
+@example(kind=COMPACT, rest=b"\3\xff\xff" + bytes(19) + b"\0\4" + bytes(32767))
+def test_no_bytes_of_any_kind_burn_all_gas(kind: int, rest: bytes) -> None:
+    """A few bytes that anyone can store are a mesh or an error with a name, and leave gas to whoever reads them."""
+    stored = bytes([kind]) + rest
+    try:
+        mesh = opened(stored, 40_000_000)
+    except RenderError as error:
+        assert re.search("UnknownMesh|CompactMesh|NothingKept", str(error))  # noqa: PT017
+        assert kind > 3
+    else:
+        assert kind == COMPACT or (kind <= 3 and mesh == stored)
 
 
 @pytest.mark.parametrize("bits", [3, 11])

@@ -151,6 +151,14 @@ def test_a_scene(world: World, probe: bytes) -> None:
     assert all(o[0] == bytes(5) and o[3] == ONE and o[5] == 1 for o in objects)
 
 
+@pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])
+def test_two_objects_of_one_model(world: World, probe: bytes, spare: tuple[int, int]) -> None:
+    """A model is packed for each: both have its mesh."""
+    (expected,) = ask(world, probe, ["bytes"], "box()")
+    (scene,) = ask(world, probe, [SCENE_STRUCT], "twoOfOne(uint256,uint256)", *spare)
+    assert [o[0] for o in scene[6]] == [expected, expected]
+
+
 @pytest.mark.parametrize(("counts", "error"), [((2, 3, 0), "TooManyObjects"), ((1, 1, 5), "TooManyLights")])
 def test_no_room_for_more(world: World, probe: bytes, counts: tuple[int, int, int], error: str) -> None:
     with pytest.raises(RenderError, match=refused(error)):

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import base64
 import io
+import re
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -260,19 +263,154 @@ def test_a_scene_with_a_broken_mesh_spoils_only_itself(world: World) -> None:
     assert world.call("Studio", "render(address)", good) == render(SCENE).bmp
 
 
-def test_zipped(world: World) -> None:
-    """FastLZ, here without any match: runs of up to 32 bytes as they are."""
-    mesh = b"\0" + (5).to_bytes(2, "big") + b"\0\0" + bytes(range(45))
-    zipped = b"".join(bytes([len(mesh[k : k + 32]) - 1]) + mesh[k : k + 32] for k in range(0, len(mesh), 32))
-    pointer = world.store("storeMesh(bytes)", b"\x11" + zipped)
-    assert world.call("Studio", "mesh(address)", "0x" + pointer.hex()) == mesh
+@pytest.mark.parametrize("kind", [0x11, 0x14, 0xFF])
+def test_kinds_of_meshes_that_there_are_not(world: World, kind: int) -> None:
+    """They cost little, stored or not, however few bytes they have."""
+    data = bytes([kind]) + b"\xff\xff\xff\xff"
+    with pytest.raises(RenderError, match=f"NotAMesh.*{kind}"):
+        world.store("storeMesh(bytes)", data)
+    stored = world.store("storePart(bytes)", data)
+    with pytest.raises(RenderError, match=f"UnknownMesh.*{kind}"):
+        world.call("Studio", "mesh(address)", "0x" + stored.hex(), gas=100_000)
+    struct = (*draw_nothing(), [(data, (0,) * 3, (0, 0, 0, 1), 1, (0, 0, 0, 0, 1), 0)])
+    with pytest.raises(RenderError, match=f"UnknownMesh.*{kind}"):
+        world.call("Studio", f"drawPNG({SCENE_STRUCT},uint256)", struct, 1, gas=100_000)
 
 
-def test_an_address_without_code_is_no_renderer(world: World) -> None:
+def draw_nothing() -> tuple[object, ...]:
+    """All of a scene but its objects."""
+    one = 1 << 32
+    camera = ((0, 0, 0), (0, 0, -one), (0, one, 0), 0, one, one)
+    return ((4, 4), camera, (0, 0), 0, 0, [])
+
+
+@pytest.mark.parametrize("count", [43, 100, 1000])
+def test_a_list_that_names_one_part_many_times(world: World, count: int) -> None:
+    """It is refused for little gas, when it is stored as a list and when it is read."""
+    part = world.store("storePart(bytes)", b"\0\xff\xff\xff\xff" + bytes(24570))
+    size = count * 24575
+    with pytest.raises(RenderError, match=rf"PartsTooLarge\(size={size}, largest={1 << 20}\)"):
+        world.run(world.address("Studio"), call_data("join(address[])", ["0x" + part.hex()] * count), 1_500_000)
+    listed = "0x" + world.store("storePart(bytes)", b"\x13" + part * count).hex()
+    for function in ("mesh", "scene", "render"):
+        with pytest.raises(RenderError, match=rf"PartsTooLarge\(size={size}, largest={1 << 20}\)"):
+            world.call("Studio", f"{function}(address)", listed, gas=1_500_000)
+
+
+def test_the_largest_list_can_be_read(world: World) -> None:
+    """It costs less than a picture."""
+    part = world.store("storePart(bytes)", b"\0\xff\xff\xff\xff" + bytes(24570))
+    joined = world.store("join(address[])", ["0x" + part.hex()] * 42)
+    mesh = world.call("Studio", "mesh(address)", "0x" + joined.hex(), gas=20_000_000)
+    assert len(mesh) == 42 * 24575
+
+
+FAR = 1 << 58
+
+
+@pytest.mark.parametrize(
+    ("function", "fields", "turn"),
+    [
+        ("render(address)", 0, None),
+        (f"render(address,{CHANGES})", 1, (0, 0, 0, 1 << 32)),
+        (f"render(address,{CHANGES})", 1, (0, 1 << 32, 0, 1 << 32)),
+        (f"render(address,{CHANGES})", 31, (1, 0, 0, 0)),
+    ],
+)
+@pytest.mark.parametrize(
+    ("field", "value", "error"),
+    [
+        (1, (1 << 255) - (1 << 256), "PositionOutOfRange(object=1, x={}, y=0, z=0)"),
+        (1, FAR + 1, "PositionOutOfRange(object=1, x={}, y=0, z=0)"),
+        (1, -FAR - 1, "PositionOutOfRange(object=1, x={}, y=0, z=0)"),
+        (2, 1 << 128, "RotationOutOfRange(object=1, x={}, y=0, z=0, w=4294967296)"),
+        (2, -FAR - 1, "RotationOutOfRange(object=1, x={}, y=0, z=0, w=4294967296)"),
+        (2, None, "RotationIsZero(object=1)"),
+        (3, (1 << 255) - 1, "ScaleOutOfRange(object=1, scale={})"),
+        (3, (1 << 44) + 1, "ScaleOutOfRange(object=1, scale={})"),
+        (3, -1, "ScaleOutOfRange(object=1, scale={})"),
+    ],
+)
+def test_what_is_refused_plain_is_refused_turned(
+    world: World,
+    field: int,
+    value: int | None,
+    error: str,
+    function: str,
+    fields: int,
+    turn: tuple[int, ...] | None,
+) -> None:
+    """Position, rotation or scale of an object beyond their bounds, with the error that says so."""
+    pointer = stored(world, SCENE)
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    second = list(struct[6][1])
+    second[field] = {1: (value, 0, 0), 2: (0, 0, 0, 0) if value is None else (value, 0, 0, 1 << 32), 3: value}[field]
+    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [struct[6][0], tuple(second)])).hex()
+    changes = [] if turn is None else [(fields, turn, 0, (0, 0), 0, (8, 8))]
+    with pytest.raises(RenderError, match=re.escape(error.format(value))):
+        world.call("Studio", function, broken, *changes)
+
+
+@pytest.mark.parametrize("length", [1, 1 << 10, 1 << 32, 1 << 50])
+def test_turned_however_long_the_rotations_are(world: World, length: int) -> None:
+    """Only the direction of a rotation counts, that of the object and that of the turn."""
+    tent = replace(SCENE, objects=[SCENE.objects[1]])
+    struct = decode(
+        [SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", stored(world, tent)))
+    )[0]
+    pictures = []
+    for own, turn in ((1 << 32, 1 << 32), (length, 1 << 32), (1 << 32, min(length, 1 << 48)), (length, 1)):
+        o = list(struct[6][0])
+        o[2] = (0, -own, 0, own)
+        pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [tuple(o)])).hex()
+        pictures.append(changed(world, pointer, fields=1, turn=(turn, 0, 0, -turn)))
+    assert len(np.unique(pictures[0].reshape(-1, 3), axis=0)) > 20
+    for picture in pictures[1:]:
+        assert np.abs(picture.astype(int) - pictures[0]).max() <= 2
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        (lambda s, o: (s, [o[0], (o[1][0], (FAR + 1, 0, 0), *o[1][2:])]), "PositionOutOfRange(object=1"),
+        (
+            lambda s, o: (s, [o[0], (o[1][0][:-1] + b"\3", *o[1][1:])]),
+            "IndexOutOfRange(object=1, face=0, vertexCount=3)",
+        ),
+        (lambda s, o: (s, [(o[0][0][:-1], *o[0][1:]), o[1]]), "MeshLength(object=0"),
+        (lambda s, o: (((0, 4), *s[1:]), o), "CanvasSize(width=0, height=4)"),
+        (lambda s, o: ((s[0], (s[1][0], s[1][0], *s[1][2:]), *s[2:]), o), "NoViewDirection()"),
+        (lambda s, o: (s, [o[0], (b"\x12" + 20 * b"\x77", *o[1][1:])]), f"NothingKept(pointer={NOBODY}"),
+    ],
+)
+def test_what_cannot_be_drawn_does_not_pass_the_check(
+    world: World, change: Callable[[Any, Any], tuple[Any, Any]], error: str
+) -> None:
+    pointer = stored(world, SCENE)
+    world.run(world.address("Studio"), call_data("check(address)", pointer))
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    others, objects = change(struct[:6], list(struct[6]))
+    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*others, objects)).hex()
+    for function in ("check", "render"):
+        with pytest.raises(RenderError, match=re.escape(error)):
+            world.run(world.address("Studio"), call_data(f"{function}(address)", broken))
+
+
+def test_a_scene_of_parts_that_are_not_there_does_not_pass_the_check(world: World) -> None:
+    listed = "0x" + world.store("storePart(bytes)", b"\x13" + 20 * b"\x77").hex()
+    with pytest.raises(RenderError, match=f"NothingKept.*{NOBODY}"):
+        world.run(world.address("Studio"), call_data("check(address)", listed))
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
     from shackled.artifacts import artifact
 
+    parts = [world.address("Renderer"), world.address("PngEncoder")]
+    world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
+    parts[place] = b"\x77" * 20
     with pytest.raises(RenderError, match="could not be deployed"):
-        world.deploy(artifact("Studio").creation, bytes(12) + b"\x77" * 20)
+        world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
 
 
 def test_errors_are_named() -> None:

@@ -59,7 +59,7 @@ def _deployed(chain_id: int) -> Stage:
     metadata = world.deploy("GenesisMetadata", generator)
     genesis = world.deploy("GenesisCollection", metadata, PRICE, RESERVE, (owner, LIMIT, owner, 500), sender=owner)
     genesis.send("setPhase", PUBLIC, sender=owner)
-    studio = world.deploy("Studio", renderer)
+    studio = world.deploy("Studio", renderer, world.deploy("PngEncoder"))
     collection = world.deploy("IconsCollection", studio, (owner, LIMIT, owner, 500), sender=owner)
     for name, (title, supply, reserve, price) in ICONS.items():
         pointer = store_scene(studio, icon_scene(name))

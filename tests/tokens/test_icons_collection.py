@@ -12,7 +12,8 @@ import pytest
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
 import numpy as np
-from hypothesis import given, settings
+from eth_abi.abi import encode
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from shackled import render
@@ -21,7 +22,7 @@ from tokens.adversaries import adversary
 from tokens.merkle import leaf
 from tokens.show import document, pixels, traits
 from tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
-from tokens.world import ETHER, ZERO, Contract, Refused
+from tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 
 PRICES = [price for _, _, _, price in ICONS.values()]
 
@@ -86,7 +87,12 @@ def test_payments_and_quantities(s: Stage) -> None:
         with refused("Quantity", quantity, LIMIT):
             s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
     for icon in (2, 2**24, 2**256 - 1):
-        for function, arguments in (("mint", (icon, 1)), ("left", (icon,)), ("iconAt", (icon,)), ("render", (icon,))):
+        for function, arguments in (
+            ("mint", (icon, 1)),
+            ("left", (icon,)),
+            ("iconAt", (icon,)),
+            ("renderIcon", (icon,)),
+        ):
             with refused("UnknownIcon", icon, 2):
                 s.icons.send(function, *arguments, sender=s.alice)
 
@@ -142,8 +148,8 @@ def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
         ({0: ""}, ("NameLength", 0, 64)),
         ({0: "x" * 65}, ("NameLength", 65, 64)),
         ({1: "0x" + "12" * 20}, ("NothingKept", "0x" + "12" * 20)),
-        ({2: 0}, ("ScaleOutOfRange", 0, 8)),
-        ({2: 9}, ("ScaleOutOfRange", 9, 8)),
+        ({2: 0}, ("PixelScaleOutOfRange", 0, 8)),
+        ({2: 9}, ("PixelScaleOutOfRange", 9, 8)),
         ({4: 0, 5: 0}, ("Supply", 0, 0)),
         ({4: 5, 5: 6}, ("Supply", 5, 6)),
     ],
@@ -178,10 +184,60 @@ def test_tokens_show_their_icon(s: Stage) -> None:
         assert traits(found) == {"Icon": title, "Supply": supply}
         expected = np.asarray(render(icon_scene(name), chain="reference").pixels)
         assert np.array_equal(pixels(found["image"]), expected.repeat(4, 0).repeat(4, 1))
-        assert np.array_equal(decode_bmp(s.icons.call("render", icon), 128, 128), expected)
+        assert np.array_equal(decode_bmp(s.icons.call("renderIcon", icon), 128, 128), expected)
         assert len(s.icons.call("tokenURI", icon)) < 100_000
     with refused("URIQueryForNonexistentToken"):
         s.icons.call("tokenURI", 2)
+
+
+def test_render_takes_the_number_of_a_token(s: Stage) -> None:
+    """As in the other collection; icons are drawn by a function of another name."""
+    for icon in (1, 1, 0):
+        s.icons.send("mint", icon, 1, sender=s.alice, value=PRICES[icon])
+    pictures = [s.icons.call("renderIcon", icon) for icon in range(2)]
+    assert pictures[0] != pictures[1]
+    assert [s.icons.call("render", token) for token in range(3)] == [pictures[1], pictures[1], pictures[0]]
+    with refused("OwnerQueryForNonexistentToken"):
+        s.icons.call("render", 3)
+    with refused("UnknownIcon", 2, 2):
+        s.icons.call("renderIcon", 2)
+
+
+def put(s: Stage, function: str, value: Any) -> str:
+    """Has the studio keep something; its pointer."""
+    _, call = s.studio.encode(function, (value,))
+    return "0x" + s.world.run(s.bob, s.studio.address, call, 0, GAS, True, s.studio.abi).output[12:32].hex()
+
+
+def test_icons_that_cannot_be_drawn_are_refused(s: Stage) -> None:
+    c, nobody = fresh(s), "0x" + "12" * 20
+    canvas, *others, objects = s.studio.call("scene(address)", pointer(s))
+    mesh, position, *rest = objects[0]
+
+    def kept(canvas: Any = canvas, mesh: Any = mesh, position: Any = position) -> str:
+        return put(s, "storeScene", (canvas, *others, [(mesh, position, *rest)]))
+
+    c.send("add", "One", kept(), 4, ETHER, 5, 1, sender=s.owner)
+    cases: list[tuple[str, tuple[Any, ...]]] = [
+        # a contract, but nothing that the studio keeps
+        (s.renderer.address, ("NothingKept", s.renderer.address)),
+        # parts that may come when it is sold, or never
+        (put(s, "storePart", b"\x13" + 20 * b"\x12"), ("NothingKept", nobody)),
+        (put(s, "storePart", b"\1" + bytes(4)), ("NotAScene",)),
+        (put(s, "storePart", b"\x20"), ("",)),
+        (kept(canvas=(2049, 128)), ("CanvasSize", 2049, 128)),
+        (kept(position=(2**59, 0, 0)), ("PositionOutOfRange", 0, 2**59, 0, 0)),
+        (kept(mesh=b"\x12" + 20 * b"\x12"), ("NothingKept", nobody)),
+        (kept(mesh=bytes(4)), ("MeshHeader", 0, 0, 4)),
+        (kept(mesh=mesh[:-2] + b"\xff\xff"), ("IndexOutOfRange",)),
+    ]
+    for scene, error in cases:
+        with pytest.raises(Refused) as caught:
+            c.send("add", "One", scene, 4, ETHER, 5, 1, sender=s.owner)
+        assert caught.value.name.startswith(error[0]), (error, caught.value)
+        if len(error) > 1:
+            assert caught.value.values == error[1:]
+    assert c.call("iconCount") == 1
 
 
 def test_the_collection_speaks_of_itself(s: Stage) -> None:
@@ -215,6 +271,46 @@ def test_every_name_is_valid_json(small: tuple[Stage, Contract], name: str) -> N
         found = document(c.call("tokenURI", 0))
     assert found["name"] == f"{name} #0"
     assert traits(found) == {"Icon": name, "Supply": 1}
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.one_of(
+        st.binary(min_size=1, max_size=12),
+        st.lists(
+            st.sampled_from(
+                [b"a", "é".encode(), "€".encode(), "😀".encode(), b"\xed\xa0\x80", b"\xc0\xaf", b"\xf4\x90", b"\x80"]
+            ),
+            min_size=1,
+            max_size=4,
+        ).map(b"".join),
+        names.map(str.encode),
+    )
+)
+@example(b"caf\xe9\xff")
+@example(b"\xed\x9f\xbf\xee\x80\x80\xf4\x8f\xbf\xbf\xc2\x80\xe0\xa0\x80\xf0\x90\x80\x80")
+@example(b"\xf4\x90\x80\x80")
+@example(b"\xe0\x9f\xbf")
+@example(b"\xf0\x8f\xbf\xbf")
+@example(b"\xed\xbf\xbf")
+def test_names_are_text(small: tuple[Stage, Contract], name: bytes) -> None:
+    """Python's decoder says which bytes are UTF-8, and where they are not."""
+    s, c = small
+    signature = "add(string,address,uint8,uint96,uint32,uint32)"
+    kinds = ["bytes", "address", "uint8", "uint96", "uint32", "uint32"]
+    data = keccak(signature.encode())[:4] + encode(kinds, [name, c.call("iconAt", 0)[1], 1, 0, 1, 1])
+
+    def run() -> None:
+        s.world.run(s.owner, c.address, data, 0, GAS, False, c.abi)
+
+    try:
+        name.decode()
+    except UnicodeDecodeError as error:
+        # Python tells the first byte of the broken character
+        with refused("NameNotUtf8", error.start):
+            run()
+    else:
+        run()
 
 
 def test_documents_of_every_length(small: tuple[Stage, Contract]) -> None:

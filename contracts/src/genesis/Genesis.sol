@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Scene, Background} from "../scene/Scene.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Renderer} from "../Renderer.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Structures, SWARM} from "./Structures.sol";
@@ -13,7 +14,9 @@ import {PieceMesh} from "./PieceMesh.sol";
 import {PieceScene} from "./PieceScene.sol";
 
 /// @notice What a piece is called.
-/// @param structure How its prisms are arranged. chroma The scheme of its colours. pseudosymmetry Its mirrors.
+/// @param structure How its prisms are arranged.
+/// @param chroma The scheme of its colours.
+/// @param pseudosymmetry Its mirrors.
 struct Traits {
     string structure;
     string chroma;
@@ -35,7 +38,7 @@ struct Piece {
 
 /// @title Genesis: a collection of pictures made from nothing but a seed of 32 bytes.
 /// @notice The seed gives a piece, the piece a scene, and the renderer its picture, in one call.
-contract Genesis {
+contract Genesis is SceneErrors {
     using Random for Seed;
 
     Renderer public immutable renderer;
@@ -94,13 +97,12 @@ contract Genesis {
     /// @dev Ends the call with what the renderer answers, or why it refuses, as it is: the compiler would copy a picture twice.
     function answer(bytes memory data) private view {
         address target = address(renderer);
-        assembly {
+        assembly ("memory-safe") {
             let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
-            returndatacopy(0, 0, returndatasize())
-            if iszero(done) {
-                revert(0, returndatasize())
-            }
-            return(0, returndatasize())
+            // the data of the call is not needed any more
+            returndatacopy(data, 0, returndatasize())
+            if iszero(done) { revert(data, returndatasize()) }
+            return(data, returndatasize())
         }
     }
 

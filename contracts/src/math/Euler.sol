@@ -14,18 +14,19 @@ error AngleOutOfRange(int256 degrees_);
 /// @notice The rotation about the x axis, then y, then z, by angles in degrees (Q32).
 /// @dev The product of three quaternions, z * y * x, each of which has half the angle.
 function fromEuler(Fixed x, Fixed y, Fixed z) pure returns (Quaternion memory) {
-    (Fixed sx, Fixed cx) = sinCos(x.raw() >> 1);
-    (Fixed sy, Fixed cy) = sinCos(y.raw() >> 1);
-    (Fixed sz, Fixed cz) = sinCos(z.raw() >> 1);
+    (Fixed sx, Fixed cx) = sinCosOfHalf(x.raw());
+    (Fixed sy, Fixed cy) = sinCosOfHalf(y.raw());
+    (Fixed sz, Fixed cz) = sinCosOfHalf(z.raw());
     return Quaternion(
         sx * cy * cz - cx * sy * sz, cx * sy * cz + sx * cy * sz, cx * cy * sz - sx * sy * cz, cx * cy * cz + sx * sy * sz
     );
 }
 
-/// @notice Sine and cosine of an angle in degrees (Q32), to 2^-31.
-function sinCos(int256 angle) pure returns (Fixed sine, Fixed cosine) {
+/// @notice Sine and cosine of half of an angle in degrees (Q32), to 2^-31.
+function sinCosOfHalf(int256 degrees_) pure returns (Fixed sine, Fixed cosine) {
     unchecked {
-        if (angle > 1 << 58 || angle < -(1 << 58)) revert AngleOutOfRange(angle);
+        if (degrees_ > 1 << 58 || degrees_ < -(1 << 58)) revert AngleOutOfRange(degrees_);
+        int256 angle = degrees_ >> 1;
         // whole quarter turns, and the rest between -45 and 45 degrees, as radians in Q60
         int256 quarters = (angle + QUARTER_TURN / 2) / QUARTER_TURN;
         if (angle + QUARTER_TURN / 2 < 0) --quarters;

@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
-import {IndexOutOfRange} from "../scene/Checks.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Clipper} from "./Clipper.sol";
 import {MUST_CLIP, IS_OUTSIDE} from "./VertexShader.sol";
 import "./Registers.sol";
@@ -40,7 +40,7 @@ library PrimitiveAssembly {
             uint256 bad;
             uint256 clipped;
             (end, drawn, clipped, bad) = assemble(faces, faces + 6 * count, records, shift, bound, list, cull);
-            if (bad != 0) revert IndexOutOfRange(object, (bad - faces) / 6, mesh.vertexCount);
+            if (bad != 0) revert SceneErrors.IndexOutOfRange(object, (bad - faces) / 6, mesh.vertexCount);
             free = end;
             if (clipped != 0) {
                 uint256 cut;

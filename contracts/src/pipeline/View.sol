@@ -5,7 +5,7 @@ import {Fixed} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Scene, Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
-import {NoViewDirection} from "../scene/Checks.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
 import "./Registers.sol";
 
 /// @notice Where the camera stands and how it projects. Camera space is x to the right, y down, z forward, as the rows of a picture
@@ -31,7 +31,7 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
         view_.eye = camera.eye;
         view_.forward = normalize(camera.target.sub(camera.eye));
         view_.right = normalize(view_.forward.cross(normalize(camera.up)));
-        if (view_.right.isZero()) revert NoViewDirection();
+        if (view_.right.isZero()) revert SceneErrors.NoViewDirection();
         view_.down = view_.forward.cross(view_.right);
 
         view_.orthographic = camera.projection == ORTHOGRAPHIC;

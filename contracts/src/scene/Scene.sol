@@ -6,8 +6,9 @@ import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 
 // What a caller hands to the renderer. The world is right-handed, +y up; with the default camera the eye is at the origin and looks
-// down -z. All lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every field takes a whole ABI word, so
-// that there is one way only to encode a scene. The bounds of each field stand with its check in `Checks.sol`.
+// down -z. All lengths are Q32 fixed-point numbers in world units, colours are 0xRRGGBB, and every number takes a whole ABI word. Arrays
+// and meshes may stand anywhere in the encoding, in any order, and offsets may lead to the same place: objects that share a mesh, or all
+// of their fields, need its bytes once. The bounds of each field stand with its check in `Checks.sol`.
 
 /// @notice The whole picture. Each side 1..2048 pixels.
 struct Canvas {
@@ -61,7 +62,7 @@ uint256 constant SMOOTH = 2;
 
 /// @notice How a surface answers light: Blinn-Phong coefficients.
 /// @param shading UNLIT shows the vertex colours as they are; FLAT takes the normal of the face, SMOOTH the normals of the vertices.
-/// @param ambient What of the ambient light is added, and so on; 0..16 as Q32.
+/// @param ambient What of the ambient light is added, and so on; 0..4 as Q32.
 /// @param shininess The exponent of the highlight, 1..128.
 struct Material {
     uint256 shading;

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
 // A mesh in half of the bytes of `Mesh.sol` or less, all numbers big-endian:
 //
@@ -30,18 +31,16 @@ uint256 constant COMPACT = 0x10;
 library CompactMesh {
     uint256 private constant HEADER = 24;
 
-    /// @notice The numbers of a mesh do not go together: it should have `expected` bytes.
-    error CompactMeshLength(uint256 expected, uint256 length);
-    /// @notice What the head of a mesh says is beyond what the format knows.
-    error CompactMeshHeader();
-    /// @notice The faces have more new vertices than there are, or do not take all bytes of vertices that are told.
-    error CompactMeshFaces();
-
     /// @dev What is the same for all vertices.
-    /// @param stream Where their bits begin. bits How many each has.
-    /// @param maskX What keeps the lowest bits, as many as the number has. maskY, maskZ, maskColor, maskNormal Likewise.
-    /// @param base What is added to all coordinates at once. top The uppermost bits of all coordinates, and the
-    /// colour if there is only one.
+    /// @param stream Where their bits begin.
+    /// @param bits How many each has.
+    /// @param maskX What keeps the lowest bits, as many as the number has.
+    /// @param maskY Likewise.
+    /// @param maskZ Likewise.
+    /// @param maskColor Likewise.
+    /// @param maskNormal Likewise.
+    /// @param base What is added to all coordinates at once.
+    /// @param top The uppermost bits of all coordinates, and the colour if there is only one.
     /// @param palette Where it is, if it has several colours; or 0.
     /// @param normalHalf What stands for the lower bits of normals that are not kept.
     /// @param stride Bytes of a vertex in the result.
@@ -65,7 +64,7 @@ library CompactMesh {
     /// @notice The mesh in the format of `Mesh.sol`. Whether its faces name vertices that are there is left to the renderer.
     function expand(bytes memory data) internal pure returns (bytes memory mesh) {
         unchecked {
-            if (data.length < HEADER) revert CompactMeshLength(HEADER, data.length);
+            if (data.length < HEADER) revert StudioErrors.CompactMeshLength(HEADER, data.length);
             Plan memory plan;
             (uint256 n, uint256 m, uint256 e) = (number(data, 2, 2), number(data, 4, 2), number(data, 6, 2));
             uint256 colors = number(data, 20, 2);
@@ -73,7 +72,7 @@ library CompactMesh {
             open(plan, data, format, colors);
             uint256 codes = HEADER + 3 * colors;
             uint256 expected = codes + m + e + (n * plan.bits + 7) / 8;
-            if (data.length != expected) revert CompactMeshLength(expected, data.length);
+            if (data.length != expected) revert StudioErrors.CompactMeshLength(expected, data.length);
             uint256 target;
             assembly ("memory-safe") {
                 let begin := add(data, 32)
@@ -111,7 +110,7 @@ library CompactMesh {
             uint256 normal = number(data, 23, 1);
             bool known = format <= NORMALS + WIDE && x <= lane && y <= lane && z <= lane && color <= 24 && normal <= 10
                 && (normal == 0) == (format & NORMALS == 0) && (colors == 0 || 1 << color < 2 * colors);
-            if (!known) revert CompactMeshHeader();
+            if (!known) revert StudioErrors.CompactMeshHeader();
             plan.bits = x + y + z + color + 3 * normal;
             (plan.maskX, plan.maskY, plan.maskZ) = ((1 << x) - 1, (1 << y) - 1, (1 << z) - 1);
             (plan.maskColor, plan.maskNormal) = ((1 << color) - 1, (1 << normal) - 1);
@@ -237,7 +236,7 @@ library CompactMesh {
             }
             wrong := or(gt(met, n), iszero(eq(told, add(end, e))))
         }
-        if (wrong) revert CompactMeshFaces();
+        if (wrong) revert StudioErrors.CompactMeshFaces();
         return target;
     }
 }

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {SSTORE2} from "solady/src/utils/SSTORE2.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
 /// @notice Bytes kept for ever as the code of contracts that cannot run, at addresses made of the bytes themselves and of the contract that
 /// keeps them: the same bytes have one address, and nobody can put others there.
@@ -9,19 +10,17 @@ import {SSTORE2} from "solady/src/utils/SSTORE2.sol";
 library Kept {
     /// @notice Bytes that one contract can hold: 24,576, less the instruction in front that stops all calls.
     uint256 internal constant MAX_PART = 24575;
+    /// @notice The most bytes that all parts of a list have together.
+    uint256 internal constant MAX_SIZE = 1 << 20;
     /// @notice The first byte of a list of parts.
     uint256 internal constant PARTS = 0x13;
 
-    /// @notice Nothing is kept there by this contract.
-    error NothingKept(address pointer);
-    /// @notice There is nothing to be kept, or its first byte is that of a list of parts.
-    error NotToBeKept();
-
     /// @notice Keeps bytes, unless they are kept already.
-    /// @return pointer Where they are. created Whether they were not.
+    /// @return pointer Where they are.
+    /// @return created Whether they were not.
     function keep(bytes memory data) internal returns (address pointer, bool created) {
         unchecked {
-            if (data.length == 0 || uint8(data[0]) == PARTS) revert NotToBeKept();
+            if (data.length == 0 || uint8(data[0]) == PARTS) revert StudioErrors.NotToBeKept();
             if (data.length <= MAX_PART) return keepPart(data);
             uint256 count = (data.length + MAX_PART - 1) / MAX_PART;
             address[] memory parts = new address[](count);
@@ -44,12 +43,12 @@ library Kept {
             list[0] = bytes1(uint8(PARTS));
             for (uint256 k; k != parts.length; ++k) {
                 address part = parts[k];
-                if (part.code.length == 0) revert NothingKept(part);
                 assembly ("memory-safe") {
                     let place := add(add(list, 33), mul(20, k))
                     mstore(place, or(shl(96, part), shr(160, shl(160, mload(place)))))
                 }
             }
+            sizeOf(list);
             return keepPart(list);
         }
     }
@@ -65,8 +64,8 @@ library Kept {
         unchecked {
             data = readPart(pointer);
             if (data.length == 0 || uint8(data[0]) != PARTS) return data;
-            uint256 count = (data.length - 1) / 20;
             bytes memory list = data;
+            uint256 size = sizeOf(list);
             // all parts together are read to where they belong
             data = new bytes(0);
             uint256 target;
@@ -74,13 +73,10 @@ library Kept {
                 data := mload(0x40)
                 target := add(data, 32)
             }
-            for (uint256 k; k != count; ++k) {
-                address part;
-                assembly ("memory-safe") {
-                    part := shr(96, mload(add(add(list, 33), mul(20, k))))
-                }
-                uint256 size = part.code.length;
-                if (size == 0) revert NothingKept(part);
+            uint256 end = target + size;
+            for (uint256 k; target != end; ++k) {
+                address part = partAt(list, k);
+                size = part.code.length;
                 // read as bytes whose length stands in the word before, which is that of `data` or the end of the last part
                 bytes memory here;
                 uint256 neighbour;
@@ -104,14 +100,34 @@ library Kept {
         }
     }
 
+    /// @dev How many bytes the parts of a list have together.
+    function sizeOf(bytes memory list) private view returns (uint256 size) {
+        unchecked {
+            uint256 count = (list.length - 1) / 20;
+            for (uint256 k; k != count; ++k) {
+                address part = partAt(list, k);
+                uint256 length = part.code.length;
+                if (length == 0) revert StudioErrors.NothingKept(part);
+                size += length - 1;
+            }
+            if (size > MAX_SIZE) revert StudioErrors.PartsTooLarge(size, MAX_SIZE);
+        }
+    }
+
+    function partAt(bytes memory list, uint256 k) private pure returns (address part) {
+        assembly ("memory-safe") {
+            part := shr(96, mload(add(add(list, 33), mul(20, k))))
+        }
+    }
+
     function readPart(address pointer) private view returns (bytes memory data) {
-        if (pointer.code.length == 0) revert NothingKept(pointer);
+        if (pointer.code.length == 0) revert StudioErrors.NothingKept(pointer);
         data = SSTORE2.read(pointer);
         check(pointer, data);
     }
 
     /// @dev Whether the address is that at which this contract keeps these bytes.
     function check(address pointer, bytes memory data) private view {
-        if (SSTORE2.predictCounterfactualAddress(data, 0) != pointer) revert NothingKept(pointer);
+        if (SSTORE2.predictCounterfactualAddress(data, 0) != pointer) revert StudioErrors.NothingKept(pointer);
     }
 }

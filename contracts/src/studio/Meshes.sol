@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {LibZip} from "solady/src/utils/LibZip.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {COMPACT, CompactMesh} from "./CompactMesh.sol";
 import {Kept} from "./Kept.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
-// The first byte of a mesh says what it is: 0 to 3, packed as in `Mesh.sol`; COMPACT; or one of these.
+// The first byte of a mesh says what it is: 0 to 3, packed as in `Mesh.sol`; COMPACT; or POINTED.
 
-/// @dev A packed mesh, compressed with FastLZ.
-uint256 constant ZIPPED = 0x11;
 /// @dev 20 bytes: the address at which a mesh is kept.
 uint256 constant POINTED = 0x12;
 
 /// @notice Meshes in any of their forms.
 library Meshes {
-    /// @notice The first byte of a mesh is none that is known.
-    error UnknownMesh(uint256 kind);
-
     /// @notice The mesh in the format of `Mesh.sol`, which the renderer takes.
     function open(bytes memory data) internal view returns (bytes memory) {
         uint256 kind = kindOf(data);
@@ -27,8 +22,7 @@ library Meshes {
         }
         if (kind <= NORMALS + WIDE) return data;
         if (kind == COMPACT) return CompactMesh.expand(data);
-        if (kind == ZIPPED) return LibZip.flzDecompress(rest(data));
-        revert UnknownMesh(kind);
+        revert StudioErrors.UnknownMesh(kind);
     }
 
     /// @notice What stands for a mesh that is kept.
@@ -42,7 +36,7 @@ library Meshes {
     }
 
     function pointerIn(bytes memory data) private pure returns (address pointer) {
-        if (data.length != 21) revert UnknownMesh(POINTED);
+        if (data.length != 21) revert StudioErrors.UnknownMesh(POINTED);
         assembly ("memory-safe") {
             pointer := shr(96, mload(add(data, 33)))
         }

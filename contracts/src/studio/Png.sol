@@ -5,6 +5,7 @@ import {Base64} from "../encode/Base64.sol";
 import {Text} from "../encode/Text.sol";
 import {Crc32} from "./Crc32.sol";
 import {PngCode} from "./PngCode.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
 /// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
 /// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
@@ -31,11 +32,6 @@ library Png {
     /// @dev As many longest matches are written at once.
     uint256 private constant LONGEST_MANY = 32;
 
-    /// @notice The bytes are not a bitmap as the renderer makes them.
-    error NotABitmap();
-    /// @notice Each pixel can become a square of 1 x 1 to 8 x 8.
-    error ScaleOutOfRange(uint256 scale);
-
     /// @dev What has been written so far.
     /// @param target Where the next byte belongs.
     /// @param count How many of its bits are there already, 0..7. The others are zeros.
@@ -53,7 +49,7 @@ library Png {
     function encode(bytes memory bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
-            if (scale == 0 || scale > MAX_SCALE) revert ScaleOutOfRange(scale);
+            if (scale == 0 || scale > MAX_SCALE) revert StudioErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
             Stream memory stream;
             bytes memory tables = PngCode.tables();
             bytes memory header = PngCode.header();
@@ -111,7 +107,7 @@ library Png {
     /// @dev The sides of a bitmap in pixels, each 1..65535.
     function sizeOf(bytes memory bmp) private pure returns (uint256 width, uint256 height) {
         unchecked {
-            if (bmp.length < BMP_HEADER) revert NotABitmap();
+            if (bmp.length < BMP_HEADER) revert StudioErrors.NotABitmap();
             uint256 kind;
             uint256 planesAndBits;
             assembly ("memory-safe") {
@@ -123,7 +119,7 @@ library Png {
                 planesAndBits := and(shr(160, sides), 0xffffffff)
             }
             bool known = kind == 0x424d && planesAndBits == 0x01001800 && width != 0 && height != 0;
-            if (!known || bmp.length != BMP_HEADER + strideOf(width) * height) revert NotABitmap();
+            if (!known || bmp.length != BMP_HEADER + strideOf(width) * height) revert StudioErrors.NotABitmap();
         }
     }
 

@@ -10,7 +10,12 @@ import {
 } from "../scene/Scene.sol";
 
 /// @notice A mesh in the making: room for so many vertices and faces is set aside at once, and nothing is moved until it is packed.
-/// @param vertices Where the next vertex belongs. faces Where the next face belongs. vertexCount, faceCount How many there are.
+/// @param vertices Where the next vertex belongs.
+/// @param faces Where the next face belongs.
+/// @param vertexCount How many there are.
+/// @param faceCount How many there are.
+/// @param maxVertices How many there is room for.
+/// @param maxFaces How many there is room for.
 struct Model {
     uint256 vertices;
     uint256 faces;
@@ -110,7 +115,7 @@ library ModelMaker {
         quad(m, v, v + 1, v + 5, v + 4);
     }
 
-    /// @notice The bytes of the mesh, in place: nothing may be added afterwards.
+    /// @notice The bytes of the mesh, in place: nothing may be added afterwards. Each call returns the same bytes.
     function pack(Model memory m) internal pure returns (bytes memory mesh) {
         unchecked {
             uint256 vertexSize = VERTEX_SIZE * m.vertexCount;
@@ -127,7 +132,8 @@ library ModelMaker {
                 mstore(sub(begin, 5), or(shl(216, header), shr(40, mload(begin))))
                 mstore(add(end, faceSize), 0)
             }
-            // closed for more
+            // where the faces are now; closed for more
+            m.faces = end + faceSize;
             (m.maxVertices, m.maxFaces) = (m.vertexCount, m.faceCount);
         }
     }

@@ -7,6 +7,8 @@ import {sqrt} from "../math/Roots.sol";
 import {Quaternion, Matrix} from "../math/Quaternion.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {Scene, Object, Background, Canvas} from "../scene/Scene.sol";
+import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
 uint256 constant TURN = 1;
 uint256 constant PAINT = 2;
@@ -18,7 +20,9 @@ uint256 constant CANVAS = 16;
 /// @param fields Which of the following count: the sum of TURN, PAINT, BACKGROUND, INVERT, CANVAS.
 /// @param turn A rotation of all objects about their middle. Its length must not be zero, and is best 1.
 /// @param color Of all vertices of all objects, 0xRRGGBB.
-/// @param background As in a scene. invert 1 or 0. canvas The size of the picture.
+/// @param background As in a scene.
+/// @param invert 1 or 0.
+/// @param canvas The size of the picture.
 struct Changes {
     uint256 fields;
     Quaternion turn;
@@ -30,29 +34,34 @@ struct Changes {
 
 /// @notice Makes a scene differ.
 library SceneChanges {
-    /// @notice A field is named that there is not.
-    error UnknownChanges(uint256 fields);
-    error ColorOutOfRange(uint256 color);
-    /// @notice The rotation is zero, or a part of it is larger than 2^16.
-    error TurnOutOfRange();
-
     int256 private constant MAX_PART = 1 << 48;
 
     /// @dev Meshes must be in the format of `Mesh.sol`.
     function make(Scene memory scene, Changes memory changes) internal pure {
         uint256 fields = changes.fields;
-        if (fields > 31) revert UnknownChanges(fields);
+        if (fields > 31) revert StudioErrors.UnknownChanges(fields);
         if (fields & TURN != 0) {
             checkTurn(changes.turn);
+            for (uint256 k; k < scene.objects.length; ++k) checkPlace(scene.objects[k], k);
             turn(scene, changes.turn);
         }
         if (fields & PAINT != 0) {
-            if (changes.color > 0xffffff) revert ColorOutOfRange(changes.color);
+            if (changes.color > 0xffffff) revert StudioErrors.ColorOutOfRange(changes.color);
             for (uint256 k; k < scene.objects.length; ++k) paint(scene.objects[k].mesh, changes.color);
         }
         if (fields & BACKGROUND != 0) scene.background = changes.background;
         if (fields & INVERT != 0) scene.invert = changes.invert;
         if (fields & CANVAS != 0) scene.canvas = changes.canvas;
+    }
+
+    /// @dev What is computed with here must be within its bounds before; the renderer checks the rest.
+    function checkPlace(Object memory object, uint256 index) private pure {
+        Vector memory p = object.position;
+        checkPosition(p.x.raw(), p.y.raw(), p.z.raw(), index);
+        uint256 format = object.mesh.length == 0 ? 0 : uint8(object.mesh[0]);
+        checkScale(object.scale.raw(), format & WIDE == 0 ? 16 : 24, index);
+        Quaternion memory q = object.rotation;
+        checkRotation(q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw(), index);
     }
 
     /// @notice Turns all objects about their middle.
@@ -95,9 +104,7 @@ library SceneChanges {
             (int256[3] memory low, int256[3] memory high) = box(object.mesh);
             Vector memory twice = Vector(Fixed.wrap((low[0] + high[0]) << 32), Fixed.wrap((low[1] + high[1]) << 32), Fixed.wrap((low[2] + high[2]) << 32));
             Fixed half = Fixed.wrap(object.scale.raw() >> 1);
-            bool still = object.rotation.x.raw() | object.rotation.y.raw() | object.rotation.z.raw() | object.rotation.w.raw() == 0;
-            // a rotation of zero is refused by the renderer
-            if (!still) place = object.position.add(object.rotation.toMatrix().times(twice.scale(half)));
+            place = object.position.add(object.rotation.toMatrix().times(twice.scale(half)));
             (int256 x, int256 y, int256 z) = (high[0] - low[0], high[1] - low[1], high[2] - low[2]);
             radius = Fixed.wrap(int256(sqrt(uint256(x * x + y * y + z * z) << 64))) * half;
         }
@@ -150,19 +157,25 @@ library SceneChanges {
         }
     }
 
-    /// @dev First q, then p: p * q.
+    /// @dev First q, then p: p * q. Where both together are so short that their product would lose digits it is made 2^32 times as long,
+    /// which is the same rotation.
     function times(Quaternion memory p, Quaternion memory q) private pure returns (Quaternion memory) {
-        return Quaternion(
-            p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-            p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x,
-            p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w,
-            p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z
-        );
+        unchecked {
+            (int256 a, int256 b, int256 c, int256 d) = (p.x.raw(), p.y.raw(), p.z.raw(), p.w.raw());
+            (int256 e, int256 f, int256 g, int256 h) = (q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw());
+            int256 x = d * e + a * h + b * g - c * f;
+            int256 y = d * f - a * g + b * h + c * e;
+            int256 z = d * g + a * f - b * e + c * h;
+            int256 w = d * h - a * e - b * f - c * g;
+            uint256 shift = 32;
+            if (inRange(x) && inRange(y) && inRange(z) && inRange(w)) shift = 0;
+            return Quaternion(Fixed.wrap(x >> shift), Fixed.wrap(y >> shift), Fixed.wrap(z >> shift), Fixed.wrap(w >> shift));
+        }
     }
 
     function checkTurn(Quaternion memory q) private pure {
         bool fits = fit(q.x) && fit(q.y) && fit(q.z) && fit(q.w);
-        if (!fits || q.x.raw() | q.y.raw() | q.z.raw() | q.w.raw() == 0) revert TurnOutOfRange();
+        if (!fits || q.x.raw() | q.y.raw() | q.z.raw() | q.w.raw() == 0) revert StudioErrors.TurnOutOfRange();
     }
 
     function fit(Fixed part) private pure returns (bool) {

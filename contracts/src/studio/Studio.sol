@@ -3,44 +3,49 @@ pragma solidity 0.8.37;
 
 import {LibZip} from "solady/src/utils/LibZip.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {Scene} from "../scene/Scene.sol";
+import {Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {COMPACT} from "./CompactMesh.sol";
 import {Kept} from "./Kept.sol";
-import {Meshes, ZIPPED} from "./Meshes.sol";
-import {Png} from "./Png.sol";
+import {Meshes} from "./Meshes.sol";
+import {PngEncoder} from "./PngEncoder.sol";
 import {Changes, SceneChanges} from "./SceneChanges.sol";
+import {StudioErrors} from "./StudioErrors.sol";
 
 /// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
 /// changed or removed, and the address is made of what is stored: the same mesh or scene has the same pointer, whoever stores it, and is
 /// stored once. What is wrong with a scene is told when it is drawn, and concerns no other.
-contract Studio {
+contract Studio is StudioErrors {
+    /// @notice What draws.
     Renderer public immutable renderer;
+    /// @notice What makes PNG files of the pictures.
+    PngEncoder public immutable encoder;
 
     /// @dev The first byte of a scene that is kept. After it the ABI encoding of the scene, in which zeros are compressed (solady's
     /// LibZip.cdCompress).
     uint256 private constant SCENE = 0x20;
 
+    /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart` and
+    /// `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
     event MeshStored(address indexed pointer, address indexed by);
+    /// @notice As for a mesh.
     event SceneStored(address indexed pointer, address indexed by);
 
     error NoRenderer(address renderer);
-    /// @notice The first byte of what is to be stored, or of what is kept there, is not that of a mesh (256: there is none).
-    error NotAMesh(uint256 kind);
-    /// @notice What is kept there is no scene.
-    error NotAScene(address pointer);
+    error NoEncoder(address encoder);
 
-    constructor(Renderer renderer_) {
+    constructor(Renderer renderer_, PngEncoder encoder_) {
         if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
-        renderer = renderer_;
+        if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
+        (renderer, encoder) = (renderer_, encoder_);
     }
 
-    /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`), compact (`CompactMesh.sol`) or zipped (`Meshes.sol`).
+    /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
     /// @return pointer Where it is kept.
     function storeMesh(bytes memory data) external returns (address pointer) {
         uint256 kind = Meshes.kindOf(data);
-        if (kind > NORMALS + WIDE && kind != COMPACT && kind != ZIPPED) revert NotAMesh(kind);
+        if (kind > NORMALS + WIDE && kind != COMPACT) revert NotAMesh(kind);
         bool created;
         (pointer, created) = Kept.keep(data);
         if (created) emit MeshStored(pointer, msg.sender);
@@ -56,7 +61,7 @@ contract Studio {
 
     /// @notice Stores up to 24,575 bytes of something larger, for what does not fit one transaction.
     function storePart(bytes memory data) external returns (address pointer) {
-        if (data.length > Kept.MAX_PART) revert Kept.NotToBeKept();
+        if (data.length > Kept.MAX_PART) revert NotToBeKept();
         (pointer,) = Kept.keepPart(data);
     }
 
@@ -89,6 +94,12 @@ contract Studio {
         SceneChanges.make(scene_, changes);
     }
 
+    /// @notice Reverts if the scene that is kept there cannot be drawn, with the error that drawing it would have: a part or a mesh is missing,
+    /// or a number is out of range. All is checked, one pixel is drawn. As nothing that is kept changes, it can be drawn ever after.
+    function check(address pointer) external view {
+        renderer.renderTile(scene(pointer), Rectangle(0, 0, 1, 1));
+    }
+
     /// @notice The picture of a scene that is kept.
     /// @return A Windows bitmap of 24 bits a pixel.
     function render(address pointer) external view returns (bytes memory) {
@@ -102,32 +113,32 @@ contract Studio {
 
     /// @notice The picture as a PNG file, each pixel a square of `scale` pixels, 1..8.
     function renderPNG(address pointer, uint256 scale) external view returns (bytes memory) {
-        return Png.encode(renderer.render(scene(pointer)), scale);
+        return encoder.encode(renderer.render(scene(pointer)), scale);
     }
 
     /// @notice The same with changes.
     function renderPNG(address pointer, uint256 scale, Changes memory changes) external view returns (bytes memory) {
-        return Png.encode(renderer.render(scene(pointer, changes)), scale);
+        return encoder.encode(renderer.render(scene(pointer, changes)), scale);
     }
 
     /// @notice The PNG file as a `data:` URI.
     function renderDataURI(address pointer, uint256 scale) external view returns (string memory) {
-        return Png.dataURI(renderer.render(scene(pointer)), scale);
+        return encoder.dataURI(renderer.render(scene(pointer)), scale);
     }
 
     /// @notice The same with changes.
     function renderDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
-        return Png.dataURI(renderer.render(scene(pointer, changes)), scale);
+        return encoder.dataURI(renderer.render(scene(pointer, changes)), scale);
     }
 
     /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
     function drawPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
-        return Png.encode(renderer.render(opened(scene_)), scale);
+        return encoder.encode(renderer.render(opened(scene_)), scale);
     }
 
     /// @notice The same as a `data:` URI.
     function drawDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
-        return Png.dataURI(renderer.render(opened(scene_)), scale);
+        return encoder.dataURI(renderer.render(opened(scene_)), scale);
     }
 
     function opened(Scene memory scene_) private view returns (Scene memory) {

@@ -3,17 +3,21 @@ pragma solidity 0.8.37;
 
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Studio} from "../studio/Studio.sol";
+import {StudioErrors} from "../studio/StudioErrors.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
 import {Json} from "./Json.sol";
+import {Utf8} from "./Utf8.sol";
 
 /// @notice A kind of token.
 /// @param name What it is called.
 /// @param scene Where the studio keeps the scene that it shows.
 /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`, both ways.
 /// @param price Of each token, in wei.
-/// @param supply How many tokens of it there will ever be. reserve How many of those are kept for the team.
-/// @param sold How many have been sold. reserveMinted How many of the reserve have been minted.
+/// @param supply How many tokens of it there will ever be.
+/// @param reserve How many of those are kept for the team.
+/// @param sold How many have been sold.
+/// @param reserveMinted How many of the reserve have been minted.
 struct Icon {
     string name;
     address scene;
@@ -28,7 +32,7 @@ struct Icon {
 /// @title IconsCollection: a fixed set of scenes that are kept on chain, each a kind of token with a supply of its own.
 /// @notice The owner adds the icons, then seals the collection: from then on no icon can be added or changed, and only then the sale opens.
 /// What an icon shows is kept as the code of contracts that cannot change, and drawn by contracts that cannot change.
-contract IconsCollection is Collection {
+contract IconsCollection is Collection, StudioErrors {
     using Strings for uint256;
 
     string internal constant DESCRIPTION = "Small scenes, kept and drawn by contracts: every pixel is computed on chain.";
@@ -55,8 +59,8 @@ contract IconsCollection is Collection {
     error NoIcons();
     error UnknownIcon(uint256 icon, uint256 icons);
     error NameLength(uint256 length, uint256 longest);
-    error NothingKept(address scene);
-    error ScaleOutOfRange(uint256 scale, uint256 largest);
+    /// @notice The bytes of the name that begin here are no character of UTF-8.
+    error NameNotUtf8(uint256 position);
     error Supply(uint256 supply, uint256 reserve);
 
     constructor(Studio studio_, Terms memory terms) Collection("Shackled Icons", "SHKI", terms) {
@@ -66,12 +70,14 @@ contract IconsCollection is Collection {
 
     // ---- the set of icons ----
 
-    /// @notice Adds an icon, until the collection is sealed. Look at it first: `studio().render(scene)`.
-    /// @param name_ 1 to 64 bytes of text.
+    /// @notice Adds an icon, until the collection is sealed. What cannot be drawn is refused, with the error that drawing it has. Look at it
+    /// first: `studio().render(scene)`.
+    /// @param name_ 1 to 64 bytes of text in UTF-8.
     /// @param scene Where the studio keeps the scene.
     /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`: 1 to 8; 4 makes 512 of 128.
     /// @param price Of each token, in wei.
-    /// @param supply How many tokens of it there will ever be. reserve How many of those are kept for the team.
+    /// @param supply How many tokens of it there will ever be.
+    /// @param reserve How many of those are kept for the team.
     /// @return icon Its number.
     function add(string calldata name_, address scene, uint8 scale, uint96 price, uint32 supply, uint32 reserve)
         external
@@ -80,9 +86,11 @@ contract IconsCollection is Collection {
     {
         if (isSealed) revert AlreadySealed();
         if (bytes(name_).length == 0 || bytes(name_).length > MAX_NAME) revert NameLength(bytes(name_).length, MAX_NAME);
-        if (scene.code.length == 0) revert NothingKept(scene);
-        if (scale == 0 || scale > MAX_SCALE) revert ScaleOutOfRange(scale, MAX_SCALE);
+        uint256 valid = Utf8.validLength(bytes(name_));
+        if (valid != bytes(name_).length) revert NameNotUtf8(valid);
+        if (scale == 0 || scale > MAX_SCALE) revert PixelScaleOutOfRange(scale, MAX_SCALE);
         if (supply == 0 || reserve > supply) revert Supply(supply, reserve);
+        studio.check(scene);
         icon = icons.length;
         icons.push(Icon(name_, scene, scale, price, supply, reserve, 0, 0));
         emit IconAdded(icon, name_, scene, price, supply, reserve);
@@ -188,9 +196,15 @@ contract IconsCollection is Collection {
         return _ownershipOf(tokenId).extraData;
     }
 
+    /// @notice The picture of a token.
+    /// @return A Windows bitmap.
+    function render(uint256 tokenId) external view returns (bytes memory) {
+        return studio.render(icons[iconOf(tokenId)].scene);
+    }
+
     /// @notice The picture of an icon.
     /// @return A Windows bitmap.
-    function render(uint256 icon) external view returns (bytes memory) {
+    function renderIcon(uint256 icon) external view returns (bytes memory) {
         return studio.render(known(icon).scene);
     }
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..errors import RenderError
 from .mesh import NORMALS, WIDE
 from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
-from .vector import Vector
 
 MAX_CANVAS = 2048
 MAX_LIGHTS = 4
@@ -91,17 +90,19 @@ def check_camera(camera: Camera) -> None:
         raise Reverted("HalfHeightOutOfRange", halfHeight=camera.half_height)
     if not (1 if perspective else -MAX_COORDINATE) <= camera.near <= MAX_COORDINATE:
         raise Reverted("NearOutOfRange", near=camera.near)
-    check_vector(camera.eye)
-    check_vector(camera.target)
-    check_vector(camera.up)
+    for vector in (camera.eye, camera.target, camera.up):
+        if not all(map(in_range, vector)):
+            raise Reverted("CameraOutOfRange", x=vector[0], y=vector[1], z=vector[2])
 
 
 def check_light(light: Light, index: int) -> None:
     """All numbers of a light."""
     if light.kind > POINT:
         raise Reverted("UnknownLight", light=index, kind=light.kind)
-    check_vector(light.vector)
-    check_color(light.color)
+    if not all(map(in_range, light.vector)):
+        raise Reverted("LightOutOfRange", light=index, x=light.vector[0], y=light.vector[1], z=light.vector[2])
+    if light.color > 0xFFFFFF:
+        raise Reverted("LightNotAColor", light=index, value=light.color)
     if light.kind == DIRECTIONAL and not any(light.vector):
         raise Reverted("LightWithoutDirection", light=index)
 
@@ -109,7 +110,8 @@ def check_light(light: Light, index: int) -> None:
 def check_object(obj: Object, index: int) -> None:
     """All numbers of an object."""
     bits, has_normals = check_mesh(obj.mesh_header, len(obj.mesh), index)
-    check_vector(obj.position)
+    if not all(map(in_range, obj.position)):
+        raise Reverted("PositionOutOfRange", object=index, x=obj.position[0], y=obj.position[1], z=obj.position[2])
     material = obj.material
     if material.shading > SMOOTH:
         raise Reverted("UnknownShading", object=index, shading=material.shading)
@@ -125,7 +127,8 @@ def check_object(obj: Object, index: int) -> None:
     if not 0 <= obj.scale <= MAX_EXTENT >> (bits - 1):
         raise Reverted("ScaleOutOfRange", object=index, scale=obj.scale)
     if not all(map(in_range, obj.rotation)):
-        raise Reverted("CoordinateOutOfRange", x=obj.rotation[0], y=obj.rotation[1], z=obj.rotation[2])
+        x, y, z, w = obj.rotation
+        raise Reverted("RotationOutOfRange", object=index, x=x, y=y, z=z, w=w)
     if not any(obj.rotation):
         raise Reverted("RotationIsZero", object=index)
 
@@ -147,12 +150,6 @@ def check_color(value: int) -> None:
     """0xRRGGBB."""
     if value > 0xFFFFFF:
         raise Reverted("NotAColor", value=value)
-
-
-def check_vector(v: Vector) -> None:
-    """Coordinates within 2^26 units."""
-    if not all(map(in_range, v)):
-        raise Reverted("CoordinateOutOfRange", x=v[0], y=v[1], z=v[2])
 
 
 def in_range(value: int) -> bool:

@@ -190,7 +190,7 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     listed = _list(parts, studio)
     joining = _call("join(address[])", ["address[]"], [addresses])
     # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
-    gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 300 * len(parts)
+    gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
     return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), len(listed), gas)]
 
 

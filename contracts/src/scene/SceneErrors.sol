@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+/// @title SceneErrors: what can be wrong with a scene.
+/// @notice Contracts that draw scenes for others inherit this, so that their ABIs have these errors, wherever they arise. Indices of lights,
+/// objects, faces count from 0; lengths are Q32. The bounds stand in `Checks.sol`.
+interface SceneErrors {
+    /// @notice The number at this place of the call, an offset or a length, leads beyond the end of the call.
+    error MalformedScene(uint256 position);
+    error CanvasSize(uint256 width, uint256 height);
+    error RectangleOutsideCanvas(uint256 x, uint256 y, uint256 width, uint256 height);
+    error UnknownProjection(uint256 projection);
+    error HalfHeightOutOfRange(int256 halfHeight);
+    error NearOutOfRange(int256 near);
+    /// @notice The eye, the target or `up`.
+    error CameraOutOfRange(int256 x, int256 y, int256 z);
+    /// @notice The eye is at the target, or `up` is zero or points along the line of sight.
+    error NoViewDirection();
+    /// @notice A colour of the background, or that of the ambient light.
+    error NotAColor(uint256 value);
+    error NotAFlag(uint256 value);
+    error TooManyLights(uint256 count);
+    error UnknownLight(uint256 light, uint256 kind);
+    error LightOutOfRange(uint256 light, int256 x, int256 y, int256 z);
+    error LightNotAColor(uint256 light, uint256 value);
+    error LightWithoutDirection(uint256 light);
+    /// @notice The header is not that of a mesh: `format` has bits that mean nothing, or the bytes end before it is complete.
+    error MeshHeader(uint256 object, uint256 format, uint256 length);
+    /// @notice The counts of the header ask for `expected` bytes in all, `actual` were given.
+    error MeshLength(uint256 object, uint256 expected, uint256 actual);
+    error PositionOutOfRange(uint256 object, int256 x, int256 y, int256 z);
+    error UnknownShading(uint256 object, uint256 shading);
+    /// @notice Smooth shading needs normals in the mesh.
+    error NoNormals(uint256 object);
+    error CoefficientOutOfRange(uint256 object, int256 value);
+    error ShininessOutOfRange(uint256 object, uint256 shininess);
+    error UnknownFlags(uint256 object, uint256 flags);
+    error ScaleOutOfRange(uint256 object, int256 scale);
+    error RotationOutOfRange(uint256 object, int256 x, int256 y, int256 z, int256 w);
+    error RotationIsZero(uint256 object);
+    error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
+    /// @notice The engine has used up the gas of the call.
+    error OutOfGas();
+}

@@ -1,0 +1,52 @@
+"""Whoever has the ABI of a contract can decode whatever it reverts with."""
+
+from __future__ import annotations
+
+import pytest
+from Crypto.Hash import keccak
+
+from shackled.artifacts import artifact, contracts
+
+#: All custom errors of all contracts, and that of the library that creates what is kept.
+KNOWN = {selector: name for contract in contracts() for selector, (name, _) in artifact(contract).errors.items()}
+
+#: Errors that a contract does not pass on to those that call it: a guard of the build, which no scene reaches, and what
+#: is wrong with the arguments of `eulerRotation`, which no other contract calls.
+KEPT_BACK = ("RegistersOverlap", "AngleOutOfRange")
+
+
+def raised(contract: str) -> dict[bytes, str]:
+    """The errors of a contract and of those that it calls: their selectors stand in the code."""
+    found = {selector: name for selector, name in KNOWN.items() if selector in artifact(contract).runtime}
+    for part in artifact(contract).parts:
+        found |= {selector: name for selector, name in raised(part).items() if name not in KEPT_BACK}
+    return found
+
+
+def test_errors_are_found_in_the_code() -> None:
+    assert {"IndexOutOfRange", "NoViewDirection"} <= set(raised("Engine").values())
+    assert {"CanvasSize", "OutOfGas", "IndexOutOfRange", "NoViewDirection"} <= set(raised("Renderer").values())
+    assert {"NothingKept", "PixelScaleOutOfRange", "DeploymentFailed", "CanvasSize"} <= set(raised("Studio").values())
+    digest = keccak.new(digest_bits=256, data=b"DeploymentFailed()").digest()
+    assert digest[:4] in raised("Studio")
+
+
+@pytest.mark.parametrize(
+    "contract", ["Engine", "Renderer", "Original", "Genesis", "PngEncoder", "Studio", "IconsCollection"]
+)
+def test_every_error_is_in_the_abi(contract: str) -> None:
+    missing = {name for selector, name in raised(contract).items() if selector not in artifact(contract).errors}
+    assert not missing
+
+
+@pytest.mark.parametrize("contract", ["Renderer", "Original", "Genesis", "Studio", "IconsCollection"])
+def test_every_error_of_a_scene_is_in_the_abi(contract: str) -> None:
+    """Those of the interface, each with its parameters named."""
+    scene = {
+        selector: error
+        for selector, error in artifact("Renderer").errors.items()
+        if error[0] not in ("AngleOutOfRange", "NoEngine")
+    }
+    assert len(scene) >= 28
+    assert scene.items() <= artifact(contract).errors.items()
+    assert all(label for _, parameters in scene.values() for label, _ in parameters)
