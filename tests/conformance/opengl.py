@@ -83,6 +83,8 @@ float power(float base, int exponent) {
 void main() {
     gl_FragDepth = perspective ? gl_FragCoord.w * near : f_nearness;
     vec3 color = f_color;
+    // the lights that give highlights, a bit each
+    int shining = 0;
     if (lit) {
         vec3 normal = unit(smooth_normals ? f_normal : f_facing);
         vec3 view = perspective ? unit(f_to_eye) : vec3(0.0, 0.0, 1.0);
@@ -92,12 +94,13 @@ void main() {
             float lambert = dot(normal, to_light);
             if (lambert > 0.0) {
                 surface += diffuse * lambert * light[i];
+                if (specular > 0.0) shining |= 1 << i;
                 highlight += specular * power(max(0.0, dot(normal, unit(to_light + view))), shininess) * light[i];
             }
         }
         color = color * surface + 255.0 * highlight;
     }
-    result = vec4(clamp(color, 0.0, 255.0), f_number + 1.0);
+    result = vec4(clamp(color, 0.0, 255.0), 16.0 * (f_number + 1.0) + float(shining));
 }
 """
 
@@ -112,10 +115,13 @@ class Unavailable(Exception):
 
 @dataclass(frozen=True)
 class Drawing:
-    """triangle: (H, W) the number of the triangle that is seen, -1 for none. color: (H, W, 3) its light, 0..255."""
+    """triangle: (H, W) the number of the triangle that is seen, -1 for none. color: (H, W, 3) its light, 0..255.
+    shining: (H, W) the lights that reach it, where they give highlights: a bit each.
+    """
 
     triangle: NDArray[np.int64]
     color: Array
+    shining: NDArray[np.int64]
 
 
 @cache
@@ -169,7 +175,8 @@ def draw(world: World) -> Drawing:
     pixels = np.frombuffer(canvas.read(components=4, dtype="f4"), np.float32).reshape(world.height, world.width, 4)
     # the first row is the lowest
     pixels = pixels[::-1].astype(np.float64)
-    return Drawing(pixels[..., 3].astype(np.int64) - 1, pixels[..., :3])
+    code = pixels[..., 3].astype(np.int64)
+    return Drawing(code // 16 - 1, pixels[..., :3], code % 16)
 
 
 def _vertices(world: World) -> list[NDArray[np.float32]]:
