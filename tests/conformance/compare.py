@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from shackled import Scene
 
 from . import contracts, opengl
 from .coverage import Judge, judge
+from .neighbours import around, interior, uniform
 from .world import before_camera
 
 Triangles = NDArray[np.int64]
@@ -130,30 +130,13 @@ def _wrong(judge: Judge, ours: Triangles, theirs: Triangles, places: Triangles) 
     return found
 
 
-def interior(triangle: Triangles) -> NDArray[np.bool_]:
-    """(H, W): pixels that show a triangle, as do their neighbours on the canvas, and the same one."""
-    return uniform(triangle) & (triangle >= 0)
-
-
-def uniform(values: Triangles) -> NDArray[np.bool_]:
-    """(H, W): whether the eight neighbours on the canvas have the same value."""
-    return np.asarray((_around(values) == values).all(axis=0))
-
-
 def _beyond(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
     """(H, W, 3): how far a channel is outside of what it and its neighbours should be.
 
     A highlight ends where its light does, not gradually: N.L decides, and is zero in the line between two pixels.
     """
-    around = _around(expected)
-    return np.asarray(np.maximum(0, np.maximum(pixels - around.max(axis=0), around.min(axis=0) - pixels)))
-
-
-def _around(values: NDArray[Any]) -> NDArray[Any]:
-    """(9, H, W, ...): the values of each pixel and its neighbours."""
-    height, width = values.shape[:2]
-    padded = np.pad(values, [(1, 1), (1, 1)] + [(0, 0)] * (values.ndim - 2), mode="edge")
-    return np.stack([padded[down : down + height, right : right + width] for down in range(3) for right in range(3)])
+    near = around(expected)
+    return np.asarray(np.maximum(0, np.maximum(pixels - near.max(axis=0), near.min(axis=0) - pixels)))
 
 
 def _triangle(number: int) -> str:

@@ -37,10 +37,13 @@ class Judge:
         outlines, planes, culled = self.outlines[near], self.planes[near], self.culled[near]
         inside, distance = _position(outlines, center)
         depth = planes @ [*center, 1.0]
+        thin = _thickness(outlines) <= TOLERANCE
+        # what is seen from its edge may have any depth
         shift = TOLERANCE * np.linalg.norm(planes[:, :2], axis=1) + SAME_DEPTH * np.abs(depth)
+        shift[thin] = np.inf
         certain = inside & (distance > TOLERANCE) & ~culled
-        # what turns away may be drawn if rounding can turn it round
-        possible = (inside | (distance <= TOLERANCE)) & ~(culled & (_thickness(outlines) > TOLERANCE))
+        # and rounding can turn it round
+        possible = (inside | (distance <= TOLERANCE)) & (~culled | thin)
         if certain.any():
             nearest = (depth[certain] - shift[certain]).max()
             possible &= depth + shift >= nearest
@@ -85,14 +88,15 @@ def _planes(world: World, corners: Array) -> Array:
     """(n, 3): 1 / distance, or -distance of an orthographic camera, as a function of column and row."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     along = (normal * corners[:, 0]).sum(axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         if world.perspective:
             # the point distance * (x, y, -1) is on the plane
             x, y, rest = normal[:, 0] / along, normal[:, 1] / along, -normal[:, 2] / along
         else:
             x, y, rest = -normal[:, 0] / normal[:, 2], -normal[:, 1] / normal[:, 2], along / normal[:, 2]
-    planes = np.stack([x, -y, world.focal * rest - x * world.width / 2 + y * world.height / 2], axis=1) / world.focal
-    return np.nan_to_num(planes, nan=0.0, posinf=0.0, neginf=0.0)
+        middle = world.focal * rest - x * world.width / 2 + y * world.height / 2
+    planes = np.stack([x, -y, middle], axis=1) / world.focal
+    return np.where(np.isfinite(planes).all(axis=1)[:, None], planes, 0.0)
 
 
 def _within(outlines: Array, center: Array) -> NDArray[np.int64]:

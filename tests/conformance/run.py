@@ -32,10 +32,9 @@ def tasks(count: int, seed: int, only: str | None = None) -> Iterator[Task]:
     """Random scenes, then the pieces; `only` is the name of a dataset or of a piece, or "random"."""
     if only in (None, "random"):
         yield from (Task("random", "", number) for number in range(seed, seed + count))
-    for name in built_in() if only != "random" else ():
-        if only is None or name == only or name.startswith(f"{only}/"):
-            dataset = name.partition("/")[0] if "/" in name else "common"
-            yield from (Task(f"{dataset}, {size}", name, size) for size in SIZES)
+    for piece in built_in() if only != "random" else ():
+        if only in (None, piece.dataset, piece.name):
+            yield from (Task(f"{piece.dataset}, {size}", piece.name, size) for size in SIZES)
 
 
 def run(listed: list[Task], jobs: int) -> Iterator[tuple[Task, Result]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
-from shackled.datasets import pieces, require
+from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
 from shackled.scene.mesh import vertex_normals
 from shackled.scene.rotation import rotate
@@ -20,10 +20,10 @@ Rng = np.random.Generator
 SIZES = (128, 512)
 
 
-def built_in() -> list[str]:
-    """The names of all pieces that nothing has to be fetched for and that are not of wires alone."""
+def built_in() -> list[Piece]:
+    """All pieces that nothing has to be fetched for and that are not of wires alone."""
     ready = [piece for piece in pieces() if piece.ready()]
-    return [piece.name for piece in ready if not all(o.wireframe for o in piece.make().objects)]
+    return [piece for piece in ready if not all(o.wireframe for o in piece.make().objects)]
 
 
 def built_in_scene(name: str, size: int) -> Scene:
