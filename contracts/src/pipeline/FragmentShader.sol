@@ -14,8 +14,9 @@ uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
 /// @dev What is set in lanes of Q10 above 255.
 uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
 
-/// @dev Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
-uint256 constant WEIGHTED_BIAS = 0x002000000400000020000004000000200000040000;
+/// @dev Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away. It stands above the brightest
+/// that a flat face may have before its highlights, 20 * 255 levels, at three corners.
+uint256 constant WEIGHTED_BIAS = 0x010000000400000100000004000001000000040000;
 
 uint256 constant LINE_BIAS = 0x000002000000000002000000000000020000000000;
 
@@ -80,7 +81,7 @@ library FragmentShader {
             function highlights(depth, x, y) -> sum {
                 let length := rayLength(x, y)
                 // normal * ray
-                depth := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), depth)))
+                depth := add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), depth)))
                 for { let record := LIGHTS } 1 {} {
                     if sgt(mload(add(record, LIGHT_FACING)), 0) {
                         let half := sub(mul(mload(add(record, LIGHT_FACING)), length), depth)
@@ -195,14 +196,14 @@ library FragmentShader {
                 }
                 color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), second)), mul(mload(COLOR_2), third)))
                 // lanes that were rounded below zero have lost the bit of the bias
-                color := and(color, mul(and(shr(21, color), ONES), 0x1fffff))
+                color := and(color, mul(and(shr(24, color), ONES), 0xffffff))
                 switch and(mode, IS_DIFFUSE)
                 case 0 {
                     if and(mode, IS_LIT) { color := add(color, highlights(attribute, x, y)) }
                 }
                 default {
                     switch and(mode, IS_SMOOTH)
-                    case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), attribute)))) }
+                    case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), attribute)))) }
                     default { interpolateNormal(second, third, x, y) }
                     attribute := light(attribute, x, y)
                     color := add(modulated(color, mload(FRAGMENT_LIGHT)), attribute)
@@ -420,7 +421,7 @@ library FragmentShader {
                 }
             }
             // normal * ray
-            let normalRay := add(mload(FACE_FACING), sar(47, mul(mload(FACE_FACING_SLOPE), shl(8, shr(168, word)))))
+            let normalRay := add(mload(FACE_FACING), sar(95, mul(mload(FACE_FACING_SLOPE), shl(8, shr(168, word)))))
             let length := mload(add(vertex, 0x40))
             vertex := add(vertex, 0x60)
             for { let record := LIGHTS } 1 {} {

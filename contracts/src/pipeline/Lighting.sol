@@ -10,6 +10,9 @@ import {View} from "./View.sol";
 import {Mesh} from "../scene/Mesh.sol";
 import "./Registers.sol";
 
+/// @dev The scale that makes Q24 of a unit vector: see storeMeshVector.
+int256 constant DIRECTION = 1 << 40;
+
 // What the fragment shader needs to know of lights and material, prepared once for the scene, an object, or a face.
 library Lighting {
     /// @notice Lights in camera space.
@@ -134,26 +137,28 @@ library Lighting {
             int256 scale = object.scale.raw();
             if (scale == 0) return;
             storeSigned(SCALE, scale);
-            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 32) / loadSigned(NEAR));
+            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 64) / loadSigned(NEAR));
             Vector memory position = object.position;
-            if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), 1 << 24);
-            else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), (1 << 48) / scale);
+            if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), DIRECTION);
+            else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), scale);
             Light[] calldata lights = scene.lights;
             uint256 record = LIGHTS;
             for (uint256 i; i != lights.length; ++i) {
                 Vector memory v = lights[i].vector;
-                if (lights[i].kind == POINT) storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(v.sub(position)), (1 << 48) / scale);
-                else storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(normalize(v)), 1 << 24);
+                if (lights[i].kind == POINT) storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(v.sub(position)), scale);
+                else storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(normalize(v)), DIRECTION);
                 record += LIGHT_SIZE;
             }
         }
     }
 
-    function storeMeshVector(uint256 pointer, Vector memory v, int256 factor) private pure {
+    /// @dev A vector divided by the scale of the mesh, Q32, rounded toward zero; by DIRECTION for a unit vector as Q24. Coordinates of up to
+    /// 2^60 leave room for the shift.
+    function storeMeshVector(uint256 pointer, Vector memory v, int256 scale) private pure {
         unchecked {
-            storeSigned(pointer, (v.x.raw() * factor) >> 32);
-            storeSigned(pointer + 32, (v.y.raw() * factor) >> 32);
-            storeSigned(pointer + 64, (v.z.raw() * factor) >> 32);
+            storeSigned(pointer, (v.x.raw() << 32) / scale);
+            storeSigned(pointer + 32, (v.y.raw() << 32) / scale);
+            storeSigned(pointer + 64, (v.z.raw() << 32) / scale);
         }
     }
 
@@ -252,7 +257,7 @@ library Lighting {
             int256 y = loadSigned(record + LIGHT_MESH_Y) - loadSigned(FACE_CORNER_Y);
             int256 z = loadSigned(record + LIGHT_MESH_Z) - loadSigned(FACE_CORNER_Z);
             int256 lambert = loadSigned(FACE_NORMAL_X) * x + loadSigned(FACE_NORMAL_Y) * y + loadSigned(FACE_NORMAL_Z) * z;
-            lambert = length == 0 ? int256(0) : ((lambert * loadSigned(SCALE)) >> 16) / int256(length);
+            lambert = length == 0 ? int256(0) : ((lambert * loadSigned(SCALE)) >> 32) / int256(length);
             storeSigned(record + LIGHT_FACING, lambert);
             if (lambert <= 0) return 0;
             // the light turns as well, by as much as V where it is as near as the eye
@@ -263,7 +268,7 @@ library Lighting {
         }
     }
 
-    /// @notice Stores the normal of a face (twice its area long, in units of the mesh) and its first corner (Q16).
+    /// @notice Stores the normal of a face (twice its area long, in units of the mesh) and its first corner (Q32).
     /// @return square The square of the normal, Q32.
     function setFaceNormal(uint256 face) private pure returns (uint256 square) {
         assembly ("memory-safe") {
@@ -277,9 +282,9 @@ library Lighting {
             }
             face := calldataload(add(mload(MESH_FACES), mul(6, face)))
             let px, py, pz := corner(shr(240, face))
-            mstore(FACE_CORNER_X, shl(16, px))
-            mstore(FACE_CORNER_Y, shl(16, py))
-            mstore(FACE_CORNER_Z, shl(16, pz))
+            mstore(FACE_CORNER_X, shl(32, px))
+            mstore(FACE_CORNER_Y, shl(32, py))
+            mstore(FACE_CORNER_Z, shl(32, pz))
             let ax, ay, az := corner(and(shr(224, face), 0xffff))
             ax := sub(ax, px)
             ay := sub(ay, py)

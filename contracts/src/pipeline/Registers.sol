@@ -109,7 +109,7 @@ uint256 constant LIGHT_IS_POINT = 0x00;
 uint256 constant LIGHT_X = 0x20;
 uint256 constant LIGHT_Y = 0x40;
 uint256 constant LIGHT_Z = 0x60;
-/// @dev the same in the space of the mesh;
+/// @dev the same in the space of the mesh, the position as Q32;
 uint256 constant LIGHT_MESH_X = 0x80;
 uint256 constant LIGHT_MESH_Y = 0xa0;
 uint256 constant LIGHT_MESH_Z = 0xc0;
@@ -135,11 +135,11 @@ uint256 constant NORMAL_Z = 0x10a0;
 /// @dev What is added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
 uint256 constant ROUND_TOP = 0x10c0;
 uint256 constant ROUND_BOTTOM = 0x10e0;
-/// @dev The eye in the space of the mesh, Q16; the line of sight there, Q24, for an orthographic camera.
+/// @dev The eye in the space of the mesh, Q32; the line of sight there, Q24, for an orthographic camera.
 uint256 constant EYE_X = 0x1100;
 uint256 constant EYE_Y = 0x1120;
 uint256 constant EYE_Z = 0x1140;
-/// @dev Scale of the mesh, Q32, and scale / near, Q32.
+/// @dev Scale of the mesh, Q32, and scale / near, Q64.
 uint256 constant SCALE = 0x1160;
 uint256 constant SCALE_PER_NEAR = 0x1180;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
@@ -212,7 +212,7 @@ uint256 constant DEPTH_1 = 0x1cc0;
 uint256 constant DEPTH_2 = 0x1ce0;
 /// @dev Pixels from one exact colour to the next.
 uint256 constant BLOCK = 0x1d00;
-/// @dev Normal (twice the area long, in units of the mesh) and first corner (Q16) of a flat face.
+/// @dev Normal (twice the area long, in units of the mesh) and first corner (Q32) of a flat face.
 uint256 constant FACE_NORMAL_X = 0x1d20;
 uint256 constant FACE_NORMAL_Y = 0x1d40;
 uint256 constant FACE_NORMAL_Z = 0x1d60;
@@ -225,7 +225,7 @@ uint256 constant FACE_REACH = 0x1e00;
 /// @dev Light that does not depend on the fragment, lanes of Q16, and of Q40.
 uint256 constant FACE_LIGHT = 0x1e20;
 uint256 constant FACE_LIGHT_40 = 0x1e40;
-/// @dev Unit normal times ray, Q48: FACE_FACING + FACE_FACING_SLOPE * depth >> 47.
+/// @dev Unit normal times ray, Q48: FACE_FACING + FACE_FACING_SLOPE * depth >> 95.
 uint256 constant FACE_FACING = 0x1e60;
 uint256 constant FACE_FACING_SLOPE = 0x1e80;
 /// @dev Vectors of a smooth triangle: at the first vertex (Q36), and the differences to the others (Q20); see FragmentShader.setVaryings.

@@ -8,6 +8,9 @@ import "./Registers.sol";
 
 // bias of the lanes: half a level for colours
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
+/// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
+/// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
+uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000;
 /// @dev Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
 uint256 constant VARYING_BIAS = 0x2000000000000020000000000000200000;
@@ -58,7 +61,8 @@ library Shading {
                 }
                 assembly ("memory-safe") {
                     // colours above 255 need a loop that keeps them there
-                    mode := iszero(iszero(and(or(or(attributesA, attributesB), attributesC), OVERFLOW)))
+                    mode := or(or(add(attributesA, NEARLY_ABOVE), add(attributesB, NEARLY_ABOVE)), add(attributesC, NEARLY_ABOVE))
+                    mode := iszero(iszero(and(mode, OVERFLOW)))
                     mstore(MODE, or(mode, and(shr(139, word), 256)))
                     mstore(LANE_BIAS, COLOR_BIAS)
                 }
@@ -246,7 +250,8 @@ library Shading {
                 rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
                 let ra := sar(168, a)
                 ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
-                yes := lt(or(or(rb, rc), ra), 0x1000000000)
+                // more would not fit the lanes where colours are up to 20 times 255
+                yes := lt(or(or(rb, rc), ra), 0x100000000)
                 // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
                 b := mul(b, rb)
                 c := mul(c, rc)

@@ -31,8 +31,9 @@ from .words import LANES_24, LANES_32, MASK, ONES, divide, divide_signed, signed
 HALF_LEVEL = 0x200 * ONES
 LINE_BIAS = 0x000002000000000002000000000000020000000000
 
-#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away.
-WEIGHTED_BIAS = ((1 << 45) + (1 << 18)) * ONES
+#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away. It stands above the
+#: brightest that a flat face may have before its highlights, 20 * 255 levels, at three corners.
+WEIGHTED_BIAS = ((1 << 48) + (1 << 18)) * ONES
 
 #: Half the range of a lane of 85 bits, for vectors of Q20 and their sums of Q36.
 VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
@@ -78,7 +79,7 @@ def gloss(square: int, r: Registers) -> int:
 def highlights(depth: int, x: int, y: int, r: Registers) -> int:
     """The highlights of directional lights on a flat face, lanes of Q10."""
     length = ray_length(x, y, r)
-    normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 47)
+    normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 95)
     total = 0
     for light in r.lights:
         if light.facing > 0:
@@ -150,15 +151,15 @@ def shade(attribute: int, x: int, y: int, r: Registers) -> int:
     else:
         r.fragment_place_x, r.fragment_place_y = x >> 16, y >> 16
         x = y = 0
-    color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_24
+    color = ((r.color_0 + r.color_1 * second + r.color_2 * third) >> 24) & LANES_32
     # lanes that were rounded below zero have lost the bit of the bias
-    color &= ((color >> 21) & ONES) * 0x1FFFFF
+    color &= ((color >> 24) & ONES) * 0xFFFFFF
     if r.mode & IS_LIT == 0:
         return color
     if r.mode & IS_DIFFUSE == 0:
         return color + highlights(depth, x, y, r)
     if r.mode & IS_SMOOTH == 0:
-        r.fragment_normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 47)
+        r.fragment_normal_ray = r.face_facing + (signed(r.face_facing_slope * depth) >> 95)
     else:
         # the interpolated normal, Q24
         second >>= 8
@@ -361,7 +362,7 @@ def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
             (length << 1) * ((length << 24) - (light.x * x + light.y * y + (light.z << 24))) for light in r.lights
         ]
     length = vertex.ray_length
-    normal_ray = r.face_facing + (signed(r.face_facing_slope * (word >> 168 << 8)) >> 47)
+    normal_ray = r.face_facing + (signed(r.face_facing_slope * (word >> 168 << 8)) >> 95)
     total = 0
     for light, place in zip(r.lights, vertex.places, strict=True):
         if light.facing > 0:

@@ -20,6 +20,9 @@ from .vector import Matrix, Vector, normalize, subtract, transposed_times
 from .view import View
 from .words import LANES_32, MASK, ONES, color_lanes, divide_signed, signed
 
+#: The scale that makes Q24 of a unit vector in the space of the mesh.
+DIRECTION = 1 << 40
+
 
 def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> None:
     """Lights in camera space."""
@@ -116,23 +119,22 @@ def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, regi
         return
     registers.scale = obj.scale
     if not view.orthographic:
-        registers.scale_per_near = divide_signed(obj.scale << 32, registers.near)
+        registers.scale_per_near = divide_signed(obj.scale << 64, registers.near)
 
-    def to_mesh(v: Vector, factor: int) -> Vector:
+    def to_mesh(v: Vector, scale: int) -> Vector:
         x, y, z = transposed_times(rotation, v)
-        return (x * factor) >> 32, (y * factor) >> 32, (z * factor) >> 32
+        return divide_signed(x << 32, scale), divide_signed(y << 32, scale), divide_signed(z << 32, scale)
 
-    place_factor, direction_factor = (1 << 48) // obj.scale, 1 << 24
     if view.orthographic:
-        eye = to_mesh(view.forward, direction_factor)
+        eye = to_mesh(view.forward, DIRECTION)
     else:
-        eye = to_mesh(subtract(view.eye, obj.position), place_factor)
+        eye = to_mesh(subtract(view.eye, obj.position), obj.scale)
     registers.eye_x, registers.eye_y, registers.eye_z = eye
     for record, light in zip(registers.lights, scene.lights, strict=True):
         if light.kind == POINT:
-            v = to_mesh(subtract(light.vector, obj.position), place_factor)
+            v = to_mesh(subtract(light.vector, obj.position), obj.scale)
         else:
-            v = to_mesh(normalize(light.vector), direction_factor)
+            v = to_mesh(normalize(light.vector), DIRECTION)
         record.mesh_x, record.mesh_y, record.mesh_z = v
 
 
@@ -216,7 +218,7 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
     y = record.mesh_y - r.face_corner_y
     z = record.mesh_z - r.face_corner_z
     lambert = r.face_normal_x * x + r.face_normal_y * y + r.face_normal_z * z
-    record.facing = divide_signed(signed(lambert * r.scale) >> 16, length)
+    record.facing = divide_signed(signed(lambert * r.scale) >> 32, length)
     if record.facing <= 0:
         return 0
     # the light turns as well, by as much as V where it is as near as the eye
@@ -230,7 +232,7 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
 def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
     """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square."""
     p, a, b = (mesh.positions[number] for number in mesh.faces[face])
-    registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 16 for component in p)
+    registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 32 for component in p)
     ax, ay, az = a[0] - p[0], a[1] - p[1], a[2] - p[2]
     bx, by, bz = b[0] - p[0], b[1] - p[1], b[2] - p[2]
     registers.face_normal_x = x = ay * bz - az * by

@@ -34,6 +34,9 @@ GUARDS = 0x00400000000000004000000000000040000000000000
 LIMITS = 0x00400003000000004000030000000040000300000000
 #: Bits of a lane that only a colour above 255 has.
 ABOVE_255 = 0xFC000000000000FC000000000000FC0000
+#: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
+#: rounded, and eight steps of Q10 more, since interpolation is off by one at most.
+NEARLY_ABOVE = 0x208 * ONES
 
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
@@ -62,7 +65,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
             attributes_b = vertex_highlights(attributes_b, b, r)
             attributes_c = vertex_highlights(attributes_c, c, r)
         # colours above 255 need a loop that keeps them there
-        saturates = (attributes_a | attributes_b | attributes_c) & ABOVE_255 != 0
+        saturates = any((word + NEARLY_ABOVE) & ABOVE_255 for word in (attributes_a, attributes_b, attributes_c))
         r.mode = saturates | crossing
     else:
         barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, r)
@@ -201,7 +204,8 @@ def is_affine(a: int, b: int, c: int) -> bool:
         dz = change >> 168
         # |z_i - z_j| / z, Q20
         ratio = (dz if dz >= 0 else ~dz) * inverse >> 64
-        if ratio >= 1 << 36:
+        # more would not fit the lanes where colours are up to 20 times 255
+        if ratio >= 1 << 32:
             return False
         # its product with the difference of the colours (Q10): above the limit, it clears a bit
         guards &= (LIMITS + change * ratio) & (LIMITS - change * ratio)

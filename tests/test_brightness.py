@@ -1,0 +1,99 @@
+"""More light is never darker: a colour that rises through 255 stays there, in every way of shading."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import float64
+from accuracy import LEVELS, interior
+from pictures import Pixels, call_data, chain, draw
+from shackled import Camera, Light, Material, Mesh, Object, Scene, load
+from shackled.image import decode_bmp
+
+SIZE = 8
+SUN, LAMP = Light("directional", (0, 0, 1)), Light("point", (300, 200, -600))
+
+#: From just below to just above the brightest colour.
+FACTORS = np.arange(0.99, 1.02, 1 / 4096)
+
+
+def wall(material: Material, lights: list[Light], color: int = 255, tilt: float = 0.0, **look: bool) -> Scene:
+    """Two squares of two triangles, one within the canvas and one behind it beyond all borders, which are drawn by
+    different loops; the higher the farther by `tilt`.
+    """
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, -tilt], [-1, 1, -tilt]])
+    mesh = Mesh(1000 * square, [[0, 1, 2], [0, 2, 3]], [[color] * 3] * 4, [[0, 0, 1]] * 4)
+    near = Object(mesh, (0, 0, -3000), material=material, cull=False, **look)
+    far = replace(near, position=(0, 0, -12000), scale=16.0)
+    return Scene([near, far], Camera(near=1), lights, width=SIZE, height=SIZE)
+
+
+#: What draws a colour that is `level` of 255 where light falls on it at right angles.
+WAYS: dict[str, Callable[[float], Scene]] = {
+    "flat, ambient light only": lambda level: wall(Material("flat", level, 0, 0), [SUN]),
+    "flat, of a grey mesh": lambda level: wall(Material("flat", level * 255 / 200, 0, 0), [SUN], 200),
+    "flat": lambda level: wall(Material("flat", 0.3 * level, 0.7 * level, 0), [SUN]),
+    "flat, tilted": lambda level: wall(Material("flat", level, 0.1, 0), [SUN], tilt=2),
+    "flat, with a highlight": lambda level: wall(Material("flat", 0.5 * level, 0, 0.5 * level, 2), [SUN]),
+    "flat, point light": lambda level: wall(Material("flat", 0.6 * level, 0.6, 0), [LAMP]),
+    "flat, point light and highlight": lambda level: wall(Material("flat", 0.5 * level, 0.5, 0.2), [LAMP], tilt=1),
+    "smooth": lambda level: wall(Material("smooth", 0.3 * level, 0.7 * level, 0), [SUN]),
+    "smooth, point light": lambda level: wall(Material("smooth", 0.6 * level, 0.6, 0.3), [LAMP]),
+    "smooth, two lights": lambda level: wall(Material("smooth", 0.5 * level, 0.4, 0.1), [SUN, LAMP], tilt=1),
+    "smooth, no light": lambda level: wall(Material("smooth", level, 0, 0), []),
+    "wires": lambda level: wall(Material("flat", level, 0, 0), [SUN], wireframe=True),
+    "wires, tilted": lambda level: wall(Material("flat", 0.9 * level, 0.1, 0.1), [SUN], tilt=1, wireframe=True),
+    "wires, smooth": lambda level: wall(Material("smooth", 0.6 * level, 0.5, 0.1), [LAMP], wireframe=True),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_more_light_is_never_darker(way: str) -> None:
+    before: Pixels = np.zeros((SIZE, SIZE, 3), np.uint8)
+    for factor in FACTORS:
+        pixels = draw(WAYS[way](float(factor)))
+        assert (pixels >= before).all(), f"{factor}: {pixels[pixels < before]} after {before[pixels < before]}"
+        before = pixels
+    assert before.max() == 255
+
+
+def test_brightest_vertex_colors() -> None:
+    """Without light colours do not rise above 255, but interpolation must not take them there."""
+    scene = wall(Material("unlit"), [])
+    before: Pixels = np.zeros((SIZE, SIZE, 3), np.uint8)
+    for level in range(250, 256):
+        colors = [[level] * 3, [255] * 3, [level, 255, level], [255, level, level]]
+        objects = [replace(o, mesh=replace(o.mesh, colors=colors)) for o in scene.objects]
+        pixels = draw(replace(scene, objects=objects))
+        assert (pixels >= before).all()
+        before = pixels
+    assert (before == 255).all()
+
+
+def test_a_piece_of_genesis_whose_green_was_lost() -> None:
+    """Its channel is lit to between 255.5 and 256 there."""
+    scene = load("genesis/63")
+    pixels = decode_bmp(chain().draw(scene).bmp, scene.width, scene.height)
+    assert pixels[35, 80].tolist() == [215, 255, 69]
+
+
+@pytest.mark.parametrize("far", [1500, 6000, 60000])
+@pytest.mark.parametrize("lights", [1, 2, 4])
+def test_overexposed_faces(lights: int, far: int) -> None:
+    """Up to twenty times the brightest colour, and highlights above it."""
+    corners = [[-3000, -1000, -900], [3000, -1000, -900], [3000, 1000, -far], [-3000, 1000, -far]]
+    colors = [[255, 255, 255], [200, 0, 255], [255, 255, 255], [0, 255, 9]]
+    suns = [Light("directional", (0, 0.3 * i, 1)) for i in range(lights)]
+    for specular in (0.0, 0.5):
+        thing = Object(
+            Mesh(corners, [[0, 1, 2], [0, 2, 3]], colors), material=Material("flat", 4, 4, specular, 20), cull=False
+        )
+        scene = Scene([thing], Camera(near=1), suns, width=48, height=48)
+        expected = float64.render_call(call_data("render", scene))
+        error = np.abs(draw(scene).astype(int) - expected.pixels).max(axis=2)[interior(expected)]
+        assert len(error) > 100
+        assert error.max() <= LEVELS
