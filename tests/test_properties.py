@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -32,7 +32,8 @@ SIZE = 48
 SCALE_STEP = 2520 / 2**16
 FACTORS = (2, 3, 5, 7, 9, 10)
 
-EACH = settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+#: Examples are not made smaller: it takes minutes, and the first one says enough.
+EACH = settings(max_examples=60, deadline=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
 
 
 # ---- scenes, in numbers that the contracts take as they are ----

@@ -1,7 +1,7 @@
 """Which triangles a pixel may show: for every pixel, from the edges and depths of all triangles, in float64.
 
-A pixel may show a triangle that reaches to within TOLERANCE pixels of its centre, if no triangle that certainly covers
-it is nearer; depths count as equal if a shift by TOLERANCE of either surface makes them so.
+It may show any that comes to within TOLERANCE pixels of its centre, unless others are nearer everywhere around there.
+Depths count as equal if a shift by TOLERANCE of either surface makes them so.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ from .world import Array, World
 TOLERANCE = 0.04
 #: Depths that differ by less than this part of them are equal to a depth buffer of 32-bit floats.
 SAME_DEPTH = 2.0**-21
+#: The middle of a circle, and eight places on it.
+AROUND = np.array([(0.0, 0.0), *((np.cos(t), np.sin(t)) for t in np.arange(8) * np.pi / 4)])
 
 
 @dataclass(frozen=True)
@@ -39,16 +41,20 @@ class Judge:
         depth = planes @ [*center, 1.0]
         thin = _thickness(outlines) <= TOLERANCE
         # what is seen from its edge may have any depth
-        shift = TOLERANCE * np.linalg.norm(planes[:, :2], axis=1) + SAME_DEPTH * np.abs(depth)
+        shift = TOLERANCE * np.linalg.norm(planes[:, :2], axis=1)
         shift[thin] = np.inf
-        certain = inside & (distance > TOLERANCE) & ~culled
+        inside, distance = _position(outlines, center)
         # and rounding can turn it round
         possible = (inside | (distance <= TOLERANCE)) & (~culled | thin)
-        if certain.any():
-            nearest = (depth[certain] - shift[certain]).max()
-            possible &= depth + shift >= nearest
+        farthest = np.inf
+        for point in center + TOLERANCE * AROUND:
+            depth = planes @ [*point, 1.0]
+            depth -= shift + SAME_DEPTH * np.abs(depth)
+            farthest = min(farthest, depth[_position(outlines, point)[0] & ~culled].max(initial=-np.inf))
+        depth = planes @ [*center, 1.0]
+        possible &= depth + shift + SAME_DEPTH * np.abs(depth) >= farthest
         numbers = near[possible]
-        return numbers if certain.any() else np.append(numbers, -1)
+        return numbers if farthest > -np.inf else np.append(numbers, -1)
 
 
 def judge(world: World) -> Judge:
