@@ -62,15 +62,16 @@ def judge(world: World) -> Judge:
     corners = world.corners
     outlines = np.full((len(corners), 4, 2), np.nan)
     cut = (-corners[..., 2] < world.near).any(axis=1)
-    outlines[~cut] = _project(world, corners[~cut][:, [0, 1, 2, 2]])
+    outlines[~cut] = project(world, corners[~cut][:, [0, 1, 2, 2]])
     for number in np.flatnonzero(cut):
         polygon = _clip(corners[number], world.near)
         if len(polygon):
-            outlines[number] = _project(world, np.array([*polygon, polygon[-1]])[:4])
+            outlines[number] = project(world, np.array([*polygon, polygon[-1]])[:4])
     return Judge(outlines, _planes(world, corners), world.culled & (_area(outlines) >= 0))
 
 
-def _project(world: World, points: Array) -> Array:
+def project(world: World, points: Array) -> Array:
+    """Columns and rows of (..., 3) points."""
     divisor = -points[..., 2] if world.perspective else 1.0
     column = world.width / 2 + world.focal * points[..., 0] / divisor
     row = world.height / 2 - world.focal * points[..., 1] / divisor
