@@ -11,7 +11,7 @@ import float64
 from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, shared_scenes
 from pictures import call_data, draw, shared_scene
 from random_scenes import Kind, random_case
-from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
 
 SHARED, MADE = shared_scenes(), made_scenes()
 
@@ -30,6 +30,13 @@ def test_scenes_made_by_hand(name: str) -> None:
 @pytest.mark.parametrize("name", SHARED)
 def test_shared_scenes(name: str) -> None:
     check(measure(SHARED[name]()))
+
+
+def test_faces_that_a_lamp_and_the_eye_meet_at_small_angles() -> None:
+    """The walls of the box, along which a pixel is a long way."""
+    accuracy = measure(load("cornell-box"))
+    check(accuracy)
+    assert accuracy.worst <= LEVELS
 
 
 def test_that_there_are_shared_scenes() -> None:

@@ -105,7 +105,6 @@ library Lighting {
             uint256 strength = material.shininess * uint256(material.specular.raw());
             bool point;
             for (uint256 i; i != lights.length; ++i) if (lights[i].kind == POINT) point = true;
-            store(HAS_POINT_LIGHT, point ? 1 : 0);
             if (point) strength += 2 * uint256(material.diffuse.raw());
             strength *= lights.length;
             if (view_.orthographic) store(REACH, point ? 0 : 1 << 60);
@@ -208,7 +207,6 @@ library Lighting {
         unchecked {
             uint256 length = sqrt(setFaceNormal(face));
             mode = load(OBJECT_MODE);
-            store(FACE_REACH, load(REACH));
             uint256 light = load(AMBIENT);
             uint256 end = load(LIGHTS_END);
             for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
@@ -259,12 +257,30 @@ library Lighting {
             int256 lambert = loadSigned(FACE_NORMAL_X) * x + loadSigned(FACE_NORMAL_Y) * y + loadSigned(FACE_NORMAL_Z) * z;
             lambert = length == 0 ? int256(0) : ((lambert * loadSigned(SCALE)) >> 32) / int256(length);
             storeSigned(record + LIGHT_FACING, lambert);
-            if (lambert <= 0) return 0;
-            // the light turns as well, by as much as V where it is as near as the eye
-            uint256 total = uint256(lambert) + load(FACE_DISTANCE);
-            uint256 reach = load(REACH) * uint256(lambert) / total * uint256(lambert) / total;
-            if (reach < load(FACE_REACH)) store(FACE_REACH, reach);
-            return IS_LIT | IS_DIFFUSE;
+            return lambert > 0 ? IS_LIT | IS_DIFFUSE : 0;
+        }
+    }
+
+    /// @notice REACH for the face, on which point lights shine.
+    /// @dev Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the front; where
+    /// the face is seen at an angle, by more, since a pixel is a longer way on it.
+    /// @param farthest The depth of its farthest vertex.
+    function pointReach(uint256 farthest) internal pure returns (uint256) {
+        unchecked {
+            // of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
+            uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
+            uint256 height = type(uint256).max;
+            uint256 end = load(LIGHTS_END);
+            for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
+                uint256 facing = load(record + LIGHT_FACING);
+                if (load(record + LIGHT_IS_POINT) != 0 && int256(facing) > 0 && facing < height) height = facing;
+            }
+            int256 plane = loadSigned(FACE_FACING_SLOPE) * loadSigned(DEPTH_SCALE);
+            uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 151;
+            // the cosine of the angle at the vertex is about eyeHeight / distance, and larger elsewhere: take a third more
+            eyeHeight = 4 * eyeHeight / 3;
+            if (eyeHeight < distance) height = height * eyeHeight / distance;
+            return load(REACH) * height / (height + distance) * height / (height + distance);
         }
     }
 

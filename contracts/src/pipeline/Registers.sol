@@ -7,7 +7,7 @@ pragma solidity 0.8.37;
 /// @dev The compiler keeps variables that do not fit the stack between 0x80 and the first free address; `reserveRegisters` checks
 /// that this is below the registers.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x21c0;
+uint256 constant REGISTERS_END = 0x2160;
 
 error RegistersOverlap();
 
@@ -144,32 +144,30 @@ uint256 constant SCALE = 0x1160;
 uint256 constant SCALE_PER_NEAR = 0x1180;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
 uint256 constant AMBIENT = 0x11a0;
-/// @dev 1 if there is a point light.
-uint256 constant HAS_POINT_LIGHT = 0x11c0;
 /// @dev Where the table of the highlight begins, cos^2 in Q24, and its entries per unit of it, Q16.
-uint256 constant SPECULAR_BEGIN = 0x11e0;
-uint256 constant SPECULAR_SCALE = 0x1200;
+uint256 constant SPECULAR_BEGIN = 0x11c0;
+uint256 constant SPECULAR_SCALE = 0x11e0;
 /// @dev The specular coefficient, Q16, if the shininess is 1, else 0.
-uint256 constant SPECULAR_ROOT = 0x1220;
+uint256 constant SPECULAR_ROOT = 0x1200;
 /// @dev 65 entries: value of the highlight in the upper half, increase to the next entry in the lower, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1240;
+uint256 constant SPECULAR_TABLE = 0x1220;
 /// @dev The square of the distance, in sub-pixels, over which light is as good as linear; and over which the ray turns by a quarter of
 /// its length; and the square of how much half vectors may differ, Q40.
-uint256 constant REACH = 0x1a60;
-uint256 constant VARYING_REACH = 0x1a80;
-uint256 constant HALF_REACH = 0x1aa0;
+uint256 constant REACH = 0x1a40;
+uint256 constant VARYING_REACH = 0x1a60;
+uint256 constant HALF_REACH = 0x1a80;
 /// @dev Calldata offsets and format of the mesh: see Mesh.
-uint256 constant MESH_VERTICES = 0x1ac0;
-uint256 constant MESH_FACES = 0x1ae0;
-uint256 constant MESH_STRIDE = 0x1b00;
-uint256 constant MESH_BITS = 0x1b20;
+uint256 constant MESH_VERTICES = 0x1aa0;
+uint256 constant MESH_FACES = 0x1ac0;
+uint256 constant MESH_STRIDE = 0x1ae0;
+uint256 constant MESH_BITS = 0x1b00;
 /// @dev The bits of MODE that all faces of the object share.
-uint256 constant OBJECT_MODE = 0x1b40;
+uint256 constant OBJECT_MODE = 0x1b20;
 
 // ---------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev How fragments are shaded, a sum of the following; 0 for the plain loop.
-uint256 constant MODE = 0x1b60;
+uint256 constant MODE = 0x1b40;
 /// @dev The accumulator holds the lit colour itself, and it may be above 255.
 uint256 constant IS_LINEAR = 1;
 /// @dev Light is added for each fragment.
@@ -195,72 +193,69 @@ uint256 constant IS_STEEP = 0x800;
 /// @dev All light is grey.
 uint256 constant IS_GREY = 0x1000;
 /// @dev Attribute words of the three vertices, and the bias of their lanes.
-uint256 constant ATTRIBUTE_0 = 0x1b80;
-uint256 constant ATTRIBUTE_1 = 0x1ba0;
-uint256 constant ATTRIBUTE_2 = 0x1bc0;
-uint256 constant LANE_BIAS = 0x1be0;
+uint256 constant ATTRIBUTE_0 = 0x1b60;
+uint256 constant ATTRIBUTE_1 = 0x1b80;
+uint256 constant ATTRIBUTE_2 = 0x1ba0;
+uint256 constant LANE_BIAS = 0x1bc0;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x1c00;
-uint256 constant DX = 0x1c20;
-uint256 constant DY = 0x1c40;
+uint256 constant START = 0x1be0;
+uint256 constant DX = 0x1c00;
+uint256 constant DY = 0x1c20;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x1c60;
-uint256 constant COLOR_1 = 0x1c80;
-uint256 constant COLOR_2 = 0x1ca0;
+uint256 constant COLOR_0 = 0x1c40;
+uint256 constant COLOR_1 = 0x1c60;
+uint256 constant COLOR_2 = 0x1c80;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x1cc0;
-uint256 constant DEPTH_2 = 0x1ce0;
+uint256 constant DEPTH_1 = 0x1ca0;
+uint256 constant DEPTH_2 = 0x1cc0;
 /// @dev Pixels from one exact colour to the next.
-uint256 constant BLOCK = 0x1d00;
+uint256 constant BLOCK = 0x1ce0;
 /// @dev Normal (twice the area long, in units of the mesh) and first corner (Q32) of a flat face.
-uint256 constant FACE_NORMAL_X = 0x1d20;
-uint256 constant FACE_NORMAL_Y = 0x1d40;
-uint256 constant FACE_NORMAL_Z = 0x1d60;
-uint256 constant FACE_CORNER_X = 0x1d80;
-uint256 constant FACE_CORNER_Y = 0x1da0;
-uint256 constant FACE_CORNER_Z = 0x1dc0;
-/// @dev The distance of the farthest vertex, Q16, and REACH for this face.
-uint256 constant FACE_DISTANCE = 0x1de0;
-uint256 constant FACE_REACH = 0x1e00;
+uint256 constant FACE_NORMAL_X = 0x1d00;
+uint256 constant FACE_NORMAL_Y = 0x1d20;
+uint256 constant FACE_NORMAL_Z = 0x1d40;
+uint256 constant FACE_CORNER_X = 0x1d60;
+uint256 constant FACE_CORNER_Y = 0x1d80;
+uint256 constant FACE_CORNER_Z = 0x1da0;
 /// @dev Light that does not depend on the fragment, lanes of Q16, and of Q40.
-uint256 constant FACE_LIGHT = 0x1e20;
-uint256 constant FACE_LIGHT_40 = 0x1e40;
+uint256 constant FACE_LIGHT = 0x1dc0;
+uint256 constant FACE_LIGHT_40 = 0x1de0;
 /// @dev Unit normal times ray, Q48: FACE_FACING + FACE_FACING_SLOPE * depth >> 95.
-uint256 constant FACE_FACING = 0x1e60;
-uint256 constant FACE_FACING_SLOPE = 0x1e80;
+uint256 constant FACE_FACING = 0x1e00;
+uint256 constant FACE_FACING_SLOPE = 0x1e20;
 /// @dev Vectors of a smooth triangle: at the first vertex (Q36), and the differences to the others (Q20); see FragmentShader.setVaryings.
 /// Normals, and normals with their lanes the other way round;
-uint256 constant NORMALS_0 = 0x1ea0;
-uint256 constant NORMALS_1 = 0x1ec0;
-uint256 constant NORMALS_2 = 0x1ee0;
-uint256 constant REVERSED_0 = 0x1f00;
-uint256 constant REVERSED_1 = 0x1f20;
-uint256 constant REVERSED_2 = 0x1f40;
+uint256 constant NORMALS_0 = 0x1e40;
+uint256 constant NORMALS_1 = 0x1e60;
+uint256 constant NORMALS_2 = 0x1e80;
+uint256 constant REVERSED_0 = 0x1ea0;
+uint256 constant REVERSED_1 = 0x1ec0;
+uint256 constant REVERSED_2 = 0x1ee0;
 /// @dev directions to the light, the other way round;
-uint256 constant TO_LIGHT_0 = 0x1f60;
-uint256 constant TO_LIGHT_1 = 0x1f80;
-uint256 constant TO_LIGHT_2 = 0x1fa0;
+uint256 constant TO_LIGHT_0 = 0x1f00;
+uint256 constant TO_LIGHT_1 = 0x1f20;
+uint256 constant TO_LIGHT_2 = 0x1f40;
 /// @dev half vectors, and those the other way round.
-uint256 constant HALF_0 = 0x1fc0;
-uint256 constant HALF_1 = 0x1fe0;
-uint256 constant HALF_2 = 0x2000;
-uint256 constant HALF_REVERSED_0 = 0x2020;
-uint256 constant HALF_REVERSED_1 = 0x2040;
-uint256 constant HALF_REVERSED_2 = 0x2060;
+uint256 constant HALF_0 = 0x1f60;
+uint256 constant HALF_1 = 0x1f80;
+uint256 constant HALF_2 = 0x1fa0;
+uint256 constant HALF_REVERSED_0 = 0x1fc0;
+uint256 constant HALF_REVERSED_1 = 0x1fe0;
+uint256 constant HALF_REVERSED_2 = 0x2000;
 
 // ---------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x2080;
-uint256 constant FRAGMENT_PLACE_Y = 0x20a0;
+uint256 constant FRAGMENT_PLACE_X = 0x2020;
+uint256 constant FRAGMENT_PLACE_Y = 0x2040;
 /// @dev Its normal, Q24, the square and the length of that, and its product with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x20c0;
-uint256 constant FRAGMENT_NORMAL_Y = 0x20e0;
-uint256 constant FRAGMENT_NORMAL_Z = 0x2100;
-uint256 constant FRAGMENT_SQUARE = 0x2120;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x2140;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x2160;
+uint256 constant FRAGMENT_NORMAL_X = 0x2060;
+uint256 constant FRAGMENT_NORMAL_Y = 0x2080;
+uint256 constant FRAGMENT_NORMAL_Z = 0x20a0;
+uint256 constant FRAGMENT_SQUARE = 0x20c0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x20e0;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x2100;
 /// @dev Half the magnitude of the last square of a normal.
-uint256 constant NORMAL_HINT = 0x2180;
+uint256 constant NORMAL_HINT = 0x2120;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x21a0;
+uint256 constant FRAGMENT_LIGHT = 0x2140;

@@ -42,7 +42,6 @@ library Shading {
             }
             uint256 mode = load(OBJECT_MODE);
             if (mode & IS_FLAT != 0) {
-                if (load(HAS_POINT_LIGHT) != 0) store(FACE_DISTANCE, (load(DEPTH_SCALE) >> 16) / (1 + (min(attributesA, min(attributesB, attributesC)) >> 168)));
                 mode = Lighting.setFace((word >> 128) & 0xffff);
                 if (mode & IS_DIFFUSE == 0 && load(FACE_LIGHT) != ONES << 16) {
                     attributesA = lit(attributesA);
@@ -52,7 +51,7 @@ library Shading {
             }
             if (
                 mode & IS_DIFFUSE == 0 && isAffine(attributesA, attributesB, attributesC)
-                    && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(FACE_REACH))
+                    && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(REACH))
             ) {
                 if (mode & IS_LIT != 0) {
                     attributesA = FragmentShader.vertexHighlights(attributesA, a);
@@ -200,7 +199,7 @@ library Shading {
     {
         unchecked {
             uint256 reach = square * farthest / (10 * (nearest - farthest) + 1) * farthest / (nearest + 1);
-            if (mode & IS_LIT != 0) reach = min(reach, 2 * load(FACE_REACH));
+            if (mode & IS_LIT != 0) reach = min(reach, 2 * (mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest)));
             reach = sqrt(reach) >> 8;
             return reach > 16 ? 16 : reach == 0 ? 1 : reach;
         }

@@ -31,8 +31,8 @@ from .words import LANES_24, LANES_32, MASK, ONES, divide, divide_signed, signed
 HALF_LEVEL = 0x200 * ONES
 LINE_BIAS = 0x000002000000000002000000000000020000000000
 
-#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away. It stands above the
-#: brightest that a flat face may have before its highlights, 20 * 255 levels, at three corners.
+#: Keeps colours (Q34) positive, whatever the weights are, by a bit that is looked at and taken away. It stands above
+#: the brightest that a flat face may have before its highlights, 20 * 255 levels, at three corners.
 WEIGHTED_BIAS = ((1 << 48) + (1 << 18)) * ONES
 
 #: Half the range of a lane of 85 bits, for vectors of Q20 and their sums of Q36.

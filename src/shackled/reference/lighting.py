@@ -82,7 +82,6 @@ def set_reach(view: View, lights: tuple[Light, ...], material: Material, registe
     focal = view.focal >> 32
     strength = material.shininess * material.specular
     point = any(light.kind == POINT for light in lights)
-    registers.has_point_light = point
     if point:
         strength += 2 * material.diffuse
     strength *= len(lights)
@@ -181,7 +180,6 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
     r = registers
     length = sqrt(set_face_normal(mesh, face, r))
     mode = r.object_mode
-    r.face_reach = r.reach
     total = r.ambient
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
     for record in r.lights:
@@ -219,14 +217,26 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
     z = record.mesh_z - r.face_corner_z
     lambert = r.face_normal_x * x + r.face_normal_y * y + r.face_normal_z * z
     record.facing = divide_signed(signed(lambert * r.scale) >> 32, length)
-    if record.facing <= 0:
-        return 0
-    # the light turns as well, by as much as V where it is as near as the eye
-    total = record.facing + r.face_distance
-    reach = ((r.reach * record.facing) & MASK) // total
-    reach = ((reach * record.facing) & MASK) // total
-    r.face_reach = min(r.face_reach, reach)
-    return IS_LIT | IS_DIFFUSE
+    return IS_LIT | IS_DIFFUSE if record.facing > 0 else 0
+
+
+def point_reach(farthest: int, registers: Registers) -> int:
+    """The square of the distance, in sub-pixels, over which the light of point lights on the face is as good as linear.
+
+    Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the
+    front; where the face is seen at an angle, by more, since a pixel is a longer way on it. `farthest` is the depth of
+    its farthest vertex.
+    """
+    r = registers
+    # of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
+    distance = (r.depth_scale >> 16) // (farthest + 1) + 1
+    height = min(record.facing for record in r.lights if record.is_point and record.facing > 0)
+    eye_height = abs(r.face_facing_slope * r.depth_scale) >> 151
+    # the cosine of the angle at the vertex is about eye_height / distance, and larger elsewhere: take a third more
+    eye_height = 4 * eye_height // 3
+    if eye_height < distance:
+        height = height * eye_height // distance
+    return r.reach * height // (height + distance) * height // (height + distance)
 
 
 def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:

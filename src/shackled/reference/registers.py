@@ -106,7 +106,6 @@ class Registers:
     specular_root: int = 0
     specular_table: list[int] = field(default_factory=list)
     object_mode: int = 0
-    has_point_light: bool = False
     reach: int = 0
     varying_reach: int = 0
     half_reach: int = 0
@@ -122,8 +121,6 @@ class Registers:
     face_light_40: int = 0
     face_facing: int = 0
     face_facing_slope: int = 0
-    face_reach: int = 0
-    face_distance: int = 0
     face_normal_x: int = 0
     face_normal_y: int = 0
     face_normal_z: int = 0

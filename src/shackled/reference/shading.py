@@ -47,8 +47,6 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     mode = r.object_mode
     crossing = IS_CROSSING if triangle.outside else 0
     if mode & IS_FLAT:
-        if r.has_point_light:
-            r.face_distance = (r.depth_scale >> 16) // (1 + (min(attributes_a, attributes_b, attributes_c) >> 168))
         mode = lighting.set_face(mesh, triangle.face, r)
         if mode & IS_DIFFUSE == 0 and r.face_light != ONES << 16:
             attributes_a = lit(attributes_a, r.face_light)
@@ -57,7 +55,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     if (
         mode & IS_DIFFUSE == 0
         and is_affine(attributes_a, attributes_b, attributes_c)
-        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.face_reach)
+        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.reach)
     ):
         r.lane_bias = COLOR_BIAS
         if mode & IS_LIT:
@@ -171,7 +169,7 @@ def block_size(square: int, mode: int, nearest: int, farthest: int, registers: R
     """
     reach = square * farthest // (10 * (nearest - farthest) + 1) * farthest // (nearest + 1)
     if mode & IS_LIT:
-        reach = min(reach, 2 * registers.face_reach)
+        reach = min(reach, 2 * (lighting.point_reach(farthest, registers) if mode & IS_DIFFUSE else registers.reach))
     return min(max(sqrt(reach) >> 8, 1), 16)
 
 
