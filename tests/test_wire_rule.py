@@ -82,7 +82,7 @@ def wires(corners: Integers, width: int, height: int) -> Places:
 
 def is_flat(corners: Integers) -> bool:
     (x0, y0), (x1, y1), (x2, y2) = corners.tolist()
-    return (x2 - x0) * (y1 - y0) == (x1 - x0) * (y2 - y0)
+    return bool((x2 - x0) * (y1 - y0) == (x1 - x0) * (y2 - y0))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -92,8 +92,8 @@ def test_random_triangles(kind: str) -> None:
     pixels = 0
     for _ in range(60):
         width, height = (int(side) for side in rng.integers(1, 33, 2))
-        corners = np.rint(rng.uniform(low, high, (3, 2)) * [width, height] / step) * (256 * step)
-        corners = corners.astype(np.int64)
+        places = rng.uniform(low, high, (3, 2)) * [width, height]
+        corners = (np.rint(places / step) * (256 * step)).astype(np.int64)
         if is_flat(corners):
             # nothing of it is drawn
             assert not wires(corners, width, height)

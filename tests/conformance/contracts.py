@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,7 +35,7 @@ def picture(scene: Scene) -> Drawing:
     return Drawing(draw(scene), (channels << [16, 8, 0]).sum(axis=2) - 1)
 
 
-def _numbered(objects: Iterator[Object]) -> Iterator[Object]:
+def _numbered(objects: Iterable[Object]) -> Iterator[Object]:
     """The objects with triangles whose colour is their number, counted from 1."""
     count = 0
     for o in objects:

@@ -103,7 +103,8 @@ def _planes(world: World, corners: Array) -> Array:
             x, y, rest = -normal[:, 0] / normal[:, 2], -normal[:, 1] / normal[:, 2], along / normal[:, 2]
         middle = world.focal * rest - x * world.width / 2 + y * world.height / 2
     planes = np.stack([x, -y, middle], axis=1) / world.focal
-    return np.where(np.isfinite(planes).all(axis=1)[:, None], planes, 0.0)
+    planes[~np.isfinite(planes).all(axis=1)] = 0.0
+    return planes
 
 
 def _within(outlines: Array, center: Array) -> NDArray[np.int64]:
@@ -135,4 +136,5 @@ def _area(outlines: Array) -> Array:
 def _thickness(outlines: Array) -> Array:
     """(n,) the least height, or less."""
     longest = np.linalg.norm(np.roll(outlines, -1, axis=1) - outlines, axis=2).max(axis=1)
-    return np.divide(np.abs(_area(outlines)), longest, out=np.zeros_like(longest), where=longest > 0)
+    out: Array = np.divide(np.abs(_area(outlines)), longest, out=np.zeros_like(longest), where=longest > 0)
+    return out

@@ -128,7 +128,7 @@ class Drawing:
 def context() -> moderngl.Context:
     """The context of this process."""
     try:
-        made = moderngl.create_context(standalone=True, backend="egl", require=330)
+        made = moderngl.create_standalone_context(require=330, backend="egl")
     except Exception as error:
         # whatever the loader of the library raises
         raise Unavailable(f"no OpenGL by EGL (`python3 tools/prepare.py opengl` installs Mesa's): {error}") from error
@@ -172,9 +172,9 @@ def draw(world: World) -> Drawing:
         array.render(moderngl.TRIANGLES)
         array.release()
         buffer.release()
-    pixels = np.frombuffer(canvas.read(components=4, dtype="f4"), np.float32).reshape(world.height, world.width, 4)
+    values = np.frombuffer(canvas.read(components=4, dtype="f4"), np.float32).astype(np.float64)
     # the first row is the lowest
-    pixels = pixels[::-1].astype(np.float64)
+    pixels = values.reshape(world.height, world.width, 4)[::-1]
     code = pixels[..., 3].astype(np.int64)
     return Drawing(code // 16 - 1, pixels[..., :3], code % 16)
 

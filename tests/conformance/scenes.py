@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
+from shackled.scene.material import Shading
 from shackled.scene.mesh import vertex_normals
 from shackled.scene.rotation import rotate
 
@@ -18,6 +19,7 @@ Array = NDArray[np.float64]
 Rng = np.random.Generator
 
 SIZES = (128, 512)
+SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
 
 
 def built_in() -> list[Piece]:
@@ -166,12 +168,13 @@ def _normals(rng: Rng, mesh: Mesh) -> Array | None:
 
 
 def _material(rng: Rng) -> Material:
-    shading = rng.choice(["unlit", "flat", "smooth"], p=[0.15, 0.5, 0.35])
+    shading = SHADINGS[rng.choice(3, p=[0.15, 0.5, 0.35])]
     if rng.random() < 0.25:
         return Material(shading, 0.3, 0.75, 0.3, 24)
     most = 4.0 if rng.random() < 0.25 else 1.0
-    coefficients = [float(rng.choice([0.0, 1.0, *rng.uniform(0, most, 4)])) for _ in range(3)]
-    return Material(shading, *coefficients, shininess=int(rng.choice([1, 2, 3, 5, 10, 20, 33, 64, 127, 128])))
+    ambient, diffuse, specular = (float(rng.choice([0.0, 1.0, *rng.uniform(0, most, 4)])) for _ in range(3))
+    shininess = int(rng.choice([1, 2, 3, 5, 10, 20, 33, 64, 127, 128]))
+    return Material(shading, ambient, diffuse, specular, shininess)
 
 
 # ---- camera and lights ----

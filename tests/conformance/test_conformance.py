@@ -129,6 +129,6 @@ def test_without_opengl_there_is_a_message(monkeypatch: pytest.MonkeyPatch) -> N
     def refuse(**_: object) -> None:
         raise InputError("libEGL.so not loaded")
 
-    monkeypatch.setattr(opengl.moderngl, "create_context", refuse)
+    monkeypatch.setattr("moderngl.create_standalone_context", refuse)
     with pytest.raises(opengl.Unavailable, match=r"prepare\.py opengl.*libEGL"):
         opengl.context.__wrapped__()
