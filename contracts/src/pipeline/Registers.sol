@@ -7,7 +7,7 @@ pragma solidity 0.8.37;
 /// @dev The compiler keeps variables that do not fit the stack between 0x80 and the first free address; `reserveRegisters` checks
 /// that this is below the registers.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x2160;
+uint256 constant REGISTERS_END = 0x2180;
 
 error RegistersOverlap();
 
@@ -259,3 +259,5 @@ uint256 constant FRAGMENT_NORMAL_RAY = 0x2100;
 uint256 constant NORMAL_HINT = 0x2120;
 /// @dev The light that modulates its colour, lanes of Q40.
 uint256 constant FRAGMENT_LIGHT = 0x2140;
+/// @dev The first column of the block in which the tile begins.
+uint256 constant BLOCK_BEGIN = 0x2160;

@@ -118,6 +118,7 @@ library Shading {
                 if (mode & IS_SMOOTH == 0) {
                     uint256 size = blockSize(squareHeight(a, b, c), mode, nearest, farthest);
                     store(BLOCK, size);
+                    store(BLOCK_BEGIN, load(COLUMN_BEGIN) / size * size);
                     if (size > 1) mode |= IS_BLOCKED;
                 }
             }
