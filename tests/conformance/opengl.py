@@ -128,7 +128,8 @@ class Drawing:
 def context() -> moderngl.Context:
     """The context of this process."""
     try:
-        made = moderngl.create_standalone_context(require=330, backend="egl")
+        # the stubs of moderngl take this for all of the settings
+        made = moderngl.create_standalone_context(require=330, backend="egl")  # type: ignore[arg-type]
     except Exception as error:
         # whatever the loader of the library raises
         raise Unavailable(f"no OpenGL by EGL (`python3 tools/prepare.py opengl` installs Mesa's): {error}") from error
