@@ -196,6 +196,23 @@ def test_more_light_is_never_darker(scene: Scene, data: st.DataObject) -> None:
 
 
 @EACH
+@given(scenes(), st.sampled_from([3, 4, 0, 1, 2, 5, 8, 100]), st.integers(0, 2))
+def test_white_in_full_light_is_white(scene: Scene, more: int, most_lights: int) -> None:
+    """Whatever shines on it besides, and however little above 255 its light is."""
+    other = replace(
+        changed(
+            scene,
+            mesh=lambda o: replace(o.mesh, colors=np.full_like(np.asarray(o.mesh.colors), 255)),
+            material=lambda o: replace(o.material, ambient=1 + more / 1024),
+        ),
+        ambient_light=(255, 255, 255),
+        lights=scene.lights[:most_lights],
+    )
+    drawn = contracts.picture(other)
+    assert (drawn.pixels[drawn.triangle >= 0] >= 254).all()
+
+
+@EACH
 @given(scenes(), st.sampled_from(FACTORS))
 def test_a_mesh_times_a_factor_with_its_scale_over_it(scene: Scene, factor: int) -> None:
     other = changed(

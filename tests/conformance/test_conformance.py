@@ -20,7 +20,7 @@ from .scenes import SIZES, built_in, built_in_scene, random_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
-SEEDS = range(1, 31)
+SEEDS = range(200, 230)
 PIECES = ("teapot", "cornell-box", "icons/ethereum", "icons/shackle", "genesis/5", "genesis/63", "genesis/100")
 
 
