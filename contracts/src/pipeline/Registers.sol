@@ -192,6 +192,8 @@ uint256 constant IS_VARYING = 0x400;
 uint256 constant IS_STEEP = 0x800;
 /// @dev All light is grey.
 uint256 constant IS_GREY = 0x1000;
+/// @dev Depths differ by more than a factor of 2^12, and are interpolated by themselves.
+uint256 constant IS_DEEP = 0x2000;
 /// @dev Attribute words of the three vertices, and the bias of their lanes.
 uint256 constant ATTRIBUTE_0 = 0x1b60;
 uint256 constant ATTRIBUTE_1 = 0x1b80;

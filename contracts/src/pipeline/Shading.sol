@@ -114,6 +114,7 @@ library Shading {
             } else {
                 mode |= IS_BARYCENTRIC;
                 if (nearest >= 64 * farthest) mode |= IS_STEEP;
+                if (nearest >= farthest << 12) mode |= IS_DEEP;
                 color = (color << 24) + WEIGHTED_BIAS;
                 if (mode & IS_SMOOTH == 0) {
                     uint256 size = blockSize(squareHeight(a, b, c), mode, nearest, farthest);
