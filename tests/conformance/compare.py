@@ -20,6 +20,8 @@ Triangles = NDArray[np.int64]
 MOST, MANY = 8.0, 4.0
 #: The share of the pixels that may be off by more than MANY: of all of a run, and of those of a built-in piece.
 SHARE_OF_RUN, SHARE_OF_PIECE = 1 / 10_000, 1 / 200
+#: Fewer scenes are no run.
+LEAST_RUN = 20
 #: The mean error over a run, and over the pixels of a scene.
 MEAN_OF_RUN, MEAN_OF_SCENE = 0.35, 0.6
 
@@ -65,6 +67,8 @@ class Result:
     def faults_of_run(self) -> list[str]:
         """What is out of bounds, in any scene or in all of them together."""
         found = list(self.faults)
+        if self.scenes < LEAST_RUN:
+            return found
         if self.many > SHARE_OF_RUN * self.interior:
             found.append(f"{self.many} of {self.interior} pixels are off by more than {MANY:g} levels")
         if self.mean > MEAN_OF_RUN:

@@ -23,9 +23,8 @@ SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
 
 
 def built_in() -> list[Piece]:
-    """All pieces that nothing has to be fetched for and that are not of wires alone."""
-    ready = [piece for piece in pieces() if piece.ready()]
-    return [piece for piece in ready if not all(o.wireframe for o in piece.make().objects)]
+    """All pieces that nothing has to be fetched for."""
+    return [piece for piece in pieces() if piece.ready()]
 
 
 def built_in_scene(name: str, size: int) -> Scene:

@@ -20,7 +20,7 @@ from .scenes import SIZES, built_in, built_in_scene, random_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
-SEEDS = range(200, 230)
+SEEDS = range(200, 280)
 PIECES = ("teapot", "cornell-box", "icons/ethereum", "icons/shackle", "genesis/5", "genesis/63", "genesis/100")
 
 
@@ -36,7 +36,7 @@ def test_random_scenes() -> None:
     whole = sum((compare(f"random scene {seed}", random_scene(seed)) for seed in SEEDS), Result())
     assert whole.faults_of_run() == []
     assert whole.interior > 200_000
-    assert whole.empty < len(SEEDS) / 10
+    assert whole.empty < len(SEEDS) / 5
 
 
 @pytest.mark.parametrize("name", PIECES)
@@ -49,7 +49,7 @@ def test_every_dataset_is_compared() -> None:
     counts = [sum(piece.dataset == dataset for piece in built_in()) for dataset in ("common", "icons", "genesis")]
     assert counts[0] >= 20
     assert counts[1] >= 28
-    assert counts[2] > 950
+    assert counts[2] == 1024
 
 
 @pytest.mark.parametrize("scene", [teapot_scene(4), flat(teapot_scene(3, 1))], ids=["smooth", "flat"])
