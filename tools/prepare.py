@@ -27,8 +27,10 @@ CONTRACTS = ROOT / "contracts"
 
 #: Names of the browser that the tests of the page drive.
 BROWSERS = ("chromium", "chromium-browser")
-#: What is loaded for an OpenGL without a screen, and the packages that hold it and Mesa's software renderer.
-OPENGL = ("EGL", "GL")
+#: What is there where OpenGL runs without a screen: libraries, Mesa for them, its software renderer (in older and newer
+#: versions); and the packages that hold all that.
+OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
+OPENGL_RENDERERS = ("dri/swrast_dri.so", "libgallium-*.so")
 OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
 
 OLDEST_PYTHON = (3, 11)
@@ -107,7 +109,9 @@ def prepare_browser() -> None:
 
 def prepare_opengl() -> None:
     """OpenGL by EGL, as packages of the system. Without it, all tests but those against OpenGL can be run."""
-    if all(map(find_library, OPENGL)) and list(Path("/usr/share/glvnd/egl_vendor.d").glob("*")):
+    folders = (*Path("/usr").glob("lib*"), *Path("/usr/lib").glob("*-linux-gnu"))
+    has_renderer = any(list(folder.glob(name)) for folder in folders for name in OPENGL_RENDERERS)
+    if has_renderer and all(map(find_library, OPENGL_LIBRARIES)):
         return
     try:
         apt_install("an OpenGL to compare pictures with", *OPENGL_PACKAGES)

@@ -7,6 +7,7 @@ import "./Registers.sol";
 // From fragments to pixels: depth test, perspective-correct attributes, Blinn-Phong. The colour of a fragment depends on its
 // triangle and its place only, never on what was drawn before or on the tile, so that tiles equal the whole picture.
 
+// A literal of 40 hexadecimal digits would be an address, hence the zeros in front of some.
 uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
 uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;

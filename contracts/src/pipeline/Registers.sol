@@ -166,11 +166,12 @@ uint256 constant OBJECT_MODE = 0x1b20;
 
 // ---------------------------------------------------------------------------------------------------------------- triangle
 
-/// @dev How fragments are shaded, a sum of the following; 0 for the plain loop.
+/// @dev How fragments are shaded, a sum of the following; 0 for the plain loop. The code moves some of these bits by shifts: HAS_SPECULAR
+/// is four times IS_LIT, 0x240 is IS_BLOCKED | IS_BARYCENTRIC, and IS_CROSSING stands 139 bits below bit 147 of a triangle.
 uint256 constant MODE = 0x1b40;
 /// @dev The accumulator holds the lit colour itself, and it may be above 255.
 uint256 constant IS_LINEAR = 1;
-/// @dev Light is added for each fragment.
+/// @dev Light is added for each fragment. There is at least one light then, on which the loops over lights rely: they ask at their end.
 uint256 constant IS_LIT = 2;
 /// @dev More than highlights.
 uint256 constant IS_DIFFUSE = 4;
