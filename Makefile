@@ -10,7 +10,7 @@ NODE := contracts/node_modules/.package-lock.json
 
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help browser demo creator test lint types contracts docs unit build gas bench paper fuzz pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts docs unit build gas bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -31,6 +31,9 @@ $(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
 
 browser:
 	@$(PYTHON) tools/prepare.py browser
+
+opengl:
+	@$(PYTHON) tools/prepare.py opengl
 
 # ---- a picture ----
 
@@ -61,7 +64,7 @@ contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sou
 docs: $(DEV) ## the documentation, in site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 
-unit: $(DEV) $(NODE) browser ## the tests, the gas snapshot among them
+unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal
 
 # ---- what is made and kept in the repository ----
@@ -92,7 +95,10 @@ pictures: $(DEV) ## draw the pictures of the documentation
 
 fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
 	$(BIN)/python tests/differential.py --count 2000
-	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
+
+conformance: $(DEV) opengl ## contracts against OpenGL over 500 random scenes and every built-in piece
+	$(BIN)/python tests/conformance
 
 clean: ## remove what was made here, but for the repository
 	rm -rf $(VENV) contracts/node_modules build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

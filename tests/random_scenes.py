@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conformance.coverage import project
+from conformance.world import before_camera
 from shackled.scene.background import Background
 from shackled.scene.camera import Camera
 from shackled.scene.codec import Rectangle
@@ -15,6 +17,7 @@ from shackled.scene.light import Light
 from shackled.scene.material import Material, Shading
 from shackled.scene.mesh import Mesh, vertex_normals
 from shackled.scene.object import Object
+from shackled.scene.rotation import rotate
 from shackled.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -34,25 +37,63 @@ class Case:
     tile: Rectangle
 
 
+#: How often a scene is taken as it comes, whether or not anything is seen; and how many are tried otherwise.
+AS_IT_COMES = 0.02
+TRIALS = 60
+
+
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
-    """The case of one seed."""
+    """The case of one seed. Something is seen in nearly all."""
     rng = np.random.default_rng(seed)
     kind = kinds[rng.integers(len(kinds))]
+    trials = 1 if rng.random() < AS_IT_COMES else TRIALS
+    scenes = (_scene(rng, kind) for _ in range(trials))
+    scene = next((each for each in scenes if is_anything_seen(each)), None) or _scene(rng, kind)
+    x, y = int(rng.integers(scene.width)), int(rng.integers(scene.height))
+    tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
+    return Case(scene, tile)
+
+
+def _scene(rng: Rng, kind: Kind) -> Scene:
     width, height = _canvas(rng)
     objects = [_object(rng, kind) for _ in range(rng.choice([0, 1, 2, 3], p=[0.02, 0.68, 0.2, 0.1]))]
-    scene = Scene(
+    return Scene(
         objects=objects,
         camera=_camera(rng, kind, objects),
-        lights=[_light(rng, kind) for _ in range(rng.choice(5, p=[0.1, 0.5, 0.2, 0.1, 0.1]))],
+        lights=[_light(rng, kind, objects) for _ in range(rng.choice(5, p=[0.1, 0.5, 0.2, 0.1, 0.1]))],
         background=Background(_color(rng), _color(rng) if rng.random() < 0.5 else None),
         ambient_light=(255, 255, 255) if rng.random() < 0.5 else _color(rng),
         invert=bool(rng.random() < 0.2),
         width=width,
         height=height,
     )
-    x, y = int(rng.integers(width)), int(rng.integers(height))
-    tile = Rectangle(x, y, int(rng.integers(1, width - x + 1)), int(rng.integers(1, height - y + 1)))
-    return Case(scene, tile)
+
+
+#: Weights of the corners of a triangle: its middle, and places near corners and edges.
+PLACES = ((1, 1, 1), (8, 1, 1), (1, 8, 1), (1, 1, 8), (8, 8, 1), (8, 1, 8), (1, 8, 8))
+
+
+def is_anything_seen(scene: Scene) -> bool:
+    """Whether the ray through the centre of one of a few pixels meets the triangle on which that pixel was chosen."""
+    world = before_camera(replace(scene, objects=[replace(o, wireframe=False) for o in scene.objects]))
+    corners = world.corners
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    with np.errstate(all="ignore"):
+        for weights in PLACES:
+            point = np.einsum("nij,i->nj", corners, np.array(weights) / sum(weights))
+            pixel = np.floor(project(world, point))
+            on_canvas = ((pixel >= 0) & (pixel < [world.width, world.height])).all(axis=1)
+            plane = (pixel + 0.5 - np.array([world.width, world.height]) / 2) * [1, -1] / world.focal
+            way = np.column_stack([plane * world.perspective, np.full(len(plane), -1.0)])
+            start = np.column_stack([plane * (not world.perspective), np.zeros(len(plane))])
+            slope = (way * normals).sum(axis=1)
+            distance = ((corners[:, 0] - start) * normals).sum(axis=1) / slope
+            hit = (start + distance[:, None] * way)[:, None] - corners
+            turns = (np.cross(np.roll(corners, -1, axis=1) - corners, hit) * normals[:, None]).sum(axis=2)
+            met = (turns > 0).all(axis=1) & (distance >= world.near) & ((slope < 0) | ~world.culled)
+            if (on_canvas & met).any():
+                return True
+    return False
 
 
 #: Words on both sides of the bounds of the contract.
@@ -113,6 +154,9 @@ def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
         distance = size * rng.uniform(0, 3)
     else:
         distance = size * 2.0 ** rng.uniform(-4, 4)
+    far = rng.random() < 0.1
+    if far:
+        distance = min(size * 2.0 ** rng.uniform(4, 12), 2.0**25)
     if rng.random() < 0.3:
         # the numbers of an ordinary scene, with all their zeros
         eye, target, up = center + np.array([0, 0, distance]), center, np.array([0.0, 1.0, 0.0])
@@ -122,7 +166,10 @@ def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
     if perspective:
         half_height = 1 / 2.145 if rng.random() < 0.5 else rng.uniform(0.3, 1.5)
         near = distance * 2.0 ** -rng.uniform(5, 10)
-        if kind != "tame" and rng.random() < 0.5:
+        if far:
+            half_height = size / distance * rng.uniform(0.5, 2)
+            near = distance - size * rng.uniform(0.5, 2) if rng.random() < 0.5 else near
+        elif kind != "tame" and rng.random() < 0.5:
             near = distance * 2.0 ** rng.uniform(-4, 0.5)
     else:
         half_height = size * rng.uniform(0.5, 3)
@@ -146,8 +193,10 @@ def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
     )
 
 
-def _light(rng: Rng, kind: Kind) -> Light:
+def _light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
     color = (255, 255, 255) if rng.random() < 0.4 else _color(rng)
+    if objects and rng.random() < 0.15:
+        return Light("point", _on_surface(rng, objects[rng.integers(len(objects))]), color)
     if rng.random() < 0.5:
         length = 2.0 ** rng.uniform(-20, 20) if kind == "wild" else 1000.0
         return Light("directional", _q32(length * _direction(rng)), color)
@@ -156,20 +205,28 @@ def _light(rng: Rng, kind: Kind) -> Light:
     return Light("point", _q32(rng.normal(size=3) * 2.0 ** rng.uniform(4, 13)), color)
 
 
+def _on_surface(rng: Rng, o: Object) -> Array:
+    """A corner or another place of a face, or a little above it."""
+    corners = np.asarray(o.mesh.positions)[np.asarray(o.mesh.faces)[rng.integers(len(np.asarray(o.mesh.faces)))]]
+    weights = np.array([1, 0, 0]) if rng.random() < 0.3 else rng.dirichlet([1, 1, 1])
+    above = rng.normal(size=3) * np.ptp(corners) * 2.0 ** rng.uniform(-12, -3) * (rng.random() < 0.5)
+    return _inside(np.asarray(o.position) + rotate(o.rotation, o.scale * (weights @ corners + above)))
+
+
 def _object(rng: Rng, kind: Kind) -> Object:
     wide = rng.random() < 0.2
     # half the extent of a mesh, in its units
-    extent = rng.choice([1, 10, 1000, 30000]) if not wide else 2**23 - 1
+    extent = rng.choice([1, 2, 3, 5, 10, 100, 1000, 30000]) if not wide else 2**23 - 1
     mesh = _mesh(rng, float(extent))
     size = 2.0 ** rng.uniform(8, 11) if kind == "tame" else 2.0 ** rng.uniform(5, 14)
-    scale = size / extent if extent > 1 else size / 4
+    scale = min(size / extent, 2.0**12)
     position = rng.normal(size=3) * (100 if kind == "tame" else 1000)
     if kind == "wild" and rng.random() < 0.5:
         scale = _spread(rng, -32, 4 if wide else 12) if rng.random() < 0.95 else 0.0
         if rng.random() < 0.5:
             position = _place(rng)
     shadings: tuple[Shading, ...] = ("unlit", "flat", "flat", "smooth", "smooth")
-    bright = rng.random() < 0.15
+    bright = rng.random() < 0.25
     material = Material(
         shadings[rng.integers(len(shadings))],
         ambient=_coefficient(rng, bright),
@@ -199,7 +256,9 @@ def _mesh(rng: Rng, extent: float) -> Mesh:
         faces = faces[:, ::-1] if rng.random() < 0.3 else faces[rng.permutation(len(faces))]
     choice = rng.random()
     colors = rng.integers(0, 256, (len(positions), 3))
-    if choice < 0.3:
+    if choice < 0.15:
+        colors[:] = 255
+    elif choice < 0.35:
         colors[:] = colors[0]
     elif choice < 0.5:
         colors = np.where(colors < 128, 0, 255)

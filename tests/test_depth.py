@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from pictures import UNLIT, draw, recolored, soup, unlit_scene
+import float64
+from pictures import UNLIT, call_data, draw, recolored, soup, unlit_scene
 from shackled import Camera, Mesh, Object, Scene
 
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
@@ -153,3 +154,27 @@ def test_depths_a_thousandth_apart(distance: float) -> None:
     picture = draw(scene)
     assert (picture[16, 16] == RED).all()
     assert (picture == draw(replace(scene, objects=things[::-1]))).all()
+
+
+def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:
+    """One corner is at a distance of 2^-10, the others at 2^22; a wall at 2^21 is in front of the far edge."""
+    rng = np.random.default_rng(11)
+    size, near, far = 32, 2.0**-10, 2.0**22
+    camera = Camera(half_height=1.0, near=2.0**-12)
+    plane = Object(wall(0, 1024, BLUE), (0, 0, -(2.0**21)), scale=2.0**12, material=UNLIT)
+    seen = 0
+    for _ in range(200):
+        # on centres of pixels, so that these are on the edges
+        screen = (rng.integers(0, size, (3, 2)) + 0.5) * 2 / size - 1
+        points = np.column_stack([screen, -np.ones(3)])
+        place = np.rint(near * points[0] * 2**32) / 2**32
+        corners = np.rint((far * points - place) * 2)
+        corners[0] = 0
+        face = Object(soup([np.clip(corners, -(2**23), 2**23 - 1)], RED), place, scale=0.5, material=UNLIT, cull=False)
+        for objects in ([face, plane], [plane, face]):
+            scene = unlit_scene(objects, camera, size)
+            expected = float64.render_call(call_data("render", scene)).pixels
+            picture = draw(scene)
+            assert (picture == expected).all(), np.argwhere((picture != expected).any(axis=2))
+            seen += int((picture == RED).all(axis=2).sum())
+    assert seen > 1000

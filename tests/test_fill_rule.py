@@ -16,6 +16,8 @@ from pictures import covered, on_pixel_grid, pixel_grid_camera, soup, unlit_scen
 
 Integers = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+#: (n, 3, 2), corners in 1/256 of a pixel.
+Triangles = NDArray[np.int64]
 
 #: How corners are chosen on a canvas of some pixels: low, high, and the step that they are multiples of, in pixels.
 KINDS = {
@@ -132,3 +134,68 @@ def test_a_pixel_on_each_kind_of_edge() -> None:
     expected = np.zeros((9, 9), bool)
     expected[2:6, 2:6] = True
     assert (covered(scene) == expected).all()
+
+
+# ---- shapes of many triangles, each alone and all together ----
+
+
+def fan(rng: np.random.Generator) -> Triangles:
+    """Triangles around a point that is shifted by parts of a pixel."""
+    sides = int(rng.integers(3, 12))
+    angles = np.sort(rng.uniform(0, 2 * np.pi, sides))
+    hub = 12 * 256 + rng.integers(-256, 257, 2)
+    rim = hub + np.rint(np.stack([np.cos(angles), np.sin(angles)], axis=1) * rng.uniform(300, 4000, (sides, 1)))
+    return np.stack([np.tile(hub, (sides, 1)), rim, np.roll(rim, -1, axis=0)], axis=1).astype(np.int64)
+
+
+def grid(rng: np.random.Generator) -> Triangles:
+    """Squares whose corners are centres of pixels, or corners, or half way between them."""
+    step, count = int(rng.choice([128, 256, 384, 512, 1280])), int(rng.integers(1, 5))
+    x, y = np.meshgrid(*[128 * rng.integers(0, 12) + step * np.arange(count + 1) for _ in range(2)], indexing="ij")
+    points = np.stack([x, y], axis=-1)
+    a, b, c, d = points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]
+    if rng.random() < 0.5:
+        a, b, c, d = b, c, d, a
+    return np.concatenate([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)]).reshape(-1, 3, 2)
+
+
+def strip(rng: np.random.Generator) -> Triangles:
+    """Triangles in a row, long and thin."""
+    count = int(rng.integers(3, 12))
+    points = np.stack([np.linspace(-500, 6500, count), 3000 + rng.integers(-40, 41, count)], axis=1)
+    points[::2, 1] += rng.integers(1, 300)
+    points = np.rint(points).astype(np.int64)
+    return np.stack([points[:-2], points[1:-1], points[2:]], axis=1)
+
+
+def huge(rng: np.random.Generator) -> Triangles:
+    """The plane in three parts that meet on the canvas, to the ends of the guard band."""
+    hub = rng.integers(0, 24 * 256, 2)
+    # 4,096 pixels around the canvas are not cut
+    reach = 4000 * 256
+    x, y = rng.integers(-reach, reach, 2)
+    rim = np.array([[-reach, y], [x, reach], [reach, -y], [-x, -reach]])
+    return np.stack([np.tile(hub, (4, 1)), rim, np.roll(rim, -1, axis=0)], axis=1)
+
+
+SHAPES = {"fan": fan, "grid": grid, "strip": strip, "huge": huge}
+
+
+@pytest.mark.parametrize("kind", SHAPES)
+def test_each_triangle_of_a_shape_alone(kind: str) -> None:
+    """Each has its pixels exactly, and so two that share an edge leave no gap and have no pixel in common."""
+    rng = np.random.default_rng(7)
+    pixels = 0
+    for _ in range(12):
+        triangles = SHAPES[kind](rng)
+        together = np.zeros((24, 24), np.int64)
+        for corners in triangles:
+            covering = drawn(corners, 24, 24)
+            assert (covering == expected_pixels(corners, 24, 24)).all(), corners.tolist()
+            together += covering
+        pixels += int(together.sum())
+        if kind in ("fan", "grid", "huge"):
+            assert together.max() <= 1
+        if kind == "huge":
+            assert together.min() == 1
+    assert pixels > 100

@@ -5,6 +5,7 @@
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py node       contracts/node_modules: the compiler, and a node for the tests
     python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
+    python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
 Packages of the system that are missing are installed by apt-get, if that is there and we are root, unless the variable
 SHACKLED_NO_APT is set. The versions of Python's packages are those of tools/constraints.txt.
@@ -17,6 +18,7 @@ import os
 import shutil
 import subprocess
 import sys
+from ctypes.util import find_library
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,6 +29,11 @@ CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
 #: Names of the browser that the tests of the page drive.
 BROWSERS = ("chromium", "chromium-browser")
+#: What is there where OpenGL runs without a screen: libraries, Mesa for them, its software renderer (in older and newer
+#: versions); and the packages that hold all that.
+OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
+OPENGL_RENDERERS = ("dri/swrast_dri.so", "libgallium-*.so")
+OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
 
 OLDEST_PYTHON = (3, 11)
 OLDEST_NODE = 20
@@ -42,6 +49,7 @@ def main() -> int:
         "dev": prepare_dev,
         "node": prepare_node,
         "browser": prepare_browser,
+        "opengl": prepare_opengl,
     }
     if len(sys.argv) != 2 or sys.argv[1] not in targets:
         print(f"usage: python3 tools/prepare.py {'|'.join(targets)}", file=sys.stderr)
@@ -111,6 +119,18 @@ def prepare_browser() -> None:
         apt_install("a browser for the tests of the page", "chromium")
     except (SystemExit, subprocess.CalledProcessError) as error:
         say(f"the tests of the page are skipped: {error}")
+
+
+def prepare_opengl() -> None:
+    """OpenGL by EGL, as packages of the system. Without it, all tests but those against OpenGL can be run."""
+    folders = (*Path("/usr").glob("lib*"), *Path("/usr/lib").glob("*-linux-gnu"))
+    has_renderer = any(list(folder.glob(name)) for folder in folders for name in OPENGL_RENDERERS)
+    if has_renderer and all(map(find_library, OPENGL_LIBRARIES)):
+        return
+    try:
+        apt_install("an OpenGL to compare pictures with", *OPENGL_PACKAGES)
+    except (SystemExit, subprocess.CalledProcessError) as error:
+        say(f"the tests against OpenGL are skipped: {error}")
 
 
 def make_venv() -> None:

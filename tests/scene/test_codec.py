@@ -198,6 +198,33 @@ def test_a_float_mesh_uses_the_whole_grid() -> None:
     assert np.abs(positions).max() == 32767
 
 
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize(("zoom", "bound"), [(1, 0.04), (100, 0.04), (1000, 0.15)])
+def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, projection: str) -> None:
+    """In pixels, of those that are seen."""
+    rng = np.random.default_rng(3)
+    spots = np.array([0.31, 0.17, 0.05]) + rng.uniform(-1, 1, (60, 3)) * [[0.5 / zoom, 0.5 / zoom, 0.02 / zoom]]
+    positions = np.vstack([rng.uniform(-1, 1, (60, 3)) * [1, 1, 0.02], spots])
+    thing = Object(Mesh(positions, rng.permutation(120).reshape(-1, 3)), rotation=(0.1, 0.2, 0.3, 0.9))
+    target = placed(thing, Camera(eye=(0, 0, 0)), scene_of())[60:].mean(axis=0)
+    camera = Camera((*target[:2], target[2] + 1), tuple(target), projection=projection, half_height=1.0 / zoom)
+    scene = Scene([thing], camera, width=256, height=256)
+
+    def pixels(of: Scene) -> np.ndarray:
+        points = placed(of.objects[0], of.camera, of)[60:]
+        distance = -points[:, 2:] if projection == "perspective" else 1.0
+        return np.asarray(128 * points[:, :2] / distance / of.camera.half_height)
+
+    assert np.abs(pixels(scene) - pixels(fit(scene))).max() <= bound
+
+
+def test_a_finer_grid_is_taken_only_where_it_shows() -> None:
+    mesh = Mesh([[0.1, 0.2, 0.3], [0.9, 0.2, 0.3], [0.1, 0.25, 0.3]], [[0, 1, 2]])
+    for half_height, wide in ((1.0, False), (0.001, True)):
+        scene = Scene([Object(mesh)], Camera(eye=(0, 0, 3), target=(0, 0, 0), half_height=half_height))
+        assert (np.abs(fit(scene).objects[0].mesh.positions).max() > 32767) == wide
+
+
 def test_worlds_far_from_the_origin_keep_their_precision() -> None:
     mesh = Mesh(np.array([[0, 0, 0], [0.7, 0, 0], [0, 0.7, 0]]), [[0, 1, 2]])
     far = np.array([5e8, -3e8, 1e8])

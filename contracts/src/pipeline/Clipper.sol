@@ -66,6 +66,8 @@ library Clipper {
                 end = fanEnd;
                 free += corners << shift;
             }
+            // a record of 64 bytes has no place for the normal, which is written behind it: into the next, which comes later, or here
+            free += 32;
         }
     }
 

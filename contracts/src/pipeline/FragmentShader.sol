@@ -7,6 +7,7 @@ import "./Registers.sol";
 // From fragments to pixels: depth test, perspective-correct attributes, Blinn-Phong. The colour of a fragment depends on its
 // triangle and its place only, never on what was drawn before or on the tile, so that tiles equal the whole picture.
 
+// A literal of 40 hexadecimal digits would be an address, hence the zeros in front of some.
 uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
 uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
@@ -342,6 +343,7 @@ library FragmentShader {
                     gradient(base, first, next, colored, add(shl(168, shr(168, mload(DX))), mul(sub(nextColor, color), div(0x100000000, length))))
                     color := nextColor
                     first := next
+                    if iszero(lt(first, mload(COLUMN_END))) { break }
                 }
             }
 
@@ -364,8 +366,9 @@ library FragmentShader {
                             case 0 { gradient(base, from, to, add(start, mul(from, mload(DX))), mload(DX)) }
                             case 0x40 { exact(add(base, shl(3, from)), add(base, shl(3, to)), add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row) }
                             default {
-                                // blocks begin with the row, wherever the tile does
+                                // blocks begin with the row or at a multiple of their size, wherever the tile does
                                 from := and(shr(48, edges), 0xffff)
+                                if lt(from, mload(BLOCK_BEGIN)) { from := mload(BLOCK_BEGIN) }
                                 blocks(base, from, shr(176, edges), add(start, mul(from, mload(DX))), add(mload(RAY_LEFT), mul(from, mload(RAY_STEP))), row)
                             }
                         }

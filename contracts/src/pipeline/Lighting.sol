@@ -269,11 +269,12 @@ library Lighting {
         unchecked {
             // of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
             uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
-            uint256 height = type(uint256).max;
+            uint256 height = type(uint256).max >> 1;
             uint256 end = load(LIGHTS_END);
             for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
                 uint256 facing = load(record + LIGHT_FACING);
-                if (load(record + LIGHT_IS_POINT) != 0 && int256(facing) > 0 && facing < height) height = facing;
+                // neither negative nor zero
+                if (load(record + LIGHT_IS_POINT) != 0 && facing - 1 < height) height = facing;
             }
             int256 plane = loadSigned(FACE_FACING_SLOPE) * loadSigned(DEPTH_SCALE);
             uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 151;

@@ -53,7 +53,7 @@ library PrimitiveAssembly {
     /// @return end The end of the list.
     /// @return drawn How many triangles face the viewer.
     /// @return clipped How many have to be clipped first; they are not in the list.
-    /// @return bad Where a face has a vertex tag that is out of range, if any.
+    /// @return bad Where a face has a vertex number that is out of range, if any.
     function assemble(uint256 face, uint256 last, uint256 records, uint256 shift, uint256 bound, uint256 list, bool cull)
         private
         pure

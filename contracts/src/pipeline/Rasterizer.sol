@@ -76,6 +76,20 @@ library Rasterizer {
 
             // change of the barycentric coordinates per pixel, Q32
             a := sub(mul(xc, b), mul(xb, c))
+            if and(mload(MODE), IS_DEEP) {
+                // depths by themselves, Q32, for which barycentric coordinates are too coarse
+                let z := shr(168, mload(ATTRIBUTE_0))
+                let zb := sub(shr(168, mload(ATTRIBUTE_1)), z)
+                let zc := sub(shr(168, mload(ATTRIBUTE_2)), z)
+                let dy := sdiv(shl(40, sub(mul(zb, xc), mul(zc, xb))), a)
+                zb := sdiv(shl(40, sub(mul(zc, b), mul(zb, c))), a)
+                mstore(LANE_BIAS, add(mload(LANE_BIAS), shl(168, add(shl(32, z), sar(8, sub(mul(y, dy), mul(x, zb)))))))
+                mstore(DX, shl(168, zb))
+                mstore(DY, shl(168, dy))
+                mstore(ATTRIBUTE_0, 0)
+                mstore(ATTRIBUTE_1, shl(56, 1))
+                mstore(ATTRIBUTE_2, 1)
+            }
             xb := sdiv(shl(40, xb), a)
             xc := sdiv(shl(40, xc), a)
             b := sdiv(shl(40, b), a)
@@ -86,8 +100,14 @@ library Rasterizer {
             // from the first vertex to the centre of pixel 0 in row `top`
             a := add(add(shl(32, a), mload(LANE_BIAS)), mul(deltaB, sar(8, add(mul(y, xc), mul(x, c)))))
             mstore(START, sub(a, mul(deltaC, sar(8, add(mul(x, b), mul(y, xb))))))
-            mstore(DX, sub(mul(deltaC, b), mul(deltaB, c)))
-            mstore(DY, sub(mul(deltaB, xc), mul(deltaC, xb)))
+            b := sub(mul(deltaC, b), mul(deltaB, c))
+            c := sub(mul(deltaB, xc), mul(deltaC, xb))
+            if and(mload(MODE), IS_DEEP) {
+                b := add(b, mload(DX))
+                c := add(c, mload(DY))
+            }
+            mstore(DX, b)
+            mstore(DY, c)
         }
     }
 

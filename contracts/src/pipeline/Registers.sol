@@ -7,7 +7,7 @@ pragma solidity 0.8.37;
 /// @dev The compiler keeps variables that do not fit the stack between 0x80 and the first free address; `reserveRegisters` checks
 /// that this is below the registers.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x2160;
+uint256 constant REGISTERS_END = 0x2180;
 
 error RegistersOverlap();
 
@@ -166,11 +166,12 @@ uint256 constant OBJECT_MODE = 0x1b20;
 
 // ---------------------------------------------------------------------------------------------------------------- triangle
 
-/// @dev How fragments are shaded, a sum of the following; 0 for the plain loop.
+/// @dev How fragments are shaded, a sum of the following; 0 for the plain loop. The code moves some of these bits by shifts: HAS_SPECULAR
+/// is four times IS_LIT, 0x240 is IS_BLOCKED | IS_BARYCENTRIC, and IS_CROSSING stands 139 bits below bit 147 of a triangle.
 uint256 constant MODE = 0x1b40;
 /// @dev The accumulator holds the lit colour itself, and it may be above 255.
 uint256 constant IS_LINEAR = 1;
-/// @dev Light is added for each fragment.
+/// @dev Light is added for each fragment. There is at least one light then, on which the loops over lights rely: they ask at their end.
 uint256 constant IS_LIT = 2;
 /// @dev More than highlights.
 uint256 constant IS_DIFFUSE = 4;
@@ -192,6 +193,8 @@ uint256 constant IS_VARYING = 0x400;
 uint256 constant IS_STEEP = 0x800;
 /// @dev All light is grey.
 uint256 constant IS_GREY = 0x1000;
+/// @dev Depths differ by more than a factor of 2^12, and are interpolated by themselves.
+uint256 constant IS_DEEP = 0x2000;
 /// @dev Attribute words of the three vertices, and the bias of their lanes.
 uint256 constant ATTRIBUTE_0 = 0x1b60;
 uint256 constant ATTRIBUTE_1 = 0x1b80;
@@ -259,3 +262,5 @@ uint256 constant FRAGMENT_NORMAL_RAY = 0x2100;
 uint256 constant NORMAL_HINT = 0x2120;
 /// @dev The light that modulates its colour, lanes of Q40.
 uint256 constant FRAGMENT_LIGHT = 0x2140;
+/// @dev The first column of the block in which the tile begins.
+uint256 constant BLOCK_BEGIN = 0x2160;

@@ -114,10 +114,12 @@ library Shading {
             } else {
                 mode |= IS_BARYCENTRIC;
                 if (nearest >= 64 * farthest) mode |= IS_STEEP;
+                if (nearest >= farthest << 12) mode |= IS_DEEP;
                 color = (color << 24) + WEIGHTED_BIAS;
                 if (mode & IS_SMOOTH == 0) {
                     uint256 size = blockSize(squareHeight(a, b, c), mode, nearest, farthest);
                     store(BLOCK, size);
+                    store(BLOCK_BEGIN, load(COLUMN_BEGIN) / size * size);
                     if (size > 1) mode |= IS_BLOCKED;
                 }
             }

@@ -13,7 +13,13 @@ import "./Registers.sol";
 //
 //   +0x00  screen word: sub-pixel row in bits 128.., sub-pixel column in bits 64..83, flags in bits 40..41, address of the record
 //   +0x20  attribute word: depth in bits 168.., red at 112, green at 56, blue at 0 (Q10)
-//   +0x40  normal in camera space, signed lanes of Q20 at bits 0, 85 and 170 (only where the mesh has normals)
+//   +0x40  smooth shading: normal in camera space, signed lanes of Q20 at bits 0, 85 and 170
+//          flat shading with highlights: length of the ray, Q24, and from +0x60 on a denominator for each light
+//   +0x60  smooth shading with one light: what FragmentShader.setVaryings tells, to +0xdf
+//
+// What flat shading keeps at +0x40 and smooth shading from +0x60 on is filled when it is first needed; zero says that it is not yet. So
+// nothing may ever be written beyond the free memory before a record is made there, and no Solidity object be made between
+// `freeMemory()` and `setFreeMemory()` in Pipeline.assembleObject. Pipeline.recordShift tells the size.
 //
 // Comparing screen words as numbers compares rows. The attribute word of a vertex that has to be clipped holds its outcode instead.
 

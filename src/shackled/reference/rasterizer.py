@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from . import fragment_shader, shading
 from .mesh import Mesh
 from .primitive_assembly import Triangle
-from .registers import Registers
+from .registers import IS_DEEP, Registers
 from .vertex_shader import Vertex
 from .words import MASK, divide_signed
 
@@ -64,15 +64,24 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
 
     # change of the barycentric coordinates per pixel, Q32
     area = xc * yb - xb * yc
+    start, dx, dy = r.lane_bias, 0, 0
+    if r.mode & IS_DEEP:
+        # depths by themselves, Q32, for which barycentric coordinates are too coarse
+        z = r.attribute_0 >> 168
+        zb, zc = (r.attribute_1 >> 168) - z, (r.attribute_2 >> 168) - z
+        dx = divide_signed((zc * yb - zb * yc) << 40, area)
+        dy = divide_signed((zb * xc - zc * xb) << 40, area)
+        start += ((z << 32) + ((y * dy - x * dx) >> 8)) << 168
+        r.attribute_0, r.attribute_1, r.attribute_2 = 0, 1 << 56, 1
     xb, xc = divide_signed(xb << 40, area), divide_signed(xc << 40, area)
     yb, yc = divide_signed(yb << 40, area), divide_signed(yc << 40, area)
     delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
     # from the first vertex to the centre of pixel 0 in row `top`
-    start = (r.attribute_0 << 32) + r.lane_bias
+    start += r.attribute_0 << 32
     start += delta_b * ((y * xc + x * yc) >> 8) - delta_c * ((x * yb + y * xb) >> 8)
     r.start = start & MASK
-    r.dx = (delta_c * yb - delta_b * yc) & MASK
-    r.dy = (delta_b * xc - delta_c * xb) & MASK
+    r.dx = (delta_c * yb - delta_b * yc + (dx << 168)) & MASK
+    r.dy = (delta_b * xc - delta_c * xb + (dy << 168)) & MASK
     return edges & MASK, slopes & MASK, middle
 
 

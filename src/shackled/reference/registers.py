@@ -32,6 +32,7 @@ IS_BLOCKED = 0x200
 IS_VARYING = 0x400
 IS_STEEP = 0x800
 IS_GREY = 0x1000
+IS_DEEP = 0x2000
 
 
 @dataclass(slots=True)

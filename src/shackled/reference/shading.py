@@ -10,6 +10,7 @@ from .registers import (
     IS_BARYCENTRIC,
     IS_BLOCKED,
     IS_CROSSING,
+    IS_DEEP,
     IS_DIFFUSE,
     IS_FLAT,
     IS_LIT,
@@ -115,6 +116,8 @@ def barycentric(
         mode |= IS_BARYCENTRIC
         if nearest >= 64 * farthest:
             mode |= IS_STEEP
+        if nearest >= farthest << 12:
+            mode |= IS_DEEP
         r.color_0 = (color << 24) + WEIGHTED_BIAS
         if mode & IS_SMOOTH == 0:
             r.block = block_size(square_height(a, b, c), mode, nearest, farthest, r)

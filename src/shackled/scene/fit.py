@@ -3,7 +3,8 @@
 A contract counts lengths in multiples of 2^-32 up to 2^26, and vertices in whole numbers. A scene all of whose numbers
 are exact in that form is left as it is. Any other is moved, so that the eye is at the origin, and scaled by a power of
 two, so that its largest object is about 2^12 units: neither changes what is seen. Its meshes, unless their coordinates
-are whole numbers already, are laid on a grid of 2^16 steps across their largest side.
+are whole numbers already, are laid on a grid of 2^16 steps across their largest side; on a finer one, for which each
+vertex takes three more bytes, where a step of that would show in the picture.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from .camera import Camera
 from .light import Light
 from .mesh import Mesh, vertex_normals
 from .object import Object
-from .packed_mesh import MAX_SHORT, fits, is_integral
+from .packed_mesh import MAX_SHORT, MAX_WIDE, fits, is_integral
 from .rotation import rotate
 from .scene import Scene
 
@@ -31,6 +32,9 @@ MIN_HALF_HEIGHT = 2.0**-12
 STEP = 2.0**-32
 #: A mesh of so many bits a coordinate must not be scaled by more.
 MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
+
+#: What part of a pixel a step of the grid of a mesh may be before a finer grid is taken.
+STEP_IN_PIXELS = 1 / 32
 
 #: Where scenes are left alone.
 EXACT_SIZES = (2.0**-2, 2.0**22)
@@ -58,7 +62,7 @@ def fit(scene: Scene) -> Scene:
         factor = _factor(scene)
         camera = _move_camera(scene, factor)
         lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
-        objects = [_move_object(o, scene.camera.eye, factor) for o in scene.objects]
+        objects = [_move_object(o, scene, factor) for o in scene.objects]
     camera = replace(camera, up=_direction(camera.up))
     objects = [replace(o, rotation=_direction(o.rotation)) for o in objects]
     lights = [replace(w, vector=_direction(w.vector)) if w.kind == "directional" else w for w in lights]
@@ -190,16 +194,31 @@ def _move_light(light: Light, eye: ArrayLike, factor: float) -> Light:
     return replace(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
 
 
-def _move_object(o: Object, eye: ArrayLike, factor: float) -> Object:
+def _move_object(o: Object, scene: Scene, factor: float) -> Object:
     positions = _floats(o.mesh.positions)
     center, step = np.zeros(3), 1.0
     if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
         center, radius = _box(positions)
-        step = radius / MAX_SHORT
+        step = radius / _steps(o, radius, scene, factor)
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
         o = replace(o, mesh=replace(o.mesh, positions=grid))
-    place = _floats(o.position) + rotate(o.rotation, o.scale * center) - _floats(eye)
+    place = _floats(o.position) + rotate(o.rotation, o.scale * center) - _floats(scene.camera.eye)
     return replace(o, position=place * factor, scale=o.scale * step * factor)
+
+
+def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
+    """How many steps the grid of an object has across half its largest side."""
+    camera = scene.camera
+    pixels = scene.height / (2 * camera.half_height)
+    if camera.projection == "perspective":
+        forward = _unit(_floats(camera.target) - _floats(camera.eye))
+        places = _floats(o.position) + rotate(o.rotation, o.scale * _floats(o.mesh.positions)) - _floats(camera.eye)
+        pixels /= max(float((places @ forward).min()), _near(scene, factor, most=MAX_COORDINATE) / factor)
+    size = o.scale * radius
+    if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
+        return MAX_SHORT
+    # the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
+    return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
 
 
 def _bits(positions: Array) -> int:

@@ -1,0 +1,49 @@
+"""What the contracts draw: a picture, and which triangle each of its pixels shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pictures import UNLIT, draw
+from shackled import Background, Mesh, Object, Scene
+from shackled.scene.fit import fit
+
+#: Of an object of which each triangle has corners of its own.
+MAX_TRIANGLES = 65535 // 3
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """pixels: (H, W, 3). triangle: (H, W) the number of the triangle that is seen, -1 for none."""
+
+    pixels: NDArray[np.uint8]
+    triangle: NDArray[np.int64]
+
+
+def picture(scene: Scene) -> Drawing:
+    """The picture of a scene without wires."""
+    # the same numbers for both
+    scene = fit(replace(scene, objects=[o for o in scene.objects if not o.wireframe]))
+    numbered = replace(
+        scene, objects=list(_numbered(scene.objects)), lights=[], background=Background((0, 0, 0)), invert=False
+    )
+    channels = draw(numbered).astype(np.int64)
+    return Drawing(draw(scene), (channels << [16, 8, 0]).sum(axis=2) - 1)
+
+
+def _numbered(objects: Iterable[Object]) -> Iterator[Object]:
+    """The objects with triangles whose colour is their number, counted from 1."""
+    count = 0
+    for o in objects:
+        positions, faces = np.asarray(o.mesh.positions), np.asarray(o.mesh.faces)
+        for first in range(0, len(faces), MAX_TRIANGLES):
+            part = faces[first : first + MAX_TRIANGLES]
+            numbers = 1 + count + np.arange(len(part))
+            colors = np.repeat(numbers[:, None] >> [16, 8, 0] & 255, 3, axis=0)
+            mesh = Mesh(positions[part].reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3), colors)
+            yield replace(o, mesh=mesh, material=UNLIT)
+            count += len(part)

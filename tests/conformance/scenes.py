@@ -1,0 +1,242 @@
+"""What is drawn: random scenes, each from a seed, as a user might send them; and the built-in pieces."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
+from shackled.datasets import Piece, pieces, require
+from shackled.datasets.common import shapes
+from shackled.scene.material import Shading
+from shackled.scene.mesh import vertex_normals
+from shackled.scene.rotation import rotate
+
+Array = NDArray[np.float64]
+Rng = np.random.Generator
+
+SIZES = (128, 512)
+SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
+
+
+def built_in() -> list[Piece]:
+    """All pieces that nothing has to be fetched for."""
+    return [piece for piece in pieces() if piece.ready()]
+
+
+def built_in_scene(name: str, size: int) -> Scene:
+    """A piece on a canvas of another size."""
+    return replace(require(name).make(), width=size, height=size)
+
+
+def random_scene(seed: int) -> Scene:
+    """The scene of a seed: one to three objects that are seen, from outside, from within, or from far away."""
+    rng = np.random.default_rng([12, seed])
+    unit = 10.0 ** rng.uniform(-3, 4) if rng.random() < 0.5 else 1.0
+    objects = [_object(rng, unit) for _ in range(rng.choice([1, 2, 3], p=[0.7, 0.2, 0.1]))]
+    width, height = _canvas(rng)
+    seen = objects[rng.integers(len(objects))]
+    lights = [_light(rng, seen) for _ in range(rng.choice(5, p=[0.08, 0.5, 0.2, 0.1, 0.12]))]
+    return Scene(
+        objects,
+        _camera(rng, seen),
+        lights,
+        Background(_color(rng), _color(rng)),
+        ambient_light=(255, 255, 255) if rng.random() < 0.7 else _color(rng),
+        invert=bool(rng.random() < 0.1),
+        width=width,
+        height=height,
+    )
+
+
+def _canvas(rng: Rng) -> tuple[int, int]:
+    choice = rng.random()
+    if choice < 0.1:
+        return int(rng.integers(40, 300)), int(rng.integers(40, 300))
+    size = SIZES[int(choice > 0.8)]
+    return size, size
+
+
+# ---- objects ----
+
+
+def _object(rng: Rng, unit: float) -> Object:
+    whole = rng.random() < 0.35
+    mesh = (_whole_mesh if whole else _mesh)(rng)
+    positions = np.asarray(mesh.positions)
+    radius = float(np.linalg.norm(positions - positions.mean(axis=0), axis=1).max())
+    # seldom a power of two, so that neither scale nor size are round in any base
+    size = unit * (1.0 if rng.random() < 0.2 else rng.uniform(0.5, 2))
+    mesh = replace(mesh, colors=_colors(rng, mesh))
+    mesh = replace(mesh, normals=_normals(rng, mesh))
+    return Object(
+        mesh,
+        position=(0, 0, 0) if rng.random() < 0.2 else unit * rng.normal(size=3),
+        rotation=(0, 0, 0, 1) if rng.random() < 0.2 else rng.normal(size=4),
+        scale=size / radius,
+        material=_material(rng),
+        cull=bool(rng.random() < 0.5),
+    )
+
+
+def _whole_mesh(rng: Rng) -> Mesh:
+    """Of small whole numbers, as they are typed by hand."""
+    scale = int(rng.choice([1, 1, 1, 2, 3, 5, 10, 50, 500]))
+    choice = rng.integers(4)
+    if choice == 0:
+        mesh = _box(rng.integers(1, 4, 3))
+    elif choice == 1:
+        mesh = Mesh([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])
+    elif choice == 2:
+        mesh = Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    else:
+        side = int(rng.integers(2, 7))
+        mesh = _terrain(side, rng.integers(0, 3, (side + 1, side + 1)).astype(float))
+    return replace(mesh, positions=np.asarray(mesh.positions) * scale + scale * rng.integers(-1, 2, 3))
+
+
+def _mesh(rng: Rng) -> Mesh:
+    made: list[Callable[[], Mesh]] = [
+        shapes.sphere,
+        shapes.torus,
+        shapes.torus_knot,
+        shapes.moebius_strip,
+        shapes.superellipsoid,
+        shapes.cone,
+        shapes.cylinder,
+        shapes.dodecahedron,
+        lambda: shapes.icosphere(int(rng.integers(0, 3))),
+        lambda: _terrain(side := int(rng.integers(1, 9)), rng.uniform(0, rng.uniform(0, 2), (side + 1, side + 1))),
+        lambda: _box(rng.uniform(0.3, 3, 3)),
+        lambda: _box(rng.uniform(0.3, 3, 3), inward=True),
+        lambda: _soup(rng),
+    ]
+    mesh = made[rng.integers(len(made))]()
+    return replace(mesh, positions=np.asarray(mesh.positions) * rng.uniform(0.5, 2) + rng.normal(size=3) * 0.1)
+
+
+def _box(sides: NDArray[np.int64] | Array, inward: bool = False) -> Mesh:
+    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * sides
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    # each face with corners of its own
+    points = corners[quads].reshape(-1, 3)
+    faces = np.arange(24).reshape(6, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return Mesh(points, faces[:, ::-1] if inward else faces)
+
+
+def _terrain(side: int, heights: Array) -> Mesh:
+    """A field of squares about the origin, y up."""
+    x, z = (grid.ravel() for grid in np.meshgrid(np.arange(side + 1.0), np.arange(side + 1.0), indexing="ij"))
+    points = np.stack([x - side // 2, heights.ravel(), z - side // 2], axis=1)
+    a = (np.arange(side)[:, None] * (side + 1) + np.arange(side)).ravel()
+    b, c, d = a + 1, a + side + 2, a + side + 1
+    return Mesh(points, np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]))
+
+
+def _soup(rng: Rng) -> Mesh:
+    """Triangles of many sizes, anywhere."""
+    count = int(rng.integers(1, 30))
+    centers = rng.uniform(-1, 1, (count, 1, 3))
+    corners = centers + rng.normal(size=(count, 3, 3)) * 2.0 ** -rng.uniform(0, 4, (count, 1, 1))
+    return Mesh(corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3))
+
+
+def _colors(rng: Rng, mesh: Mesh) -> NDArray[np.int64]:
+    count, choice = len(np.asarray(mesh.positions)), rng.random()
+    if choice < 0.25:
+        return np.full((count, 3), 255)
+    if choice < 0.5:
+        return np.tile(_color(rng), (count, 1))
+    if choice < 0.75:
+        return np.asarray(rng.integers(0, 256, (count, 3)))
+    if choice < 0.85:
+        return np.asarray(255 * rng.integers(0, 2, (count, 3)))
+    return np.asarray(np.clip(rng.integers(0, 256, 3) + rng.integers(-20, 21, (count, 3)), 0, 255))
+
+
+def _normals(rng: Rng, mesh: Mesh) -> Array | None:
+    positions = np.asarray(mesh.positions)
+    choice = rng.random()
+    if choice < 0.5:
+        return None
+    normals = vertex_normals(positions, np.asarray(mesh.faces))
+    return normals + rng.normal(size=positions.shape) * (2.0 if choice < 0.6 else 0.2)
+
+
+def _material(rng: Rng) -> Material:
+    shading = SHADINGS[rng.choice(3, p=[0.15, 0.5, 0.35])]
+    if rng.random() < 0.25:
+        return Material(shading, 0.3, 0.75, 0.3, 24)
+    most = 4.0 if rng.random() < 0.25 else 1.0
+    ambient, diffuse, specular = (float(rng.choice([0.0, 1.0, *rng.uniform(0, most, 4)])) for _ in range(3))
+    shininess = int(rng.choice([1, 2, 3, 5, 10, 20, 33, 64, 127, 128]))
+    return Material(shading, ambient, diffuse, specular, shininess)
+
+
+# ---- camera and lights ----
+
+
+def _camera(rng: Rng, seen: Object) -> Camera:
+    """Toward a point of an object."""
+    target, size = _point(rng, seen), _size(seen)
+    target = target + rng.normal(size=3) * size * 0.1
+    perspective = rng.random() < 0.7
+    choice = rng.random()
+    if choice < 0.6:
+        distance = size * rng.uniform(1.2, 5)
+    elif choice < 0.85:
+        # close, and within
+        distance = size * rng.uniform(0.1, 1.2)
+    else:
+        distance = size * 10.0 ** rng.uniform(0.7, 3)
+    near = None
+    if rng.random() < 0.5:
+        near = max(distance - size * rng.uniform(0.5, 2), distance * 10.0 ** -rng.uniform(0, 4))
+    if perspective:
+        wide = size / distance * rng.uniform(0.5, 1.5)
+        half_height = float(np.clip(wide, 2.0**-10, 2.0) if rng.random() < 0.7 or choice >= 0.85 else 1 / 2.145)
+    else:
+        half_height = size * rng.uniform(0.3, 1.5)
+    return Camera(
+        target + distance * _direction(rng),
+        target,
+        (0, 1, 0) if rng.random() < 0.5 else _direction(rng),
+        "perspective" if perspective else "orthographic",
+        half_height,
+        near,
+    )
+
+
+def _light(rng: Rng, seen: Object) -> Light:
+    color = (255, 255, 255) if rng.random() < 0.5 else _color(rng)
+    if rng.random() < 0.5:
+        return Light("directional", _direction(rng), color)
+    # from far away to close above a surface
+    distance = _size(seen) * 10.0 ** rng.uniform(-1.5, 1)
+    return Light("point", _point(rng, seen) + distance * _direction(rng), color)
+
+
+def _point(rng: Rng, seen: Object) -> Array:
+    """A place on an object."""
+    faces = np.asarray(seen.mesh.faces)
+    corners = np.asarray(seen.mesh.positions)[faces[rng.integers(len(faces))]]
+    point = rng.dirichlet([1, 1, 1]) @ corners
+    return np.asarray(np.asarray(seen.position) + rotate(seen.rotation, seen.scale * point))
+
+
+def _size(seen: Object) -> float:
+    """Half its largest extent."""
+    return seen.scale * float(np.ptp(np.asarray(seen.mesh.positions), axis=0).max()) / 2
+
+
+def _direction(rng: Rng) -> Array:
+    v = rng.normal(size=3)
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def _color(rng: Rng) -> tuple[int, int, int]:
+    red, green, blue = rng.integers(0, 256, 3).tolist()
+    return red, green, blue

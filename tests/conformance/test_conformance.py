@@ -1,0 +1,134 @@
+"""The part of `make conformance` that is quick enough for every run of the tests, and what it rests on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import float64
+from accuracy import flat, teapot_scene
+from shackled import Material, Mesh, Object, Scene
+from shackled.errors import InputError
+
+from . import contracts, opengl
+from .compare import MOST, Result, compare
+from .coverage import judge
+from .neighbours import interior
+from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .world import before_camera
+
+#: About 30 seconds of scenes.
+SEEDS = range(200, 280)
+PIECES = ("teapot", "cornell-box", "icons/ethereum", "icons/shackle", "genesis/5", "genesis/63", "genesis/100")
+
+
+@pytest.fixture(autouse=True)
+def _opengl() -> None:
+    try:
+        opengl.context()
+    except opengl.Unavailable as error:
+        pytest.skip(str(error))
+
+
+def test_random_scenes() -> None:
+    whole = sum((compare(f"random scene {seed}", random_scene(seed)) for seed in SEEDS), Result())
+    assert whole.faults_of_run() == []
+    assert whole.interior > 200_000
+    assert whole.empty < len(SEEDS) / 5
+
+
+@pytest.mark.parametrize("name", PIECES)
+def test_built_in_pieces(name: str) -> None:
+    for size in SIZES:
+        assert compare(f"{name} at {size}", built_in_scene(name, size), is_piece=True).faults == []
+
+
+def test_every_dataset_is_compared() -> None:
+    counts = [sum(piece.dataset == dataset for piece in built_in()) for dataset in ("common", "icons", "genesis")]
+    assert counts[0] >= 20
+    assert counts[1] >= 28
+    assert counts[2] == 1024
+
+
+@pytest.mark.parametrize("scene", [teapot_scene(4), flat(teapot_scene(3, 1))], ids=["smooth", "flat"])
+def test_opengl_and_float64_agree(scene: Scene) -> None:
+    """Two programs that share nothing with the contracts, but the formula."""
+    scene = replace(scene, width=256, height=256)
+    theirs, exact = opengl.draw(before_camera(scene)), float64.render(scene)
+    assert (theirs.triangle != exact.triangle).mean() < 0.001
+    same = interior(theirs.triangle) & (theirs.triangle == exact.triangle)
+    assert same.sum() > 500
+    # the contracts' grid of the mesh is between them
+    assert np.abs(theirs.color - exact.exact)[same].max() < 0.25
+
+
+# ---- it finds what is wrong ----
+
+
+def drawn_otherwise(monkeypatch: pytest.MonkeyPatch, otherwise: Scene) -> list[str]:
+    """What is found if the contracts draw another scene than OpenGL."""
+    other = contracts.picture(otherwise)
+    monkeypatch.setattr(contracts, "picture", lambda _: other)
+    return compare("teapot", flat(teapot_scene(2))).faults
+
+
+def test_a_wrong_light_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = flat(teapot_scene(2))
+    brighter = replace(scene, ambient_light=(255, 255, 255), lights=[])
+    found = drawn_otherwise(monkeypatch, brighter)
+    assert any(f"off by more than {MOST:g} levels; pixel (" in fault for fault in found)
+
+
+def test_a_shift_of_a_tenth_of_a_pixel_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = flat(teapot_scene(2))
+    way = np.array([0.1 * 9.0 * scene.camera.half_height / 64, 0, 0])
+    moved = [replace(o, position=np.asarray(o.position) + way) for o in scene.objects]
+    assert any(
+        "show a wrong triangle; pixel (" in fault
+        for fault in drawn_otherwise(monkeypatch, replace(scene, objects=moved))
+    )
+
+
+def test_one_wrong_pixel_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = flat(teapot_scene(2))
+    right = contracts.picture(scene)
+    row, column = np.argwhere(interior(right.triangle))[7]
+    pixels = right.pixels.copy()
+    pixels[row, column] ^= 16
+    monkeypatch.setattr(contracts, "picture", lambda _: contracts.Drawing(pixels, right.triangle))
+    assert [f"pixel ({column}, {row})" in fault for fault in compare("teapot", scene).faults] == [True]
+
+
+SQUARE = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+
+
+def squares(*depths: float) -> Scene:
+    """Squares one behind the other, at these distances nearer than the origin, of two triangles each."""
+    look = Material("unlit")
+    objects = [Object(Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), (0, 0, z), material=look, cull=False) for z in depths]
+    camera = replace(teapot_scene().camera, eye=(0, 0, 10), target=(0, 0, 0), half_height=0.2)
+    return Scene(objects, camera, width=64, height=64)
+
+
+def test_what_a_pixel_may_show() -> None:
+    # 32 pixels to a unit of the world at a distance of 10, so the square of 2 units is 64 / 2 pixels wide
+    judged = judge(before_camera(squares(0.0, 1.0)))
+    # in the middle of a half: the nearer of the two; its number is 2 or 3
+    assert judged.may_show(36, 30).tolist() == [2]
+    assert judged.may_show(28, 34).tolist() == [3]
+    assert judged.may_show(0, 0).tolist() == [-1]
+    # on the diagonal that both halves share
+    assert judged.may_show(31, 32).tolist() == [2, 3]
+    # at equal depth any
+    assert judge(before_camera(squares(0.0, 0.0))).may_show(36, 30).tolist() == [0, 2]
+
+
+def test_without_opengl_there_is_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(**_: object) -> None:
+        raise InputError("libEGL.so not loaded")
+
+    monkeypatch.setattr("moderngl.create_standalone_context", refuse)
+    with pytest.raises(opengl.Unavailable, match=r"prepare\.py opengl.*libEGL"):
+        opengl.context.__wrapped__()

@@ -1,0 +1,162 @@
+"""A scene as triangles before the camera, in float64, from the numbers that the user gave.
+
+Nothing here is shared with what makes the numbers of a call: positions are those of the Scene. Only normals are rounded
+to the ten bits that a mesh holds of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from shackled import Camera, Material, Scene
+from shackled.scene.mesh import vertex_normals
+
+Array = NDArray[np.float64]
+
+#: Steps of a coordinate of a normal, as the mesh format has them.
+NORMAL_STEPS = 511
+#: Where the near plane is if the scene does not say, as a part of the farthest distance.
+NEAR_PART = 2.0**-10
+
+
+@dataclass(frozen=True)
+class Solid:
+    """An object in the space of the camera: right, up, and toward the viewer.
+
+    corners, colors, normals: (n, 3, 3) of the corners of n triangles. facing: (n, 3) their own unit normals.
+    first: the number of its first triangle, counted through all objects.
+    """
+
+    corners: Array
+    colors: Array
+    normals: Array
+    facing: Array
+    material: Material
+    cull: bool
+    first: int
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """A light in the space of the camera: the place of a point light, or the direction toward one that is far away."""
+
+    is_point: bool
+    vector: Array
+    color: Array
+
+
+@dataclass(frozen=True)
+class World:
+    """All that is seen. half_height and near are those of the camera."""
+
+    width: int
+    height: int
+    perspective: bool
+    half_height: float
+    near: float
+    solids: list[Solid]
+    lamps: list[Lamp]
+    ambient: Array
+
+    @property
+    def focal(self) -> float:
+        """Pixels to a unit, at distance 1 if the camera is a perspective one."""
+        return self.height / 2 / self.half_height
+
+    @property
+    def corners(self) -> Array:
+        """(n, 3, 3), of the triangles of all objects."""
+        return np.concatenate([np.empty((0, 3, 3)), *(solid.corners for solid in self.solids)])
+
+    @property
+    def culled(self) -> NDArray[np.bool_]:
+        """(n,), whether a triangle is left out where it turns away."""
+        return np.concatenate([np.empty(0, bool), *(np.full(len(s.corners), s.cull) for s in self.solids)])
+
+
+def before_camera(scene: Scene) -> World:
+    """The world of a scene, wires left out."""
+    camera = scene.camera
+    eye, axes = _floats(camera.eye), _axes(camera)
+    solids: list[Solid] = []
+    first = 0
+    for o in scene.objects:
+        mesh, turn = o.mesh, rotation(o.rotation)
+        points, faces = _floats(mesh.positions), np.asarray(mesh.faces)
+        corners = ((_floats(o.position) - eye) + o.scale * points[faces] @ turn.T) @ axes.T
+        normals = vertex_normals(points, faces) if mesh.normals is None else _floats(mesh.normals)
+        normals = np.rint(unit(normals) * NORMAL_STEPS) / NORMAL_STEPS
+        facing = unit(np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]]))
+        if not o.wireframe:
+            solids.append(
+                Solid(
+                    corners=corners,
+                    colors=_floats(mesh.colors)[faces],
+                    normals=normals[faces] @ turn.T @ axes.T,
+                    facing=facing @ turn.T @ axes.T,
+                    material=o.material,
+                    cull=o.cull,
+                    first=first,
+                )
+            )
+        first += len(faces) * (not o.wireframe)
+    lamps = [
+        Lamp(w.kind == "point", (_floats(w.vector) - eye * (w.kind == "point")) @ axes.T, _floats(w.color))
+        for w in scene.lights
+    ]
+    near = camera.near
+    if near is None:
+        farthest = max((float(-s.corners[..., 2].min()) for s in solids), default=1.0)
+        near = farthest * NEAR_PART if camera.projection == "perspective" else -np.inf
+    return World(
+        scene.width,
+        scene.height,
+        camera.projection == "perspective",
+        camera.half_height,
+        near,
+        solids,
+        lamps,
+        _floats(scene.ambient_light),
+    )
+
+
+def background(scene: Scene) -> Array:
+    """(H, 1, 3): the colours of the rows where nothing is drawn."""
+    top, bottom = _floats(scene.background.top), _floats(scene.background.bottom)
+    part = np.arange(scene.height)[:, None, None] / max(scene.height - 1, 1)
+    return np.asarray(top + (bottom - top) * part)
+
+
+def rotation(quaternion: ArrayLike) -> Array:
+    """The matrix of a quaternion (x, y, z, w) of any length."""
+    x, y, z, w = unit(_floats(quaternion))
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def unit(v: Array) -> Array:
+    """Unit vectors along the last axis; zero for zero."""
+    largest = np.abs(v).max(axis=-1, keepdims=True)
+    v = np.divide(v, largest, out=np.zeros_like(v), where=largest > 0)
+    length = np.linalg.norm(v, axis=-1, keepdims=True)
+    out: Array = np.divide(v, length, out=np.zeros_like(v), where=length > 0)
+    return out
+
+
+def _axes(camera: Camera) -> Array:
+    """Right, up and toward the viewer, as rows."""
+    back = unit(_floats(camera.eye) - _floats(camera.target))
+    right = unit(np.cross(unit(_floats(camera.up)), back))
+    return np.array([right, np.cross(back, right), back])
+
+
+def _floats(values: ArrayLike | None) -> Array:
+    return np.asarray(values, dtype=np.float64)

@@ -1,0 +1,344 @@
+"""What must not change a picture, or only in one direction, over scenes that hypothesis makes.
+
+Colours are compared where both pictures show one triangle on all sides of a pixel. What triangles pixels show may
+differ where `conformance.coverage` allows it: at edges, and at equal depth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import strategies as st
+from numpy.typing import ArrayLike, NDArray
+
+from conformance import contracts
+from conformance.coverage import judge
+from conformance.neighbours import around, interior
+from conformance.world import before_camera
+from pictures import call
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
+from shackled.scene.codec import Rectangle
+from shackled.scene.fit import fit
+from shackled.scene.material import Shading
+from shackled.scene.mesh import vertex_normals
+
+Integers = NDArray[np.int64]
+Array = NDArray[np.float64]
+
+SIZE = 48
+#: Scales that are multiples of this are whole multiples of 2^-32 after a division by any factor of FACTORS.
+SCALE_STEP = 2520 / 2**16
+FACTORS = (2, 3, 5, 7, 9, 10)
+
+#: Examples are not made smaller: it takes minutes, and the first one says enough.
+EACH = settings(max_examples=60, deadline=None, phases=[Phase.generate], suppress_health_check=list(HealthCheck))
+
+
+# ---- scenes, in numbers that the contracts take as they are ----
+
+colors = st.one_of(st.just((255, 255, 255)), st.tuples(*[st.integers(0, 255)] * 3))
+small = st.integers(-3, 3)
+directions = st.tuples(small, small, small).filter(any)
+
+
+@st.composite
+def meshes(draw: st.DrawFn) -> Mesh:
+    """Small meshes of whole numbers. The colours are odd, so that there is one half way between any two."""
+    rng = np.random.default_rng(draw(st.integers(0, 10**6)))
+    kind = draw(st.sampled_from(["field", "box", "triangles"]))
+    if kind == "box":
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * rng.integers(1, 4, 3)
+        quads = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+        positions, faces = corners, quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    elif kind == "field":
+        x, z = (line.ravel() for line in np.mgrid[-1:2, -1:2])
+        positions = np.stack([2 * x, rng.integers(-1, 2, 9), 2 * z], axis=1)
+        quads = np.array([(a, a + 1, a + 4, a + 3) for a in (0, 1, 3, 4)])
+        faces = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    else:
+        positions, faces = rng.integers(-20, 21, (9, 3)), np.arange(9).reshape(3, 3)
+    chosen = np.full((len(positions), 3), 255) if rng.random() < 0.3 else 2 * rng.integers(0, 128, positions.shape) + 1
+    normals = vertex_normals(positions.astype(float), faces)
+    normals[~normals.any(axis=1)] = [0.0, 1.0, 0.0]
+    return Mesh(positions, faces, chosen, normals)
+
+
+SHADINGS: tuple[Shading, ...] = ("flat", "flat", "smooth", "unlit")
+coefficients = st.sampled_from([0.5, 0.0, 0.25, 1.0, 2.5])
+
+
+@st.composite
+def materials(draw: st.DrawFn) -> Material:
+    shading = draw(st.sampled_from(SHADINGS))
+    shininess = draw(st.sampled_from([1, 2, 10, 33, 128]))
+    return Material(shading, draw(coefficients), draw(coefficients), draw(coefficients), shininess)
+
+
+@st.composite
+def objects(draw: st.DrawFn) -> Object:
+    mesh = draw(meshes())
+    extent = float(np.abs(np.asarray(mesh.positions)).max())
+    return Object(
+        mesh,
+        position=draw(st.tuples(*[st.integers(-600, 600)] * 3)),
+        rotation=draw(st.one_of(st.just((0, 0, 0, 1)), st.tuples(small, small, small, small).filter(any))),
+        scale=max(round(draw(st.integers(800, 3000)) / extent / SCALE_STEP), 1) * SCALE_STEP,
+        material=draw(materials()),
+        cull=draw(st.booleans()),
+    )
+
+
+@st.composite
+def lights(draw: st.DrawFn) -> Light:
+    if draw(st.booleans()):
+        return Light("directional", draw(directions), draw(colors))
+    return Light("point", draw(st.tuples(*[st.integers(-4000, 4000)] * 3)), draw(colors))
+
+
+@st.composite
+def scenes(draw: st.DrawFn, most_objects: int = 2) -> Scene:
+    """Objects about the origin, and a camera that looks there from some way off."""
+    eye = np.array(draw(directions)) * draw(st.integers(1500, 4000))
+    up = draw(directions.filter(lambda up: bool(np.cross(up, eye).any())))
+    perspective = draw(st.booleans())
+    near = draw(st.sampled_from([16.0, 300.0, 2500.0])) if perspective else draw(st.sampled_from([-(2.0**20), 2500.0]))
+    camera = Camera(
+        eye,
+        draw(st.tuples(*[st.integers(-300, 300)] * 3)),
+        up,
+        "perspective" if perspective else "orthographic",
+        draw(st.sampled_from([0.5, 1 / 2.145, 0.75])) if perspective else draw(st.sampled_from([700.0, 2000.0])),
+        near,
+    )
+    return Scene(
+        draw(st.lists(objects(), min_size=1, max_size=most_objects)),
+        camera,
+        [draw(lights()) for _ in range(draw(st.sampled_from([1, 2, 3, 0])))],
+        Background((0, 0, 0)),
+        ambient_light=draw(colors),
+        width=SIZE,
+        height=SIZE,
+    )
+
+
+# ---- comparisons ----
+
+
+def assert_same_picture(
+    before: Scene, after: contracts.Drawing, numbers: Integers | None = None, drawn: contracts.Drawing | None = None
+) -> None:
+    """Asserts that `after` is the picture of `before`, to what the file says. numbers: which triangle of `before` each
+    triangle of `after` is. drawn: the picture of `before`, if it is there.
+    """
+    first = drawn or contracts.picture(before)
+    shown = after.triangle if numbers is None else np.append(numbers, -1)[after.triangle]
+    judged = judge(before_camera(before))
+    for row, column in np.argwhere(first.triangle != shown).tolist():
+        allowed = judged.may_show(column, row)
+        assert np.isin([first.triangle[row, column], shown[row, column]], allowed).all(), (column, row)
+    inner = interior(first.triangle) & interior(after.triangle) & (first.triangle == shown)
+    materials = [o.material for o in before.objects]
+    sizes = [len(np.asarray(o.mesh.faces)) for o in before.objects]
+    unlit = np.repeat([m.shading == "unlit" for m in materials], sizes)
+    stepped = np.repeat([m.shading == "smooth" and m.specular > 0 for m in materials], sizes)
+    old, new = first.pixels.astype(int), after.pixels.astype(int)
+    off = np.abs(old - new)
+    # where a light ceases to reach a bent surface its highlight ends at once
+    near = around(old)
+    beyond = np.maximum(0, np.maximum(new - near.max(axis=0), near.min(axis=0) - new))
+    off = np.where(np.append(stepped, False)[first.triangle][..., None], beyond, off).max(axis=2)
+    bound = np.where(np.append(unlit, False)[first.triangle], 1, 3)
+    bad = np.argwhere(inner & (off > bound))
+    assert not len(bad), [(c, r, old[r, c].tolist(), new[r, c].tolist()) for r, c in bad.tolist()[:3]]
+
+
+def changed(scene: Scene, **fields: Any) -> Scene:
+    """The scene with other fields in each object."""
+    return replace(scene, objects=[replace(o, **{k: f(o) for k, f in fields.items()}) for o in scene.objects])
+
+
+@EACH
+@given(scenes())
+def test_the_numbers_of_these_scenes_are_those_of_the_contracts(scene: Scene) -> None:
+    fitted = fit(scene)
+    for one, other in zip(scene.objects, fitted.objects, strict=True):
+        assert one.scale == other.scale
+        assert (np.asarray(one.position) == np.asarray(other.position)).all()
+
+
+# ---- what must hold ----
+
+
+@EACH
+@given(scenes(), st.data())
+def test_more_light_is_never_darker(scene: Scene, data: st.DataObject) -> None:
+    kind = data.draw(st.sampled_from(["one more", "brighter", "ambient", "coefficients"]))
+    more = data.draw(st.sampled_from([1, 20, 100]))
+
+    def brighter(color: ArrayLike) -> Integers:
+        return np.minimum(np.asarray(color, np.int64) + more, 255)
+
+    if kind == "one more":
+        other = replace(scene, lights=[*scene.lights, data.draw(lights())])
+    elif kind == "brighter":
+        other = replace(scene, lights=[replace(w, color=brighter(w.color)) for w in scene.lights])
+    elif kind == "ambient":
+        other = replace(scene, ambient_light=brighter(scene.ambient_light))
+    else:
+        name = data.draw(st.sampled_from(["ambient", "diffuse", "specular"]))
+        other = changed(scene, material=lambda o: replace(o.material, **{name: getattr(o.material, name) + more / 333}))
+    dark, bright = contracts.picture(scene), contracts.picture(other)
+    assert (dark.triangle == bright.triangle).all()
+    assert (bright.pixels.astype(int) >= dark.pixels.astype(int) - 1).all(), kind
+
+
+@EACH
+@given(scenes(), st.sampled_from([3, 4, 0, 1, 2, 5, 8, 100]), st.integers(0, 2))
+def test_white_in_full_light_is_white(scene: Scene, more: int, most_lights: int) -> None:
+    """Whatever shines on it besides, and however little above 255 its light is."""
+    other = replace(
+        changed(
+            scene,
+            mesh=lambda o: replace(o.mesh, colors=np.full_like(np.asarray(o.mesh.colors), 255)),
+            material=lambda o: replace(o.material, ambient=1 + more / 1024),
+        ),
+        ambient_light=(255, 255, 255),
+        lights=scene.lights[:most_lights],
+    )
+    drawn = contracts.picture(other)
+    assert (drawn.pixels[drawn.triangle >= 0] >= 254).all()
+
+
+@EACH
+@given(scenes(), st.sampled_from(FACTORS))
+def test_a_mesh_times_a_factor_with_its_scale_over_it(scene: Scene, factor: int) -> None:
+    other = changed(
+        scene,
+        mesh=lambda o: replace(o.mesh, positions=np.asarray(o.mesh.positions) * factor),
+        scale=lambda o: o.scale / factor,
+    )
+    assert_same_picture(scene, contracts.picture(other))
+
+
+@EACH
+@given(scenes(), st.tuples(*[st.integers(-(10**6), 10**6)] * 3))
+def test_all_of_the_world_moved(scene: Scene, way: tuple[int, int, int]) -> None:
+    shift = np.array(way)
+    camera = scene.camera
+    other = replace(
+        changed(scene, position=lambda o: np.asarray(o.position) + shift),
+        camera=replace(camera, eye=np.asarray(camera.eye) + shift, target=np.asarray(camera.target) + shift),
+        lights=[replace(w, vector=np.asarray(w.vector) + shift * (w.kind == "point")) for w in scene.lights],
+    )
+    assert_same_picture(scene, contracts.picture(other))
+
+
+@EACH
+@given(scenes(most_objects=4), st.data())
+def test_the_order_of_objects_and_lights(scene: Scene, data: st.DataObject) -> None:
+    order = data.draw(st.permutations(range(len(scene.objects))))
+    sizes = [len(np.asarray(o.mesh.faces)) for o in scene.objects]
+    firsts = np.cumsum([0, *sizes])
+    numbers = np.concatenate([firsts[i] + np.arange(sizes[i]) for i in order])
+    other = replace(
+        scene, objects=[scene.objects[i] for i in order], lights=data.draw(st.permutations(list(scene.lights)))
+    )
+    assert_same_picture(scene, contracts.picture(other), numbers)
+
+
+@EACH
+@given(scenes(most_objects=1), st.data())
+def test_a_triangle_split_in_two(scene: Scene, data: st.DataObject) -> None:
+    (thing,) = scene.objects
+    # a vertex half way between two others is a whole one, and its normal is theirs
+    mesh = replace(
+        thing.mesh,
+        positions=2 * np.asarray(thing.mesh.positions),
+        normals=np.tile([0, 1, 0], (len(np.asarray(thing.mesh.positions)), 1)),
+    )
+    scene = replace(scene, objects=[replace(thing, mesh=mesh, scale=thing.scale / 2)])
+    positions, faces, colors = (np.asarray(part) for part in (mesh.positions, mesh.faces, mesh.colors))
+    number = data.draw(st.integers(0, len(faces) - 1))
+    a, b, c = np.roll(faces[number], data.draw(st.integers(0, 2))).tolist()
+    middle = len(positions)
+    halves = Mesh(
+        np.vstack([positions, (positions[a] + positions[b]) / 2]),
+        np.vstack([faces[:number], [[a, middle, c], [middle, b, c]], faces[number + 1 :]]),
+        np.vstack([colors, (colors[a].astype(int) + colors[b]) // 2]),
+        np.tile([0, 1, 0], (middle + 1, 1)),
+    )
+    numbers = np.sort([*range(len(faces)), number])
+    other = replace(scene, objects=[replace(scene.objects[0], mesh=halves)])
+    assert_same_picture(scene, contracts.picture(other), numbers)
+
+
+@EACH
+@given(scenes())
+def test_a_mirrored_scene(scene: Scene) -> None:
+    flip = np.array([-1, 1, 1])
+    camera = scene.camera
+
+    def mirrored(o: Object) -> Mesh:
+        mesh = o.mesh
+        return Mesh(
+            np.asarray(mesh.positions) * flip,
+            np.asarray(mesh.faces)[:, ::-1],
+            mesh.colors,
+            np.asarray(mesh.normals) * flip,
+        )
+
+    other = replace(
+        changed(
+            scene,
+            mesh=mirrored,
+            position=lambda o: np.asarray(o.position) * flip,
+            rotation=lambda o: np.asarray(o.rotation) * [1, -1, -1, 1],
+        ),
+        camera=replace(
+            camera,
+            eye=np.asarray(camera.eye) * flip,
+            target=np.asarray(camera.target) * flip,
+            up=np.asarray(camera.up) * flip,
+        ),
+        lights=[replace(w, vector=np.asarray(w.vector) * flip) for w in scene.lights],
+    )
+    drawn = contracts.picture(other)
+    assert_same_picture(scene, contracts.Drawing(drawn.pixels[:, ::-1], drawn.triangle[:, ::-1]))
+
+
+# ---- the price of a part ----
+
+#: A row of a lit face is shaded in blocks of up to 16 pixels, and a tile pays for each that it cuts: no narrower tiles.
+LEAST_WIDTH = 32
+
+
+@st.composite
+def walls(draw: st.DrawFn) -> Scene:
+    """A triangle that leaves the canvas on some sides, in one light or more."""
+    reach = draw(st.integers(1, 40))
+    left = draw(st.integers(-150, -50))
+    corners = reach * np.array([[left, -100, 0], [left + 300, -100, 0], [left, 200, 0]])
+    material = Material(draw(st.sampled_from(SHADINGS)))
+    mesh = Mesh(corners, [[0, 1, 2]], normals=[(0, 0, 1)] * 3)
+    turn = draw(st.tuples(*[st.integers(-20, 20)] * 2))
+    wall = Object(mesh, (0, 0, -200), (*turn, 0, 40), material=material, cull=False)
+    lamps = [draw(lights()) for _ in range(draw(st.integers(1, 2)))]
+    return Scene([wall], Camera(near=1.0), lamps, width=96, height=64)
+
+
+@EACH
+@given(walls(), st.integers(LEAST_WIDTH, 96), st.integers(1, 64), st.data())
+def test_a_tile_costs_its_share(scene: Scene, width: int, height: int, data: st.DataObject) -> None:
+    x, y = data.draw(st.integers(0, 96 - width)), data.draw(st.integers(0, 64 - height))
+    covered = contracts.picture(scene).triangle >= 0
+    outside = np.argwhere(~covered)
+    # where the wall is all of the picture, a tile of one pixel is all the more
+    row, column = outside[0].tolist() if len(outside) else (0, 0)
+    least = call("renderTile", scene, Rectangle(column, row, 1, 1)).gas
+    whole, part = call("render", scene).gas, call("renderTile", scene, Rectangle(x, y, width, height)).gas
+    window = covered[y : y + height, x : x + width]
+    share = max(window.size / covered.size, window.sum() / max(covered.sum(), 1))
+    assert part <= 1.2 * share * whole + least

@@ -1,0 +1,86 @@
+"""What a picture costs is the work on its canvas, and what a tile costs is the work on the tile."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pictures import call
+from random_scenes import random_case
+from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled.scene.codec import Rectangle
+
+SIZE = 64
+LAMP = Light("point", (300, 200, -600))
+LOOKS = {
+    "unlit": Material("unlit"),
+    "flat": Material("flat", 0.3, 0.6, 0.3, 20),
+    "smooth": Material("smooth", 0.3, 0.6, 0.3, 20),
+}
+
+
+def gas(scene: Scene, tile: Rectangle | None = None) -> int:
+    return call("render" if tile is None else "renderTile", scene, tile).gas
+
+
+def tilted_walls(rng: np.random.Generator, material: Material, count: int = 1) -> Scene:
+    """Walls that cover the whole canvas and reach far beyond it, each turned by up to 70 degrees."""
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    objects = []
+    for i in range(count):
+        axis = rng.normal(size=3) * [1, 1, 0]
+        axis *= np.tan(np.radians(rng.uniform(0, 35))) / np.linalg.norm(axis)
+        mesh = Mesh(20000 * square, [[0, 1, 2], [0, 2, 3]], rng.integers(0, 256, (4, 3)), [[0, 0, 1]] * 4)
+        objects.append(Object(mesh, (0, 0, -3000 + 10 * i), (*axis, 1.0), material=material, cull=False))
+    objects = [replace(o, rotation=tuple(np.rint(np.asarray(o.rotation) * 2**32) / 2**32)) for o in objects]
+    return Scene(objects, Camera(near=1), [LAMP], width=SIZE, height=SIZE)
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_walls_that_leave_the_canvas(look: str) -> None:
+    """Two triangles cost no more than exact shading of each pixel of the canvas, wherever else they are."""
+    rng = np.random.default_rng(1)
+    costs = [gas(tilted_walls(rng, LOOKS[look])) for _ in range(60)]
+    assert max(costs) <= 2800 * SIZE**2
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_tiles_of_walls_cost_their_share(look: str) -> None:
+    """Of pictures that cost the same everywhere: a share and a fifth of it, and what every tile needs."""
+    rng = np.random.default_rng(2)
+    for _ in range(12):
+        scene = tilted_walls(rng, LOOKS[look])
+        whole = gas(scene)
+        away = replace(scene, objects=[replace(o, position=(0, 0, 3000)) for o in scene.objects])
+        alone = gas(away, Rectangle(0, 0, 1, 1))
+        for width, height in ((64, 16), (32, 32), (32, 64)):
+            for _ in range(2):
+                x, y = rng.integers(SIZE - width + 1), rng.integers(SIZE - height + 1)
+                tile = Rectangle(int(x), int(y), width, height)
+                assert gas(scene, tile) <= 1.2 * whole * width * height / SIZE**2 + alone + SET_UP, tile
+
+
+#: Gas of a triangle before its first pixel, of which a tile pays all.
+SET_UP = 2 * 20_000
+
+
+def parts(width: int, height: int) -> list[Rectangle]:
+    """The four quarters."""
+    x, y = max(width // 2, 1), max(height // 2, 1)
+    columns = [(0, x), (x, width - x)] if width > 1 else [(0, 1)]
+    rows = [(0, y), (y, height - y)] if height > 1 else [(0, 1)]
+    return [Rectangle(left, top, w, h) for left, w in columns for top, h in rows]
+
+
+@pytest.mark.parametrize("first", range(0, 150, 50))
+def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
+    for seed in range(first, first + 50):
+        scene = random_case(seed).scene
+        try:
+            whole = gas(scene)
+        except RenderError:
+            continue
+        for tile in parts(scene.width, scene.height):
+            assert gas(scene, tile) <= 1.02 * whole, f"seed {seed}, {tile}"
