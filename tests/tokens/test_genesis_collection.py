@@ -15,6 +15,9 @@ from tokens.show import document, pixels, traits
 from tokens.stage import Stage, stage
 from tokens.world import Refused
 
+#: How descriptions end.
+INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
+
 SIDE, SCALE = 128, 4
 #: What marketplaces take.
 LONGEST_URI = 100_000
@@ -62,7 +65,7 @@ def test_the_traits_are_those_of_the_model(revealed: Stage) -> None:
         found = document(s.genesis.call("tokenURI", token))
         assert list(found) == ["name", "description", "attributes", "image"]
         assert found["name"] == f"Genesis #{token}"
-        assert f"Seed 0x{seed.hex()}." in found["description"]
+        assert f" {INDEPENDENT} Seed 0x{seed.hex()}." in found["description"]
         assert traits(found) == {
             "Structure": piece.structure,
             "Chroma": piece.chroma,
@@ -122,6 +125,7 @@ def test_length_and_gas(revealed: Stage) -> None:
 def test_the_collection_speaks_of_itself(revealed: Stage) -> None:
     found = document(revealed.genesis.call("contractURI"))
     assert list(found) == ["name", "symbol", "description", "image"]
+    assert found["description"].endswith(f" {INDEPENDENT}")
     assert (found["name"], found["symbol"]) == ("Shackled Genesis", "SHKG")
     assert (found["name"], found["symbol"]) == tuple(revealed.genesis.call(each) for each in ("name", "symbol"))
     assert pixels(found["image"]).shape == (512, 512, 3)

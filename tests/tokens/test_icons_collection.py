@@ -24,6 +24,9 @@ from tokens.show import document, pixels, traits
 from tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
 from tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 
+#: How descriptions end.
+INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."
+
 PRICES = [price for _, _, _, price in ICONS.values()]
 
 
@@ -333,6 +336,8 @@ def test_names_that_try_to_be_more(s: Stage, name: str) -> None:
     found = document(c.call("tokenURI", 0))
     assert list(found) == ["name", "description", "attributes", "image"]
     assert found["name"] == f"{name} #0"
+    for said in (found, document(c.call("contractURI"))):
+        assert said["description"].endswith(f" {INDEPENDENT}")
 
 
 def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:

@@ -3,7 +3,8 @@ pragma solidity 0.8.37;
 
 /// @notice The square root of `x`, with an error below one and below 2^-22 of it.
 /// @dev With h such that x = m * 4^h and 1 <= m < 4, the line 0.343 * (m + 2) is within 3 % of the root of m; each of the two steps
-/// of Newton's method, r' = (r + x/r) / 2, squares the relative error and halves it.
+/// of Newton's method, r' = (r + x/r) / 2, squares the relative error and halves it. The search for the highest bit is that of solady's
+/// LibBit (https://github.com/vectorized/solady).
 function sqrt(uint256 x) pure returns (uint256 r) {
     assembly ("memory-safe") {
         // the branch keeps the compiler from copying all of this to each place of use

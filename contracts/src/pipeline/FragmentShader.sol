@@ -36,6 +36,7 @@ library FragmentShader {
             function root(value, hint) -> r {
                 let h := mload(hint)
                 if gt(sub(shr(shl(1, h), value), 1), 2) {
+                    // as in Roots.sol: the search of solady's LibBit
                     h := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
                     h := or(h, shl(6, lt(0xffffffffffffffff, shr(h, value))))
                     h := or(h, shl(5, lt(0xffffffff, shr(h, value))))

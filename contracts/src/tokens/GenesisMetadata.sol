@@ -20,7 +20,8 @@ contract GenesisMetadata {
     string internal constant NAME = "Shackled Genesis";
     string internal constant SYMBOL = "SHKG";
     string internal constant DESCRIPTION =
-        "1024 pictures of 3D scenes. Scene, colours and every pixel are computed by contracts, from a seed that nobody could choose.";
+        "1024 pictures of 3D scenes. Scene, colours and every pixel are computed by contracts, from a seed that nobody could choose. "
+        "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
 
     /// @dev The side of the square that each pixel of a picture becomes.
     uint256 internal constant SCALE = 4;

@@ -35,7 +35,9 @@ struct Icon {
 contract IconsCollection is Collection, StudioErrors {
     using Strings for uint256;
 
-    string internal constant DESCRIPTION = "Small scenes, kept and drawn by contracts: every pixel is computed on chain.";
+    string internal constant DESCRIPTION =
+        "Small scenes, kept and drawn by contracts: every pixel is computed on chain. "
+        "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
     uint256 internal constant MAX_SCALE = 8;
     uint256 internal constant MAX_NAME = 64;
 
