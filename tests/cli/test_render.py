@@ -246,9 +246,9 @@ def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFi
 def test_the_seconds_are_those_that_were_waited(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shackled import image, reference
+    from shackled import reference, whole_file
 
-    count, write = reference.count, image.write_output
+    count, write = reference.count, whole_file.write_output
 
     def slow_count(scene: Scene) -> tuple[int, int]:
         time.sleep(0.2)
@@ -259,7 +259,7 @@ def test_the_seconds_are_those_that_were_waited(
         write(path, data)
 
     monkeypatch.setattr(reference, "count", slow_count)
-    monkeypatch.setattr(image, "write_output", slow_write)
+    monkeypatch.setattr("shackled.image.write_output", slow_write)
     for options in ([], ["--tile", "8"]):
         started = time.perf_counter()
         assert run(["render", "shape.obj", "--size", "16", "--json", *options]) == 0
