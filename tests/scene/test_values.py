@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from typing import Any
 
@@ -121,6 +122,20 @@ def test_a_dark_mesh_of_a_scene_file_stays_dark(tmp_path: Any) -> None:
     dark = scene(objects=[Object(Mesh(CORNERS, FACES, [(1, 0, 1), (0, 0, 0), (1, 1, 1)]))])
     write_scene(dark, tmp_path / "dark.json")
     assert load(tmp_path / "dark.json") == dark
+
+
+def test_dark_colours_of_the_original_stay_dark(tmp_path: Any) -> None:
+    document = {
+        "canvasDim": 8,
+        "verts": CORNERS,
+        "faces": FACES,
+        "cols": [(1, 0, 0)] * 3,
+        "backgroundColor": [(1, 0, 0), (0, 1, 1)],
+    }
+    (tmp_path / "dark.json").write_text(json.dumps(document), "utf-8")
+    dark = load(tmp_path / "dark.json")
+    assert dark.background == Background((1, 0, 0), (0, 1, 1))
+    assert np.asarray(dark.objects[0].mesh.colors).tolist() == [[1, 0, 0]] * 3
 
 
 def test_integers_of_numpy_are_sizes() -> None:

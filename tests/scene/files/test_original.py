@@ -168,7 +168,7 @@ def test_no_faces_are_a_picture_of_the_background() -> None:
         ({"backgroundColor": [[0, 0, 0]]},
          "backgroundColor must be two colours, the top one and the bottom one, not 1"),
         ({"backgroundColor": [[-10, 0, 0], [0, 0, 0]]},
-         "backgroundColor: the background colour must be red, green and blue from 0 to 255, not [-10.0, 0.0, 0.0]"),
+         "backgroundColor: the background colour must be red, green and blue from 0 to 255, not [-10, 0, 0]"),
         ({"lightingParams": 5}, "lightingParams must be a table, not 5"),
         ({"lightingParams": {**LIGHTING, "lightPos": [0, 0, 0]}},
          "lightingParams.lightPos must not be the origin: it is the direction toward the light"),

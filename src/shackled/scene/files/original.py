@@ -128,7 +128,7 @@ def _coefficient(value: float) -> float:
 
 
 def _background(keys: Table) -> Background:
-    colors = keys.matrix("backgroundColor") if "backgroundColor" in keys else np.zeros((2, 3))
+    colors = keys.matrix("backgroundColor", whole=True) if "backgroundColor" in keys else np.zeros((2, 3), int)
     if len(colors) != 2:
         raise InputError(f"backgroundColor must be two colours, the top one and the bottom one, not {len(colors)}")
     with about("backgroundColor"):
