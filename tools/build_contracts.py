@@ -61,7 +61,7 @@ SETTINGS: dict[str, Any] = {
     "evmVersion": "cancun",
     "optimizer": {
         "enabled": True,
-        "runs": 20000,
+        "runs": 4000,
         "details": {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}},
     },
     "metadata": {"appendCBOR": False},

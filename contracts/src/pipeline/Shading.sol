@@ -14,9 +14,9 @@ uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
 uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000;
 /// @dev Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
 uint256 constant VARYING_BIAS = 0x2000000000000020000000000000200000;
-/// @dev A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
+/// @dev A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
-uint256 constant LIMITS = 0x00400003000000004000030000000040000300000000;
+uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
 uint256 constant COLOR_LANES = 0xffffff00000000ffffff00000000ffffff;
 
 /// @notice How finely a triangle has to be shaded.
@@ -50,7 +50,7 @@ library Shading {
                 }
             }
             if (
-                mode & IS_DIFFUSE == 0 && isAffine(attributesA, attributesB, attributesC)
+                mode & IS_DIFFUSE == 0 && isAffine(attributesA, attributesB, attributesC, word)
                     && (mode & IS_LIT == 0 || squareSize(a, b, c) < load(REACH))
             ) {
                 if (mode & IS_LIT != 0) {
@@ -177,30 +177,37 @@ library Shading {
         }
     }
 
-    /// @dev The square of about the least height of a triangle, in sub-pixels: the square of twice its area by that of a longest edge,
-    /// for which the sum of the squares of two edges stands.
-    function squareHeight(uint256 a, uint256 b, uint256 c) private pure returns (uint256 square) {
-        uint256 squares = squareSize(a, b, c);
+    /// @dev Twice the area, in sub-pixels.
+    function doubleArea(uint256 a, uint256 b, uint256 c) private pure returns (uint256 area) {
         assembly ("memory-safe") {
             let x := and(shr(64, a), 0xfffff)
             let y := shr(128, a)
-            square := mul(sub(and(shr(64, c), 0xfffff), x), sub(shr(128, b), y))
-            square := sub(square, mul(sub(and(shr(64, b), 0xfffff), x), sub(shr(128, c), y)))
-            square := div(mul(square, square), squares)
+            area := mul(sub(and(shr(64, c), 0xfffff), x), sub(shr(128, b), y))
+            area := sub(area, mul(sub(and(shr(64, b), 0xfffff), x), sub(shr(128, c), y)))
+        }
+    }
+
+    /// @dev The square of about the least height of a triangle, in sub-pixels: the square of twice its area by that of a longest edge,
+    /// for which the sum of the squares of two edges stands.
+    function squareHeight(uint256 a, uint256 b, uint256 c) private pure returns (uint256) {
+        unchecked {
+            uint256 area = doubleArea(a, b, c);
+            return area * area / squareSize(a, b, c);
         }
     }
 
     /// @dev Pixels over which interpolation between exact colours does little harm. Over n pixels of a triangle of height h perspective
-    /// bends them by dc * dz / 4z * (n / h)^2, times the factor by which colours change faster where it is far: by 6 levels of 255 where
-    /// black and white, the least height and the farthest end come together, which leaves less than 4 in the pictures that are measured.
-    /// REACH is the square of the n for one and a half levels of light.
+    /// bends them by dc * dz / 4z * (n / h)^2, times the factor by which colours change faster where it is far: by 6 levels of 255, or 4.5
+    /// without light, where black and white, the least height and the farthest end come together, which leaves less than 4 in the pictures
+    /// that are measured. REACH is the square of the n for one and a half levels of light.
     function blockSize(uint256 square, uint256 mode, uint256 nearest, uint256 farthest)
         private
         pure
         returns (uint256 size)
     {
         unchecked {
-            uint256 reach = square * farthest / (10 * (nearest - farthest) + 1) * farthest / (nearest + 1);
+            uint256 bend = (mode & IS_LIT == 0 ? 14 : 10) * (nearest - farthest) + 1;
+            uint256 reach = square * farthest / bend * farthest / (nearest + 1);
             if (mode & IS_LIT != 0) reach = min(reach, 2 * (mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest)));
             reach = sqrt(reach) >> 8;
             return reach > 16 ? 16 : reach == 0 ? 1 : reach;
@@ -228,18 +235,29 @@ library Shading {
         }
     }
 
-    /// @dev Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones. With weights w,
-    /// depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where
-    /// w_i w_j is 1/4 at most, and their sum 1/3: three levels are allowed to each pair alone.
-    function isAffine(uint256 a, uint256 b, uint256 c) private pure returns (bool yes) {
+    /// @dev Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones, or within two in
+    /// triangles that are large, on which the mean error of a picture depends. With weights w, depths z and colours c the two part by the
+    /// sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where w_i w_j is 1/4 at most, and their sum 1/3: three
+    /// levels, or one and a half, are allowed to each pair alone.
+    function isAffine(uint256 a, uint256 b, uint256 c, uint256 word) private pure returns (bool yes) {
+        uint256 least;
+        uint256 most;
+        uint256 bright;
         assembly ("memory-safe") {
-            let least := xor(a, mul(xor(a, b), lt(b, a)))
-            let most := xor(xor(a, b), least)
+            least := xor(a, mul(xor(a, b), lt(b, a)))
+            most := xor(xor(a, b), least)
             least := shr(168, xor(least, mul(xor(least, c), lt(c, least))))
-            most := shr(168, xor(most, mul(xor(most, c), lt(most, c))))
-            // colours of up to 255 may differ as they like where depths do not by more than 12 / 255
-            yes := iszero(or(gt(mul(22, sub(most, least)), least), and(or(or(a, b), c), OVERFLOW)))
+            most := sub(shr(168, xor(most, mul(xor(most, c), lt(most, c)))), least)
+            bright := and(or(or(a, b), c), OVERFLOW)
+            // colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
+            yes := iszero(or(gt(mul(33, most), least), bright))
+        }
+        if (yes) return true;
+        bool large = isLarge(word);
+        assembly ("memory-safe") {
+            yes := iszero(or(or(gt(mul(22, most), least), bright), large))
             if iszero(yes) {
+                let limits := or(GUARDS, shr(large, LIMITS))
                 let inverse := div(0x1000000000000000000000, least)
                 b := sub(b, a)
                 c := sub(c, a)
@@ -257,9 +275,20 @@ library Shading {
                 b := mul(b, rb)
                 c := mul(c, rc)
                 a := mul(a, ra)
-                rb := and(and(add(LIMITS, b), sub(LIMITS, b)), and(add(LIMITS, c), sub(LIMITS, c)))
-                rb := and(and(rb, GUARDS), and(add(LIMITS, a), sub(LIMITS, a)))
+                rb := and(and(add(limits, b), sub(limits, b)), and(add(limits, c), sub(limits, c)))
+                rb := and(and(rb, GUARDS), and(add(limits, a), sub(limits, a)))
                 yes := and(yes, eq(rb, GUARDS))
+            }
+        }
+    }
+
+    /// @dev Whether a triangle has more than 8 rows, of more than 3 pixels in the mean. To shade others in blocks would be dear, and
+    /// change little.
+    function isLarge(uint256 word) private pure returns (bool large) {
+        unchecked {
+            uint256 rows = ((word >> 112) & 0xffff) - ((word >> 96) & 0xffff);
+            if (rows > 8) {
+                large = doubleArea(load((word >> 64) & 0xffffffff), load((word >> 32) & 0xffffffff), load(word & 0xffffffff)) > rows * (3 << 17);
             }
         }
     }

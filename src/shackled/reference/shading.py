@@ -30,9 +30,9 @@ COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
 WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000
 #: Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
 VARYING_BIAS = ONES << 21
-#: A bit above the numbers of each lane; and that with the limit of a pair: 4 times 3 levels, Q30.
+#: A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 GUARDS = 0x00400000000000004000000000000040000000000000
-LIMITS = 0x00400003000000004000030000000040000300000000
+LIMITS = 0x00000003000000000000030000000000000300000000
 #: Bits of a lane that only a colour above 255 has.
 ABOVE_255 = 0xFC000000000000FC000000000000FC0000
 #: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
@@ -55,7 +55,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
             attributes_c = lit(attributes_c, r.face_light)
     if (
         mode & IS_DIFFUSE == 0
-        and is_affine(attributes_a, attributes_b, attributes_c)
+        and is_affine(attributes_a, attributes_b, attributes_c, triangle)
         and (mode & IS_LIT == 0 or square_size(a, b, c) < r.reach)
     ):
         r.lane_bias = COLOR_BIAS
@@ -79,13 +79,17 @@ def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
     return (b.x - a.x) ** 2 + (c.x - a.x) ** 2 + (b.y - a.y) ** 2 + (c.y - a.y) ** 2
 
 
+def double_area(a: Vertex, b: Vertex, c: Vertex) -> int:
+    """Twice the area, in sub-pixels."""
+    return (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)
+
+
 def square_height(a: Vertex, b: Vertex, c: Vertex) -> int:
     """The square of about the least height of a triangle, in sub-pixels.
 
     The square of twice its area by that of a longest edge, for which the sum of the squares of two edges stands.
     """
-    doubled_area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)
-    return divide(doubled_area**2, square_size(a, b, c))
+    return divide(double_area(a, b, c) ** 2, square_size(a, b, c))
 
 
 def barycentric(
@@ -167,10 +171,11 @@ def block_size(square: int, mode: int, nearest: int, farthest: int, registers: R
     """Pixels over which interpolation between exact colours does little harm.
 
     Over n pixels of a triangle of height h perspective bends them by dc * dz / 4z * (n / h)^2, times the factor by
-    which colours change faster where it is far: by 6 levels of 255 where black and white, the least height and the
-    farthest end come together. `reach` is the square of the n for one and a half levels of light.
+    which colours change faster where it is far: by 6 levels of 255, or 4.5 without light, where black and white, the
+    least height and the farthest end come together. `reach` is the square of the n for one and a half levels of light.
     """
-    reach = square * farthest // (10 * (nearest - farthest) + 1) * farthest // (nearest + 1)
+    bend = (10 if mode & IS_LIT else 14) * (nearest - farthest) + 1
+    reach = square * farthest // bend * farthest // (nearest + 1)
     if mode & IS_LIT:
         reach = min(reach, 2 * (lighting.point_reach(farthest, registers) if mode & IS_DIFFUSE else registers.reach))
     return min(max(sqrt(reach) >> 8, 1), 16)
@@ -189,16 +194,22 @@ def lit(word: int, factor: int) -> int:
     return lanes | (word ^ color)
 
 
-def is_affine(a: int, b: int, c: int) -> bool:
+def is_affine(a: int, b: int, c: int, triangle: Triangle) -> bool:
     """Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones.
 
-    With weights w, depths z and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three
-    pairs of vertices, where w_i w_j is 1/4 at most, and their sum 1/3: three levels are allowed to each pair alone.
+    Or within two in triangles that are large, on which the mean error of a picture depends. With weights w, depths z
+    and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where
+    w_i w_j is 1/4 at most, and their sum 1/3: three levels, or one and a half, are allowed to each pair alone.
     """
     least, most = min(a, b, c) >> 168, max(a, b, c) >> 168
-    # colours of up to 255 may differ as they like where depths do not by more than 12 / 255
-    if 22 * (most - least) <= least and (a | b | c) & ABOVE_255 == 0:
+    # colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
+    bright = (a | b | c) & ABOVE_255
+    if 33 * (most - least) <= least and not bright:
         return True
+    large = is_large(triangle)
+    if not large and 22 * (most - least) <= least and not bright:
+        return True
+    limits = LIMITS >> large | GUARDS
     inverse = divide(1 << 84, least)
     guards = GUARDS
     for change in (b - a, c - a, c - b):
@@ -209,5 +220,14 @@ def is_affine(a: int, b: int, c: int) -> bool:
         if ratio >= 1 << 32:
             return False
         # its product with the difference of the colours (Q10): above the limit, it clears a bit
-        guards &= (LIMITS + change * ratio) & (LIMITS - change * ratio)
+        guards &= (limits + change * ratio) & (limits - change * ratio)
     return guards == GUARDS
+
+
+def is_large(triangle: Triangle) -> bool:
+    """Whether a triangle has more than 8 rows, of more than 3 pixels in the mean.
+
+    To shade others in blocks would be dear, and change little.
+    """
+    rows = triangle.bottom - triangle.top
+    return rows > 8 and double_area(triangle.a, triangle.b, triangle.c) > rows * (3 << 17)
