@@ -14,6 +14,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene
+from shackled.scene.camera import Projection
 from shackled.scene.codec import ONE, Rectangle, encode
 from shackled.scene.fit import EXACT_SIZES, MAX_COORDINATE, fit
 from shackled.scene.mesh import vertex_normals
@@ -200,7 +201,7 @@ def test_a_float_mesh_uses_the_whole_grid() -> None:
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize(("zoom", "bound"), [(1, 0.04), (100, 0.04), (1000, 0.15)])
-def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, projection: str) -> None:
+def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, projection: Projection) -> None:
     """In pixels, of those that are seen."""
     rng = np.random.default_rng(3)
     spots = np.array([0.31, 0.17, 0.05]) + rng.uniform(-1, 1, (60, 3)) * [[0.5 / zoom, 0.5 / zoom, 0.02 / zoom]]
