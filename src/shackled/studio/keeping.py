@@ -43,15 +43,25 @@ SCENE_STRUCT = (
 class Storing:
     """A transaction to the Studio.
 
-    what: in words. data: of the call. pointer: where the Studio will keep it. size: bytes that are kept. gas: what
-    the whole transaction uses, if nothing of it is kept yet.
+    what: in words. data: of the call. pointer: where the Studio will keep it. kept: the bytes that it keeps there.
+    gas: what the whole transaction uses, if nothing of it is kept yet.
     """
 
     what: str
     data: bytes
     pointer: bytes
-    size: int
+    kept: bytes
     gas: int
+
+    @property
+    def size(self) -> int:
+        """How many bytes are kept."""
+        return len(self.kept)
+
+    @property
+    def code(self) -> bytes:
+        """What stands at the pointer: an instruction that stops all calls, then what is kept."""
+        return b"\0" + self.kept
 
     @property
     def gas_limit(self) -> int:
@@ -174,14 +184,14 @@ def check_address(address: bytes) -> bytes:
 
 def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: ContractChain | None) -> list[Storing]:
     if len(kept) <= MAX_PART:
-        return [_storing(what, whole, _created(kept, studio), len(kept), chain)]
+        return [_storing(what, whole, _created(kept, studio), kept, chain)]
     parts = parts_of(kept)
     result = [
         _storing(
             f"{what}, part {number} of {len(parts)}",
             _call("storePart(bytes)", ["bytes"], [part]),
             _created(part, studio),
-            len(part),
+            part,
             chain,
         )
         for number, part in enumerate(parts, 1)
@@ -191,12 +201,12 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     joining = _call("join(address[])", ["address[]"], [addresses])
     # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
     gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
-    return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), len(listed), gas)]
+    return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), listed, gas)]
 
 
-def _storing(what: str, data: bytes, pointer: bytes, size: int, chain: ContractChain | None) -> Storing:
+def _storing(what: str, data: bytes, pointer: bytes, kept: bytes, chain: ContractChain | None) -> Storing:
     result = (chain or _embedded()).call(STUDIO, data)
-    return Storing(what, data, pointer, size, result.gas + result.intrinsic_gas)
+    return Storing(what, data, pointer, kept, result.gas + result.intrinsic_gas)
 
 
 def _embedded() -> ContractChain:

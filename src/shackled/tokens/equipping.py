@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from ..chain.connection import Connection
-from ..deploy import Fees, Quote
+from ..deploy import Call, Fees, Quote
 from ..deploy.quote import make_quotes
 from ..errors import InputError
 from .actions import call_of
 from .collection import Collection
 from .contract import Interface
 from .deploying import Launch
-from .icons import icons_of
+from .icons import add_call, icons_of
 
 NOBODY = "0x" + "00" * 20
 
@@ -33,26 +33,29 @@ def plan_equipment(
     fees: Fees,
     listing: tuple[bytes, str | None] | None,
     icons: Sequence[tuple[Any, ...]],
+    codes: Mapping[bytes, bytes],
     known: Sequence[Quote],
 ) -> list[Equipment]:
     """What is missing of it, which is all where the collection is not there yet.
 
     listing: root of the allow-list and who signs permissions; None sets none. icons: the arguments of `add` of each.
-    known: quotes for what is done before. InputError if icons are missing in a collection that is sealed.
+    codes: by address, what the chain keeps of their scenes. known: quotes for what is done before.
+
+    InputError if icons are missing in a collection that is sealed.
     """
     made = None if launch.quote is not None else Collection(connection, launch.kind, launch.address)
-    wanted: list[tuple[str, str, tuple[Any, ...]]] = []
+    interface = Interface(launch.kind.contract)
+    wanted: list[tuple[str, Call]] = []
     if listing is not None:
         root, signer = listing[0], listing[1] or NOBODY
         terms = None if made is None else made.terms()
         if terms is None or (terms.allow_list_root, terms.allow_list_signer) != (root, signer):
-            wanted.append(("the allow-list is set", "setAllowList", (root, signer)))
+            call = call_of(interface, launch.address, "setAllowList", root, signer)
+            wanted.append(("the allow-list is set", call))
     there = {} if made is None or not icons else {icon.name: icon.scene for icon in icons_of(made)}
     missing = [each for each in icons if there.get(each[0]) != each[1]]
     if made is not None and missing and made.contract.call("isSealed"):
         raise InputError(f"{made.name} at {made.address} is sealed, and has no {missing[0][0]}: take another --salt")
-    wanted += [(f"{each[0]}: added", "add", each) for each in missing]
-    interface = Interface(launch.kind.contract)
-    calls = [call_of(interface, launch.address, function, *arguments) for _, function, arguments in wanted]
-    quotes = make_quotes(connection, calls, fees, known)
-    return [Equipment(what, quote) for (what, _, _), quote in zip(wanted, quotes, strict=True)]
+    wanted += [(f"{each[0]}: added", add_call(interface, launch.address, each, codes)) for each in missing]
+    quotes = make_quotes(connection, [call for _, call in wanted], fees, known)
+    return [Equipment(what, quote) for (what, _), quote in zip(wanted, quotes, strict=True)]

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..chain.addresses import show_address
 from ..datasets import Piece, find, pieces
+from ..deploy import Call
+from ..deploy.contract import local_chain
 from ..errors import InputError
 from ..ether import amount
+from ..studio.keeping import STUDIO
+from .actions import call_of
 from .collection import Collection
+from .contract import Interface
 from .licence import licence_of
 
 #: Pixels that each pixel becomes in the picture of a token: 128 become 512.
@@ -95,6 +100,28 @@ def chosen_pieces(names: str | None) -> list[Piece]:
     if not chosen:
         raise InputError("no icon is named: give names with commas, as heart,diamond")
     return chosen
+
+
+def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
+    """The transaction that adds an icon. Its gas is that of what it writes, and of a look at the scene, of which one
+    pixel is drawn. RenderError if it cannot be drawn.
+
+    icon: the arguments of `add`. codes: by address, what the Studio keeps of the scene.
+    """
+    call = call_of(interface, collection, "add", *icon)
+    return replace(call, ours=call.ours + _looking(codes, icon[1]))
+
+
+def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
+    local = local_chain()
+    local.address(STUDIO)
+    for place, code in codes.items():
+        local.put(place, code)
+    studio, renderer = Interface(STUDIO), Interface("Renderer")
+    reading = local.call(STUDIO, studio.encode("scene(address)", pointer))
+    scene = studio.decode("scene(address)", reading.output)
+    drawing = local.call("Renderer", renderer.encode("renderTile", scene, (0, 0, 1, 1)))
+    return (reading.gas or 0) + (drawing.gas or 0)
 
 
 def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -46,13 +46,14 @@ class Due:
 @dataclass(frozen=True)
 class Storage:
     """What is to be done. parts: contracts that are missing. missing: what is to be stored, in this order. pointers: of
-    the scenes, in the order in which they were wanted.
+    the scenes, in the order in which they were wanted. codes: by address, what the chain keeps of the scenes then.
     """
 
     parts: Plan
     studio: str
     missing: tuple[Due, ...]
     pointers: tuple[str, ...]
+    codes: Mapping[bytes, bytes]
 
     @property
     def gas(self) -> int:
@@ -73,12 +74,13 @@ def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | 
     parts = parts_of(STUDIO, itself=True)
     studio = address_of(parts, STUDIO)
     missing: dict[bytes, tuple[str, Storing]] = {}
-    pointers = []
+    pointers, codes = [], {}
     for each in wanted:
         render(each.scene)
         storings = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
         pointers.append(show_address(storings[-1].pointer))
         for storing in storings:
+            codes[storing.pointer] = storing.code
             if storing.pointer not in missing and not _stands(connection, storing):
                 missing[storing.pointer] = each.name, storing
     plan = Deployer(connection).plan(parts, fees)
@@ -86,7 +88,7 @@ def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | 
     calls = [Call(place, storing.data, storing.gas, needs=plan.codes) for _, storing in missing.values()]
     quotes = make_quotes(connection, calls, fees, plan.quotes)
     due = (Due(name, storing, quote) for (name, storing), quote in zip(missing.values(), quotes, strict=True))
-    return Storage(plan, studio, tuple(due), tuple(pointers))
+    return Storage(plan, studio, tuple(due), tuple(pointers), codes)
 
 
 def store(

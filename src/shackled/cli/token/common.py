@@ -114,9 +114,10 @@ def do(
     title: str,
     function: str,
     *arguments: Any,
+    ours: int | None = None,
 ) -> Receipt:
     """As `send`, for the account of the options."""
-    return send(collection, open_signer(account, variable), max_fee, yes, title, function, *arguments)
+    return send(collection, open_signer(account, variable), max_fee, yes, title, function, *arguments, ours=ours)
 
 
 def send(
@@ -128,13 +129,14 @@ def send(
     function: str,
     *arguments: Any,
     value: int = 0,
+    ours: int | None = None,
 ) -> Receipt:
-    """Plans a transaction, tells its price, asks, and sends it. max_fee: of the option, in gwei."""
+    """Plans a transaction, tells its price, asks, and sends it. max_fee: of the option, in gwei. ours: see `plan`."""
     from ...deploy import Transactor
     from ...tokens.actions import plan
 
     transactor = Transactor(collection.connection, signer, max_fee=parse_max_fee(max_fee))
-    quote = plan(transactor, collection.contract, function, *arguments, value=value)
+    quote = plan(transactor, collection.contract, function, *arguments, value=value, ours=ours)
     say(f"{collection.name} on chain {collection.connection.chain_id}: {title}")
     say(f"it costs {price([quote])}")
     if not yes:

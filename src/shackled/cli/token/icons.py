@@ -8,6 +8,7 @@ import typer
 
 from ...errors import InputError
 from ...ether import parse_ether
+from ...studio.keeping import STUDIO
 from ..option import option
 from ..telling import tell
 from .common import Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_icons
@@ -30,7 +31,9 @@ def add(
     yes: Yes = False,
 ) -> None:
     """Add an icon to a collection that is not sealed; its scene is on the chain already. For the owner."""
-    from ...tokens.icons import SCALE, check_sale, chosen_pieces
+    from ...tokens.deploying import address_of, parts_of
+    from ...tokens.icons import SCALE, add_call, check_sale, chosen_pieces
+    from ...tokens.kept import kept_codes
     from ...tokens.storage import Wanted, plan_storage
 
     wei = parse_ether(price, "--price")
@@ -47,7 +50,11 @@ def add(
             raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
-    receipt = do(collection, account, private_key_env, max_fee, yes, f"add {name}", "add", *arguments)
+    # a scene that cannot be drawn is told here, before anything is asked
+    studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
+    codes = dict(kept_codes(collection.connection, studio, bytes.fromhex(place[2:])))
+    ours = add_call(collection.contract, collection.address, arguments, codes).ours
+    receipt = do(collection, account, private_key_env, max_fee, yes, f"add {name}", "add", *arguments, ours=ours)
     tell(f"{name} is added; {receipt.gas:,} gas")
 
 

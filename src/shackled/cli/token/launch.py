@@ -126,7 +126,8 @@ def deploy(
     ]
     stored = [] if storage is None else storage.quotes
     listing = None if listed is None and trusted is None else (bytes(32) if listed is None else listed.root, trusted)
-    equipment = plan_equipment(connection, plan, fees, listing, icons_wanted, [*plan.quotes, *stored])
+    codes = {} if storage is None else storage.codes
+    equipment = plan_equipment(connection, plan, fees, listing, icons_wanted, codes, [*plan.quotes, *stored])
     if chosen:
         say(f"with {len(chosen)} icons: {', '.join(piece.title for piece in chosen)}")
     quotes = [*plan.quotes, *stored, *(each.quote for each in equipment)]
