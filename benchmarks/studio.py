@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from shackled import Object, Scene, load, render
+from shackled import Object, load, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
 from shackled.chain.embedded import EmbeddedChain
@@ -25,6 +25,7 @@ from shackled.datasets.teapot import teapot
 from shackled.reference.bmp import encode_bmp
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
+from shackled.scene.staging import stage
 from shackled.studio.compact_mesh import compact
 from shackled.studio.keeping import on_grid, store_mesh, store_scene
 
@@ -68,7 +69,7 @@ class Keeper:
 def mesh_figures(keeper: Keeper) -> Figures:
     """What 1,000 triangles cost: 992 of a teapot, without loss and with."""
     smooth = load("teapot")
-    flat = Scene([Object(teapot(4))])
+    flat = stage(teapot(4))
     figures: Figures = {}
     for name, scene, bits, normal_bits in (
         ("992 triangles, faces of one shade", flat, None, 10),

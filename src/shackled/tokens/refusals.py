@@ -32,6 +32,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
         else f"sold out: {v['quantity']} wanted, none left"
     ),
     "WithdrawalRefused": lambda v: f"{v['to']} does not take the {ether(v['amount'])}; choose another account",
+    "NameNotUtf8": lambda v: f"the name is not valid UTF-8 at byte {v['position']}",
     "OwnerNeeded": lambda v: "a collection cannot be without an owner",
     "PerTransaction": lambda v: f"a call may mint 1 to 100 tokens, not {v['perTransaction']}",
     "Reserve": lambda v: f"the reserve can be 0 to {v['supply']} tokens, not {v['reserve']}",
