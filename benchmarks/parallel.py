@@ -120,7 +120,7 @@ def timed(frames: list[Scene], places: list[Place]) -> float:
     """Seconds that places take for frames."""
     parts = [Part(number, Rectangle(0, 0, SIDE, SIDE)) for number in range(len(frames))]
     started = time.perf_counter()
-    pieces = Scheduler(frames, places, False).run(parts)
+    pieces = Scheduler(frames, places).run(parts)
     seconds = time.perf_counter() - started
     assert pieces[parts[1]].bmp == open_chain().draw(frames[1]).bmp
     return seconds

@@ -16,9 +16,9 @@ import pytest
 from PIL import Image as PillowImage
 
 from nodes import anvil, needs_anvil
+from shackled.chain import Drawing
 from shackled.cli.app import run
 from shackled.cli.arguments import with_cluster
-from shackled.parallel.part import Piece
 from shackled.whole_file import write_whole
 
 PATIENCE = 60
@@ -150,7 +150,7 @@ def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: py
     draw, limit = part.draw_part, 7
     drawn: list[object] = []
 
-    def counted(*arguments: object) -> Piece:
+    def counted(*arguments: object) -> Drawing:
         if len(drawn) == limit:
             raise KeyboardInterrupt
         drawn.append(arguments)

@@ -12,9 +12,9 @@ import pytest
 
 from nodes import Reply, serving
 from shackled import InputError, RenderError, Scene, load
+from shackled.chain import Drawing
 from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel.cluster import ClusterPlace
-from shackled.parallel.part import Piece
 from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
@@ -37,9 +37,9 @@ def address() -> Iterator[str]:
 
 def test_a_turntable_on_two_workers(address: str) -> None:
     frames = full_turn(SCENE, 36)
-    there = render_frames(frames, Where(cluster=address), count=False)
-    here = render_frames(frames, Where(), count=False)
-    two = render_frames(frames, Where(jobs=2), count=False)
+    there = render_frames(frames, Where(cluster=address))
+    here = render_frames(frames, Where())
+    two = render_frames(frames, Where(jobs=2))
     assert [image.bmp for image in there.images] == [image.bmp for image in here.images]
     assert [image.bmp for image in two.images] == [image.bmp for image in here.images]
     assert [image.gas for image in there.images] == [image.gas for image in here.images]
@@ -51,8 +51,8 @@ def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatc
     """Its workers have our contracts: without being asked for, nothing is compared."""
     draw, tile = ClusterPlace.work, (48, 16)
 
-    def lie(place: ClusterPlace, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
-        piece = draw(place, seat, scene, tile, count)
+    def lie(place: ClusterPlace, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
+        piece = draw(place, seat, scene, tile)
         return replace(piece, bmp=piece.bmp[:-1] + b"\x7f") if tile.y == 32 else piece
 
     monkeypatch.setattr(ClusterPlace, "work", lie)

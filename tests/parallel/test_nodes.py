@@ -60,8 +60,8 @@ def right() -> Image:
 
 
 @pytest.fixture(scope="module")
-def uncounted() -> list[Image]:
-    return render_frames(SPIN, Where(), count=False).images
+def spun() -> list[Image]:
+    return render_frames(SPIN, Where()).images
 
 
 def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
@@ -136,22 +136,22 @@ def test_a_node_that_always_fails(node: str, right: Image, manner: str, message:
 
 
 @pytest.mark.parametrize("lie", range(LIES))
-def test_a_lie_in_any_tile_is_found(node: str, uncounted: list[Image], lie: int) -> None:
+def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> None:
     """Of a turntable of two frames in four tiles each. Alone it is an error that names node and tile; with another node
     beside it the tile is rendered there.
     """
     where = f"the tile of 64 x 16 pixels at (0, {lie % 4 * 16}) of frame {lie // 4}"
     with proxy(node, at(lie, "wrong")) as url:
         with pytest.raises(RenderError) as error:
-            render_frames(SPIN, Where(rpc=(url,), tile=(64, 16)), count=False)
+            render_frames(SPIN, Where(rpc=(url,), tile=(64, 16)))
         name = f"the node {url.removeprefix('http://')} "
         assert str(error.value).startswith(name)
         assert f"answers wrongly for {where}: its picture is not what the contracts draw" in str(error.value)
         assert str(error.value).endswith("; there is no other place to render it")
     notes = Notes()
     with proxy(node, at(lie // 2, "wrong")) as url:
-        job = render_frames(SPIN, Where(rpc=(url, node), tile=(64, 16)), count=False, listener=notes)
-    assert [image.bmp for image in job.images] == [image.bmp for image in uncounted]
+        job = render_frames(SPIN, Where(rpc=(url, node), tile=(64, 16)), listener=notes)
+    assert [image.bmp for image in job.images] == [image.bmp for image in spun]
     for warning in notes.warnings:
         assert re.search("answers wrongly for the tile .*; it is left out, and 1 part is rendered again", warning)
 
@@ -161,13 +161,13 @@ def test_a_lie_in_a_whole_picture_is_found(node: str) -> None:
         proxy(node, at(0, "wrong")) as url,
         pytest.raises(RenderError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
     ):
-        render_frames([SCENE], Where(rpc=(url,)), count=False)
+        render_frames([SCENE], Where(rpc=(url,)))
 
 
-def test_what_is_not_compared_may_be_wrong(node: str, uncounted: list[Image]) -> None:
+def test_what_is_not_compared_may_be_wrong(node: str, spun: list[Image]) -> None:
     with proxy(node, at(3, "wrong")) as url:
-        job = render_frames(SPIN, Where(rpc=(url,), tile=(64, 16), verify="none"), count=False)
-    assert [job.images[n].bmp == uncounted[n].bmp for n in (0, 1)] == [False, True]
+        job = render_frames(SPIN, Where(rpc=(url,), tile=(64, 16), verify="none"))
+    assert [job.images[n].bmp == spun[n].bmp for n in (0, 1)] == [False, True]
 
 
 def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -175,7 +175,7 @@ def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.M
     monkeypatch.setattr(job_module, "COMPARED_GAS", 1)
     for verify, told in ((None, 1), ("some", 0), ("all", 0)):
         notes = Notes()
-        render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), count=False, listener=notes)
+        render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), listener=notes)
         assert len(notes.warnings) == told
         assert all("--verify all compares every pixel" in warning for warning in notes.warnings)
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from shackled import OutputError, RenderError, Scene, load
-from shackled.chain import open_chain
+from shackled.chain import Drawing, open_chain
 from shackled.errors import (
     NodeBusyError,
     NodeTimeoutError,
@@ -23,7 +23,7 @@ from shackled.errors import (
 )
 from shackled.parallel import scheduler as module
 from shackled.parallel.listener import Listener
-from shackled.parallel.part import Part, Piece, draw_part
+from shackled.parallel.part import Part, draw_part
 from shackled.parallel.place import Place
 from shackled.parallel.referee import Referee
 from shackled.parallel.scheduler import Scheduler
@@ -52,13 +52,13 @@ class Shaky:
         self.gas_told: int | None = None
         self.lock = threading.Lock()
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
         with self.lock:
             number, self.calls = self.calls, self.calls + 1
         error = self.trouble(number, tile)
         if error is not None:
             raise error
-        piece = draw_part(open_chain(), scene, tile, count)
+        piece = draw_part(open_chain(), scene, tile)
         with self.lock:
             self.tiles.append(tile)
         if self.gas_told is not None:
@@ -92,10 +92,10 @@ PARTS = [Part(0, tile) for tile in cut(SIDE, SIDE, 4 * SIDE)]
 def run(places: Sequence[Place], referee: Referee | None = None, store: Store | None = None) -> Notes:
     """Renders the scene; each pixel must come out once, and right."""
     notes = Notes()
-    pieces = Scheduler([SCENE], places, True, store, notes, referee).run(PARTS)
+    pieces = Scheduler([SCENE], places, store, notes, referee).run(PARTS)
     assert sum(area(part.tile) for part in pieces) == notes.pixels == SIDE * SIDE
     for part, piece in pieces.items():
-        assert piece == draw_part(open_chain(), SCENE, part.tile, True)
+        assert piece == draw_part(open_chain(), SCENE, part.tile)
     return notes
 
 
@@ -188,7 +188,7 @@ def test_what_a_contract_is_said_to_refuse() -> None:
     """It is true if it refuses here too; else the place is left out."""
 
     class Agreeing(Referee):
-        def draw(self, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        def draw(self, scene: Scene, tile: Rectangle) -> Drawing:
             raise RenderError("the contract refused: NoViewDirection()")
 
     liar = Shaky("liar", lambda n, tile: RenderError("the contract refused: NoViewDirection()"))
@@ -219,7 +219,7 @@ def test_gas_that_is_not_true() -> None:
     boaster = Shaky("boaster", seats=2)
     boaster.gas_told = 5
     notes = Notes()
-    pieces = Scheduler([SCENE], [boaster], True, None, notes, Referee(every=True)).run(PARTS)
+    pieces = Scheduler([SCENE], [boaster], None, notes, Referee(every=True)).run(PARTS)
     assert {piece.gas for piece in pieces.values()} == {5}
     (warning,) = notes.warnings
     assert re.match(r"the boaster counts 5 gas for the tile of 40 x 4 .*, which takes [\d,]{6,} here: its gas", warning)
@@ -236,23 +236,23 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
             return first or self.asked > len(PARTS) // 2
 
     class Turncoat(Shaky):
-        def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+        def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
             self.lies = self.calls > 0
-            return super().work(seat, scene, tile, count)
+            return super().work(seat, scene, tile)
 
     liar, honest = Turncoat("liar"), Shaky("honest", lambda n, tile: time.sleep(0.2))
-    store = Store(tmp_path / "parts", [SCENE], True)
+    store = Store(tmp_path / "parts", [SCENE])
     notes = run([liar, honest], OnlyFirstAndLast(every=False), store)
     assert len(notes.warnings) == 1
     assert "parts are rendered again by others" in notes.warnings[0]
     for part in PARTS:
-        assert store.read(part) == draw_part(open_chain(), SCENE, part.tile, True)
+        assert store.read(part) == draw_part(open_chain(), SCENE, part.tile)
 
 
 def test_half_a_picture_is_no_picture() -> None:
     class Cutter(Shaky):
-        def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
-            piece = super().work(seat, scene, tile, count)
+        def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
+            piece = super().work(seat, scene, tile)
             return replace(piece, bmp=piece.bmp[: len(piece.bmp) // 2])
 
     with pytest.raises(RenderError, match=r"^the cutter answers wrongly for the tile .*: the contract "):
@@ -267,9 +267,9 @@ def test_halves_of_an_earlier_run_are_taken(tmp_path: Path) -> None:
 
     folder = tmp_path / "parts"
     first, again = Shaky("first", large), Shaky("again", large)
-    run([first], store=Store(folder, [SCENE], True))
+    run([first], store=Store(folder, [SCENE]))
     assert len(first.tiles) == 2 * len(PARTS)
-    run([again], store=Store(folder, [SCENE], True))
+    run([again], store=Store(folder, [SCENE]))
     assert again.tiles == []
 
 
@@ -277,7 +277,7 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     def full(path: Path, data: bytes) -> None:
         raise OSError(28, "No space left on device")
 
-    store = Store(tmp_path / "parts", [SCENE], True)
+    store = Store(tmp_path / "parts", [SCENE])
     monkeypatch.setattr("shackled.whole_file.write_whole", full)
     with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)
@@ -289,4 +289,4 @@ def test_a_listener_that_fails_ends_it() -> None:
             raise OSError("nobody listens")
 
     with pytest.raises(OSError, match="nobody listens"):
-        Scheduler([SCENE], [Shaky("a")], True, None, Deaf()).run(PARTS)
+        Scheduler([SCENE], [Shaky("a")], None, Deaf()).run(PARTS)

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from shackled import InputError, RenderError, Scene, load
-from shackled.chain import open_chain
+from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
 from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel import place as place_module
-from shackled.parallel.part import Part, Piece, draw_part
+from shackled.parallel.part import Part, draw_part
 from shackled.parallel.store import PLAN, Store, folder_of, remove_parts
 from shackled.parallel.tiles import cut
 from shackled.scene.codec import Rectangle
@@ -20,18 +20,18 @@ from shackled.scene.turning import full_turn
 
 SCENE = replace(load("cube"), width=32, height=20)
 PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]
-PIECE = draw_part(open_chain(), SCENE, PARTS[0].tile, True)
+PIECE = draw_part(open_chain(), SCENE, PARTS[0].tile)
 
 
 @pytest.fixture
 def store(tmp_path: Path) -> Store:
-    return Store(tmp_path / "cube.png.parts", [SCENE], True)
+    return Store(tmp_path / "cube.png.parts", [SCENE])
 
 
 def test_parts_are_found_again(store: Store) -> None:
     assert store.read(PARTS[0]) is None
     store.write(PARTS[0], PIECE)
-    assert Store(store.folder, [SCENE], True).read(PARTS[0]) == PIECE
+    assert Store(store.folder, [SCENE]).read(PARTS[0]) == PIECE
     assert store.read(PARTS[1]) is None
     store.forget(PARTS[0])
     assert store.read(PARTS[0]) is None
@@ -39,8 +39,7 @@ def test_parts_are_found_again(store: Store) -> None:
 
 def test_parts_of_another_picture_are_not_taken(store: Store) -> None:
     store.write(PARTS[0], PIECE)
-    assert Store(store.folder, [replace(SCENE, invert=True)], True).read(PARTS[0]) is None
-    assert Store(store.folder, [SCENE], False).read(PARTS[0]) is None
+    assert Store(store.folder, [replace(SCENE, invert=True)]).read(PARTS[0]) is None
 
 
 @pytest.mark.parametrize("damage", [b"", b"x", b"{}\n", bytes(500)], ids=repr)
@@ -66,7 +65,7 @@ def test_plans(store: Store) -> None:
     assert store.read_plan() is None
     store.write_plan(PARTS)
     assert store.read_plan() == PARTS
-    assert Store(store.folder, [replace(SCENE, invert=True)], True).read_plan() is None
+    assert Store(store.folder, [replace(SCENE, invert=True)]).read_plan() is None
     for plan in (PARTS[1:], [*PARTS, PARTS[0]], [*PARTS, Part(1, Rectangle(0, 0, 32, 20))]):
         store.write_plan(plan)
         assert store.read_plan() is None
@@ -90,7 +89,7 @@ def test_only_its_own_files_are_removed(store: Store) -> None:
 def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
     (tmp_path / "a.png.parts").write_text("", "utf-8")
     with pytest.raises(InputError, match=r"a.png.parts is a file, not a folder to write to"):
-        Store(folder_of(tmp_path / "a.png"), [SCENE], True)
+        Store(folder_of(tmp_path / "a.png"), [SCENE])
     remove_parts(folder_of(tmp_path / "a.png"))
     assert (tmp_path / "a.png.parts").is_file()
 
@@ -99,25 +98,25 @@ def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
 def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: BaseException) -> None:
     frames = full_turn(SCENE, 5)
     where, keep = Where(tile=(32, 7)), tmp_path / "spin.gif.parts"
-    expected = render_frames(frames, where, False)
+    expected = render_frames(frames, where)
     drawn: list[Rectangle] = []
 
-    def counted(chain: object, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def counted(chain: object, scene: Scene, tile: Rectangle) -> Drawing:
         if len(drawn) == 8 and not resumed:
             raise stop
         drawn.append(tile)
-        return draw_part(open_chain(), scene, tile, count)
+        return draw_part(open_chain(), scene, tile)
 
     monkeypatch.setattr(place_module, "draw_part", counted)
     monkeypatch.setattr(Listener, "warned", lambda self, text: said.append(text))
     said: list[str] = []
     resumed = False
     with pytest.raises(type(stop)):
-        render_frames(frames, where, False, keep=keep)
+        render_frames(frames, where, keep=keep)
     assert said == [f"finished parts are kept in {keep}: the same command goes on from there"]
     assert len(list(keep.glob("*.part"))) == 8
     resumed = True
-    again = render_frames(frames, where, False, keep=keep)
+    again = render_frames(frames, where, keep=keep)
     assert len(drawn) == expected.calls == 15
     assert [image.bmp for image in again.images] == [image.bmp for image in expected.images]
     assert [image.gas for image in again.images] == [image.gas for image in expected.images]
@@ -138,13 +137,13 @@ def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
 def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     keep, drawn, resumed = tmp_path / "cube.png.parts", list[Rectangle](), False
 
-    def narrow(chain: object, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def narrow(chain: object, scene: Scene, tile: Rectangle) -> Drawing:
         if tile.width * tile.height > 200:
             raise TooLargeError("too large")
         if len(drawn) == 3 and not resumed:
             raise KeyboardInterrupt
         drawn.append(tile)
-        return draw_part(open_chain(), scene, tile, count)
+        return draw_part(open_chain(), scene, tile)
 
     monkeypatch.setattr(place_module, "draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
@@ -158,9 +157,9 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_what_was_being_written_is_taken_away_too(tmp_path: Path) -> None:
     """When the machine goes down, a file may be there that was not finished."""
-    store = Store(tmp_path / "parts", [SCENE], False)
+    store = Store(tmp_path / "parts", [SCENE])
     part = Part(0, Rectangle(0, 0, 16, 10))
-    store.write(part, draw_part(open_chain(), SCENE, part.tile, False))
+    store.write(part, draw_part(open_chain(), SCENE, part.tile))
     (name,) = store.folder.iterdir()
     for each in (name.name, PLAN):
         (store.folder / f".{each}.abcd1234").write_bytes(b"half")

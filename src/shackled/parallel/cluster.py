@@ -10,12 +10,12 @@ import threading
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from ..chain import open_chain
+from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
 from .evm import limited
-from .part import Piece, draw_part
+from .part import draw_part
 from .store import contracts_digest
 
 if TYPE_CHECKING:
@@ -86,12 +86,12 @@ class ClusterPlace:
         """What it is, for people."""
         return self._name
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Renders a part on whichever worker is free."""
         from distributed import KilledWorker
 
         try:
-            future = self._client.submit(render_there, self._chain, self.gas, scene, tile, count, pure=False)
+            future = self._client.submit(render_there, self._chain, self.gas, scene, tile, pure=False)
             answer = future.result()
         except KilledWorker:
             raise RenderError(
@@ -103,7 +103,7 @@ class ClusterPlace:
             lost = "connection-lost" in str(error)
             what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
             raise RenderError(f"the cluster failed: {what}") from None
-        assert isinstance(answer, Piece)
+        assert isinstance(answer, Drawing)
         return answer
 
     def close(self) -> None:
@@ -157,9 +157,9 @@ class ClusterPlace:
         return len(facts)
 
 
-def render_there(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+def render_there(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
     """Runs on a worker."""
-    return draw_part(limited(chain, gas), scene, tile, count)
+    return draw_part(limited(chain, gas), scene, tile)
 
 
 def _facts_function() -> Any:

@@ -10,14 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..chain import open_chain
+from ..chain import Drawing, open_chain
 from ..chain.embedded import PyrevmChain
 from ..image import Image, decode_bmp
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
 from .estimate import Estimate, estimate
 from .listener import Listener, Outline
-from .part import Part, Piece
+from .part import Part
 from .place import Place
 from .referee import SAMPLE, Referee
 from .scheduler import Scheduler
@@ -48,14 +48,11 @@ class Finished:
 def render_frames(
     frames: Sequence[Scene],
     where: Where,
-    count: bool = False,
     listener: Listener | None = None,
     keep: Path | None = None,
 ) -> Finished:
     """Renders frames, all of one size.
 
-    count: whether the contracts count triangles and pixels as well, in a second call for each part. An `Image` counts
-        them without.
     keep: a folder in which finished parts are kept until the job is done; whoever uses the pictures removes it.
     """
     listener = listener or Listener()
@@ -70,7 +67,7 @@ def render_frames(
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
         referee, compared = _referee(frames[0], places, expected, where.verify)
         # a single part may have to be cut too
-        store = Store(keep, frames, count, compared) if keep is not None else None
+        store = Store(keep, frames, compared) if keep is not None else None
         if store is not None and len(parts) > 1:
             parts = _planned(store, parts, where)
         pixels = frames[0].width * frames[0].height
@@ -81,7 +78,7 @@ def render_frames(
                 f"of what nodes draw of a picture as large as this only samples are compared (one part in {SAMPLE}): "
                 "--verify all compares every pixel"
             )
-        scheduler = Scheduler(frames, places, count, store, listener, referee)
+        scheduler = Scheduler(frames, places, store, listener, referee)
         try:
             pieces = scheduler.run(parts)
         except BaseException:
@@ -145,7 +142,7 @@ def _planned(store: Store, parts: list[Part], where: Where) -> list[Part]:
     return parts
 
 
-def _assemble(number: int, scene: Scene, pieces: dict[Part, Piece], chain: str, seconds: float) -> Image:
+def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float) -> Image:
     """The picture of a frame from its parts."""
     own = {part.tile: piece for part, piece in pieces.items() if part.frame == number}
     pixels = np.zeros((scene.height, scene.width, 3), np.uint8)
@@ -165,7 +162,7 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Piece], chain: str, 
     )
 
 
-def _bmp(pixels: np.ndarray, pieces: list[Piece]) -> bytes:
+def _bmp(pixels: np.ndarray, pieces: list[Drawing]) -> bytes:
     """The file: the one that the contract made, or, of tiles, the same as it would have made."""
     if len(pieces) == 1:
         return pieces[0].bmp

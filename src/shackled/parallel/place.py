@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from ..chain.chain import Chain
+from ..chain.chain import Chain, Drawing
 from ..chain.refusal import out_of_gas
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
-from .part import Piece, draw_part
+from .part import draw_part
 
 
 class Place(Protocol):
@@ -26,7 +26,7 @@ class Place(Protocol):
     def name(self) -> str:
         """What it is, for people."""
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Renders a part; seats are numbered from 0, and each does one part at a time."""
 
     def close(self) -> None:
@@ -45,9 +45,9 @@ class ChainPlace:
         """That of the chain."""
         return self.chain.name
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Renders a part."""
-        piece = draw_part(self.chain, scene, tile, count)
+        piece = draw_part(self.chain, scene, tile)
         if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
             raise out_of_gas(self.gas)
         return piece

@@ -11,11 +11,10 @@ import subprocess
 import sys
 from typing import IO, Any
 
-from ..chain import open_chain
+from ..chain import Drawing, open_chain
 from ..errors import InputError, OutOfGasError, RenderError
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
-from .part import Piece
 
 #: How often a part is tried again after the process that worked on it has died.
 ATTEMPTS = 2
@@ -40,19 +39,19 @@ class ProcessPlace:
         """What it is, for people."""
         return f"{self._label}, {self.seats} processes"
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
         """Renders a part in the process of that seat, which is started when it is first needed."""
         for _ in range(ATTEMPTS):
             try:
                 worker = self._workers[seat] or self._start(seat)
-                answer = _ask(worker, (scene, tile, count))
+                answer = _ask(worker, (scene, tile))
             except (EOFError, OSError, pickle.UnpicklingError, ValueError):
                 # killed, perhaps for want of memory: another one takes its place
                 self._end(seat)
                 if self._closed:
                     break
                 continue
-            if isinstance(answer, Piece):
+            if isinstance(answer, Drawing):
                 return answer
             kind, message = answer
             raise _ERRORS.get(kind, RenderError)(message)

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import random
 
-from ..chain import open_chain
+from ..chain import Drawing, open_chain
 from ..chain.embedded import PyrevmChain
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
-from .part import Piece, draw_part
+from .part import draw_part
 
 #: Where not all parts are compared: one in so many, besides the first one of each place.
 SAMPLE = 8
@@ -33,6 +33,6 @@ class Referee:
         """Whether a part shall be compared. first: it is the first one of its place."""
         return self._every or first or random.randrange(SAMPLE) == 0
 
-    def draw(self, scene: Scene, tile: Rectangle, count: bool) -> Piece:
+    def draw(self, scene: Scene, tile: Rectangle) -> Drawing:
         """The part as it should be. RenderError if the contracts refuse it."""
-        return draw_part(self._chain, scene, tile, count)
+        return draw_part(self._chain, scene, tile)

@@ -15,6 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 
+from ..chain import Drawing
 from ..errors import (
     NodeBusyError,
     NodeError,
@@ -26,7 +27,7 @@ from ..errors import (
 )
 from ..scene.scene import Scene
 from .listener import Listener
-from .part import Part, Piece, check_part
+from .part import Part, check_part
 from .place import Place
 from .referee import Referee
 from .store import Store
@@ -73,25 +74,24 @@ class Scheduler:
         self,
         frames: Sequence[Scene],
         places: Sequence[Place],
-        count: bool,
         store: Store | None = None,
         listener: Listener | None = None,
         referee: Referee | None = None,
     ) -> None:
-        """count: whether parts are counted. referee: None checks nothing."""
-        self._frames, self._count = frames, count
+        """referee: None checks nothing."""
+        self._frames = frames
         self._benches = [Bench(place) for place in places]
         self._store, self._listener, self._referee = store, listener or Listener(), referee
         self._changed = threading.Condition(threading.RLock())
         self._pending: deque[Part] = deque()
         self._flying = 0
-        self._results: dict[Part, Piece] = {}
+        self._results: dict[Part, Drawing] = {}
         self._error: BaseException | None = None
         self._stopped = False
         self._told: set[Bench] = set()
         self._comparing = ThreadPoolExecutor(1)
 
-    def run(self, parts: Sequence[Part]) -> dict[Part, Piece]:
+    def run(self, parts: Sequence[Part]) -> dict[Part, Drawing]:
         """The finished parts; those given may have been cut further. An error ends all of it."""
         with self._changed:
             self._put_first(parts)
@@ -136,7 +136,7 @@ class Scheduler:
         while (part := self._take(bench)) is not None:
             piece, failure = None, None
             try:
-                piece = bench.place.work(seat, self._frames[part.frame], part.tile, self._count)
+                piece = bench.place.work(seat, self._frames[part.frame], part.tile)
             except BaseException as error:
                 failure = self._judged(bench, part, error)
             if piece is not None and bench.checked and self._referee is not None:
@@ -146,7 +146,7 @@ class Scheduler:
             else:
                 self._settle(bench, part, piece, failure)
 
-    def _settle(self, bench: Bench, part: Part, piece: Piece | None, failure: BaseException | None) -> None:
+    def _settle(self, bench: Bench, part: Part, piece: Drawing | None, failure: BaseException | None) -> None:
         """Takes in what a seat did."""
         checked = False
         if piece is not None and bench.place.distant:
@@ -197,7 +197,7 @@ class Scheduler:
             self._put_first([Part(part.frame, tile) for tile in smaller])
         return None
 
-    def _check(self, bench: Bench, part: Part, piece: Piece) -> bool:
+    def _check(self, bench: Bench, part: Part, piece: Drawing) -> bool:
         """Whether a part was compared. WrongAnswer if it is not what it should be."""
         scene = self._frames[part.frame]
         try:
@@ -208,8 +208,8 @@ class Scheduler:
             first, bench.checked = not bench.checked, True
         if self._referee is None or not self._referee.wants(first):
             return False
-        right = self._referee.draw(scene, part.tile, self._count)
-        if not piece.same(right):
+        right = self._referee.draw(scene, part.tile)
+        if piece.bmp != right.bmp:
             raise WrongAnswer("its picture is not what the contracts draw")
         if None not in (piece.gas, right.gas) and piece.gas != right.gas:
             self._tell_of_gas(bench, part, piece.gas, right.gas)
@@ -239,7 +239,7 @@ class Scheduler:
         if genuine or self._referee is None or not bench.place.distant:
             return error
         try:
-            self._referee.draw(self._frames[part.frame], part.tile, self._count)
+            self._referee.draw(self._frames[part.frame], part.tile)
         except Exception:
             return error
         return WrongAnswer(str(error))
@@ -259,7 +259,7 @@ class Scheduler:
         self._listener.advanced(area(part.tile))
         return True
 
-    def _finished(self, bench: Bench, part: Part, piece: Piece, checked: bool) -> None:
+    def _finished(self, bench: Bench, part: Part, piece: Drawing, checked: bool) -> None:
         bench.failures = bench.busy = bench.misses = 0
         bench.done += 1
         if bench.place.distant and not checked:

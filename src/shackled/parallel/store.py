@@ -13,12 +13,13 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..artifacts import artifact
+from ..chain import Drawing
 from ..errors import RenderError
 from ..scene.codec import Rectangle, encode_scene
 from ..scene.fit import fit
 from ..scene.scene import Scene
 from ..whole_file import make_output_folder, write_output
-from .part import Part, Piece, check_part
+from .part import Part, check_part
 from .tiles import covers
 
 SUFFIX = ".part"
@@ -48,18 +49,19 @@ def contracts_digest() -> bytes:
 class Store:
     """The finished parts of a job."""
 
-    def __init__(self, folder: Path, frames: Sequence[Scene], count: bool, compared: bool = True) -> None:
-        """count: whether parts are counted; those that are not do not do then. compared: whether all parts are known to
-        be right; those of a run in which they were not do not do then. Errors as of `make_output_folder`.
+    def __init__(self, folder: Path, frames: Sequence[Scene], compared: bool = True) -> None:
+        """compared: whether all parts are known to be right; those of a run in which they were not do not do then.
+
+        Errors as of `make_output_folder`.
         """
         self.folder = folder
         self._frames = frames
         self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
-        self._salt = contracts_digest() + bytes([count, compared])
+        self._salt = contracts_digest() + bytes([compared])
         self._kept = 0
         make_output_folder(folder)
 
-    def read(self, part: Part) -> Piece | None:
+    def read(self, part: Part) -> Drawing | None:
         """A finished part, if it is there."""
         try:
             data = self._path(part).read_bytes()
@@ -69,16 +71,16 @@ class Store:
             return None
         if hashlib.sha256(data[32:]).digest() != data[:32]:
             return None
-        piece = Piece(bmp, *numbers)
+        piece = Drawing(bmp, *numbers)
         try:
             check_part(piece, part.tile)
         except RenderError:
             return None
         return piece
 
-    def write(self, part: Part, piece: Piece) -> None:
+    def write(self, part: Part, piece: Drawing) -> None:
         """Keeps a finished part. OutputError if the disk does not take it."""
-        numbers = [piece.gas, piece.intrinsic_gas, piece.triangles, piece.lit_pixels]
+        numbers = [piece.gas, piece.intrinsic_gas]
         body = json.dumps(numbers).encode() + b"\n" + piece.bmp
         write_output(self._path(part), hashlib.sha256(body).digest() + body)
         self._kept += 1

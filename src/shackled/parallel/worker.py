@@ -12,7 +12,7 @@ from .part import draw_part
 
 
 def serve() -> None:
-    """Answers each question, (scene, tile, count), with a Piece, or with the kind of an error and its message."""
+    """Answers each question, (scene, tile), with a Drawing, or with the kind of an error and its message."""
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     # what a library may print goes where people look
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
