@@ -126,8 +126,8 @@ def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
         "deployment proxy",
         "Engine",
         "Renderer",
-        "Studio",
         "PngEncoder",
+        "Studio",
     ]
     for each in deployments(names.split(",")):
         assert node.connection.data("eth_getCode", "0x" + each.address.hex(), "latest") == each.code

@@ -71,7 +71,7 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
         assert len(each.code) == len(artifact(each.name).runtime)
     assert [each.name for each in deployments(["Renderer"])] == ["Engine", "Renderer"]
     assert [each.name for each in deployments(["Genesis", "Renderer"])] == ["Engine", "Renderer", "Genesis"]
-    assert [each.name for each in deployments(["Studio"])] == ["Engine", "Renderer", "Studio"]
+    assert [each.name for each in deployments(["Studio"])] == ["Engine", "Renderer", "PngEncoder", "Studio"]
     assert [each.name for each in deployments(["PngEncoder"])] == ["PngEncoder"]
     for name in CONTRACTS:
         assert deployments([name])[-1].name == name

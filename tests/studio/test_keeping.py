@@ -19,6 +19,7 @@ from shackled.datasets.teapot import teapot
 from shackled.errors import RenderError
 from shackled.scene.packed_mesh import pack
 from shackled.scene.rotation import from_euler, rotate
+from shackled.scene.staging import stage
 from shackled.studio.compact_mesh import expand
 from shackled.studio.keeping import (
     Storing,
@@ -90,7 +91,7 @@ def test_a_large_mesh(world: World) -> None:
 def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:
     """Without loss where faces have one shade each; where it is smooth, on a grid of 2^11, with normals of 6 bits."""
     pot = teapot(4)
-    flat = store_scene(Scene([Object(pot)]), STUDIO)[0]
+    flat = store_scene(stage(pot), STUDIO)[0]
     assert len(np.asarray(pot.faces)) == 992
     assert flat.gas < 1_100_000
     scene = load("teapot")

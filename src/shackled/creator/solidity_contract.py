@@ -58,8 +58,8 @@ contract $name {
         renderer = renderer_;
     }
 
-    /// @notice An SVG that shows the picture at any size, for web pages. Marketplaces and wallets that resize pictures show it empty: for a
-    /// token, let PngEncoder or Studio make a PNG of `scene`.
+    /// @notice An SVG that shows the picture at any size, for web pages. Marketplaces that resize pictures show it
+    /// empty: for a token, let PngEncoder or Studio make a PNG of `scene`.
     function svg($parameters) external view returns (string memory) {
         return renderer.renderSVG(scene($arguments));
     }

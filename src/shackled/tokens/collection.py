@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from ..artifacts import artifact
 from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..chain.node import GAS_LEFT
@@ -99,9 +100,9 @@ class Collection:
         try:
             return str(self._of_token("tokenURI", token))
         except RevertError as error:
-            if error.data:
+            if error.data and artifact("Renderer").errors.get(error.data[:4], ("",))[0] != "OutOfGas":
                 raise
-            # what our contracts refuse they say; a call within a call that runs out of gas says nothing
+            # a call within a call that runs out of gas says nothing, unless it is the renderer's to the engine
             raise OutOfGasError(
                 f"the {self.connection.name} gives a read call too little gas for tokenURI{self._given()}: raise its "
                 "limit, or take another node"

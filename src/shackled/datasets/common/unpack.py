@@ -7,6 +7,7 @@ import io
 import lzma
 import tarfile
 import tempfile
+import warnings
 import zipfile
 import zlib
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, InputWarning
 from ...scene.files.content import MAX_BYTES
 from ...scene.files.mesh_file import READERS, read_mesh
 from ...scene.files.weld import weld
@@ -39,9 +40,16 @@ class _Readable(Protocol):
 def read_model(path: Path, member: str | None = None) -> Mesh:
     """The mesh of a mesh file, of a 3MF, of a mesh file that is packed with gzip, or of one in a zip or tar archive.
 
-    member: the file in the archive; None takes the largest mesh file of a known kind. InputError, one line that begins
-    with the path, for anything that is wrong with the file.
+    member: the file in the archive; None takes the largest mesh file of a known kind. Materials and textures are left
+    out without a note: of a model only the mesh is fetched. InputError, one line that begins with the path, for
+    anything that is wrong with the file.
     """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InputWarning)
+        return _read(path, member)
+
+
+def _read(path: Path, member: str | None) -> Mesh:
     try:
         with path.open("rb") as file:
             head = file.read(512)
