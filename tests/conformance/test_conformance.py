@@ -21,7 +21,16 @@ from .world import before_camera
 
 #: About 30 seconds of scenes.
 SEEDS = range(200, 280)
-PIECES = ("teapot", "cornell-box", "icons/ethereum", "icons/shackle", "genesis/5", "genesis/63", "genesis/100")
+PIECES = (
+    "teapot",
+    "cornell-box",
+    "icons/ethereum",
+    "icons/shackle",
+    "genesis/5",
+    "genesis/63",
+    "genesis/100",
+    "genesis/1011",
+)
 
 
 @pytest.fixture(autouse=True)

@@ -543,6 +543,7 @@ def test_a_picture_comes_back_with_its_file(visit: NewPage, tmp_path: Path) -> N
     page = visit(f"?p={link}")
     page.reload()  # the link is kept until something else is shown
     page.wait_for_selector(".toast.alert")
+    page.wait_for_selector("#picture[data-number][data-draft=false]")
     assert urlsplit(page.url).query == f"p={link}"
     shown = after(page, lambda: page.set_input_files("#file", file))
     assert len(shown) == 48 * 32 * 3

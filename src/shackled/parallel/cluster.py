@@ -27,6 +27,8 @@ PATIENCE = 15
 AHEAD = 2
 #: Seconds that a cluster of our own has to stop by itself.
 STOPPING = 10
+#: What dask says when the connection to its scheduler has broken.
+LOST = ("connection-lost", "ConnectionResetError", "CommClosedError")
 
 
 class ClusterPlace:
@@ -100,7 +102,8 @@ class ClusterPlace:
         except (InputError, RenderError):
             raise
         except Exception as error:
-            lost = "connection-lost" in str(error)
+            said = f"{type(error).__name__}: {error}"
+            lost = any(sign in said for sign in LOST)
             what = "its scheduler cannot be reached any more; is it running?" if lost else _line(error)
             raise RenderError(f"the cluster failed: {what}") from None
         assert isinstance(answer, Drawing)
