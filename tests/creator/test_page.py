@@ -25,7 +25,7 @@ if browser_path() is None:
     pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
 
 #: Milliseconds that anything may take on a machine that is busy with other things.
-PATIENCE = 20_000
+PATIENCE = 60_000
 
 NewPage = Callable[..., Any]
 
