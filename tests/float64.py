@@ -6,6 +6,9 @@ seen is then shaded pixel by pixel:
 
     colour = surface * (ambient * A + sum_i diffuse * max(0, N.L_i) * C_i)
            + sum_i specular * max(0, N.H_i)^shininess * C_i
+
+C_i is the colour of a light, times what its cone lets through if it is a spot light. Objects that are not opaque are
+drawn after the others: colour * opacity + what is there * (1 - opacity), where each is seen first.
 """
 
 from __future__ import annotations
@@ -78,6 +81,7 @@ class _Surface:
     faces: Integers
     material: tuple[int, float, float, float, int]
     cull: bool
+    opacity: float
 
 
 def render(scene: Scene) -> Picture:
@@ -88,20 +92,32 @@ def render(scene: Scene) -> Picture:
 def render_call(data: bytes) -> Picture:
     """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it."""
     (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
-    (width, height), camera, (top, bottom), invert, ambient, lights, objects = scene
+    (width, height), camera, (top, bottom), invert, ambient, lights, objects, extensions = scene
+    cones, opacities = _extensions(extensions)
+    lamps = [(*light, cones.get(i)) for i, light in enumerate(lights)]
     frame = _frame(camera, width, height)
-    surfaces = [_surface(o) for o in objects]
-    triangle, bary = _rasterise(frame, surfaces)
+    surfaces = [_surface(o, opacities.get(i, 1.0)) for i, o in enumerate(objects)]
     picture = _background(_rgb(top), _rgb(bottom), width, height)
-    first = 0
-    for surface in surfaces:
-        seen = (triangle >= first) & (triangle < first + len(surface.faces))
-        if seen.any():
-            face = triangle[seen] - first
-            picture[seen] = _shade(frame, surface, face, bary[seen], _rgb(ambient), lights)
-        first += len(surface.faces)
+    shape = (height, width)
+    triangle, depth = np.full(shape, -1, np.int64), np.full(shape, -np.inf)
+    firsts = np.cumsum([0] + [len(surface.faces) for surface in surfaces])
+    # all that is opaque at once, then one after the other
+    opaque = [i for i, surface in enumerate(surfaces) if surface.opacity == 1]
+    passes = [opaque, *([i] for i, surface in enumerate(surfaces) if 0 < surface.opacity < 1)]
+    for numbers in passes:
+        drawn, bary = _rasterise(frame, surfaces, numbers, depth)
+        triangle[drawn >= 0] = drawn[drawn >= 0]
+        for i in numbers:
+            surface, first = surfaces[i], firsts[i]
+            seen = (drawn >= first) & (drawn < first + len(surface.faces))
+            if seen.any():
+                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps)
+                if surface.opacity < 1:
+                    color = np.clip(color, 0, 255) * surface.opacity
+                    color += np.clip(picture[seen], 0, 255) * (1 - surface.opacity)
+                picture[seen] = color
     if invert:
-        picture = 255 - picture
+        picture = 255 - np.clip(picture, 0, 255)
     exact = np.clip(picture, 0, 255)
     offsets = np.cumsum([0] + [len(s.positions) for s in surfaces])
     corners = [s.faces + offset for s, offset in zip(surfaces, offsets, strict=False)]
@@ -147,7 +163,20 @@ def _frame(camera: Any, width: int, height: int) -> _Frame:
     return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height)
 
 
-def _surface(o: Any) -> _Surface:
+def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float]]:
+    """The cones of lights (where each points, the cosines of its angles) and the opacities of objects, by index."""
+    cones, opacities = {}, {}
+    while data:
+        kind, index, size = data[0], int.from_bytes(data[1:3], "big"), int.from_bytes(data[3:5], "big")
+        content, data = data[5 : 5 + size], data[5 + size :]
+        if kind == 1:
+            cones[index] = _q32(np.frombuffer(content, ">i8"))
+        else:
+            opacities[index] = int.from_bytes(content, "big") / 2.0**24
+    return cones, opacities
+
+
+def _surface(o: Any, opacity: float) -> _Surface:
     mesh, position, rotation, scale, (shading, ambient, diffuse, specular, shininess), flags = o
     assert not flags & WIREFRAME
     points, colors, normals, faces = unpack(mesh)
@@ -159,6 +188,7 @@ def _surface(o: Any) -> _Surface:
         faces=faces,
         material=(shading, float(_q32(ambient)), float(_q32(diffuse)), float(_q32(specular)), shininess),
         cull=bool(flags & CULL_BACKFACES),
+        opacity=opacity,
     )
 
 
@@ -199,14 +229,15 @@ def _unit(v: Array) -> Array:
 # ---- which triangle is seen where ----
 
 
-def _rasterise(frame: _Frame, surfaces: list[_Surface]) -> tuple[Integers, Array]:
-    """The triangle that each pixel shows, and its weights (H, W, 3), perspective-correct."""
+def _rasterise(frame: _Frame, surfaces: list[_Surface], numbers: list[int], depth: Array) -> tuple[Integers, Array]:
+    """The triangle that each pixel shows of some surfaces, and its weights (H, W, 3), perspective-correct.
+
+    depth: of what is there; larger is nearer.
+    """
     shape = (frame.height, frame.width)
     triangle, weights = np.full(shape, -1, np.int64), np.zeros((*shape, 3))
-    # larger is nearer
-    depth = np.full(shape, -np.inf)
-    number = 0
-    for surface in surfaces:
+    for chosen in numbers:
+        surface, number = surfaces[chosen], sum(len(each.faces) for each in surfaces[:chosen])
         corners = frame.to_camera(surface.positions)[surface.faces]
         kept = [_clip(frame, face) for face in corners]
         # what had to be cut comes after the rest of its object
@@ -215,7 +246,6 @@ def _rasterise(frame: _Frame, surfaces: list[_Surface]) -> tuple[Integers, Array
                 if is_cut == (face[:, 2] < frame.near).any():
                     for piece in pieces:
                         _draw(frame, face, piece, surface.cull, number + index, triangle, weights, depth)
-        number += len(surface.faces)
     return triangle, weights
 
 
@@ -322,13 +352,22 @@ def _shade(
     view = _unit(frame.eye - point) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
     modulate = np.broadcast_to(ambient * ambient_light / 255, point.shape).copy()
     add = np.zeros_like(point)
-    for kind, vector, hue in lights:
+    for kind, vector, hue, cone in lights:
         toward = _unit(_q32(vector) - point if kind == POINT else np.broadcast_to(_q32(vector), point.shape))
         facing = _dot(normal, toward)
+        through = np.ones_like(facing) if cone is None else _through(cone, toward)
         gloss = np.maximum(0, _dot(normal, _unit(toward + view))) ** shininess
-        modulate += diffuse * np.maximum(0, facing) * _rgb(hue) / 255
-        add += specular * np.where(facing > 0, gloss, 0) * _rgb(hue)
+        modulate += diffuse * np.maximum(0, facing) * through * _rgb(hue) / 255
+        add += specular * np.where(facing > 0, gloss, 0) * through * _rgb(hue)
     return color * modulate + add
+
+
+def _through(cone: Array, toward: Array) -> Array:
+    """What a spot light lets through its cone, by glTF's KHR_lights_punctual; `toward` the light."""
+    inner, outer = cone[3], cone[4]
+    part = (_dot(-_unit(cone[:3]), toward) - outer) / max(inner - outer, 2.0**-10)
+    out: Array = np.clip(part, 0, 1) ** 2
+    return out
 
 
 def _mix(values: Array, weights: Array) -> Array:

@@ -107,15 +107,18 @@ def broken_call(seed: int, data: bytes) -> bytes:
     changed = bytearray(data)
     for _ in range(rng.integers(1, 3)):
         choice = rng.random()
-        # most often in the numbers before the meshes
-        place = 4 + 32 * int(rng.integers(min(len(changed) // 32, 60)))
+        # most often in the numbers before the meshes, or in the extensions at the end
+        words = len(changed) // 32
+        place = 4 + 32 * int(
+            rng.integers(min(words, 60)) if rng.random() < 0.7 else rng.integers(max(words - 6, 0), words)
+        )
         if choice < 0.4:
             changed[place : place + 32] = _bound(rng).to_bytes(32, "big")
         elif choice < 0.7:
             word = int.from_bytes(changed[place : place + 32], "big") + int(rng.integers(-40, 41))
             changed[place : place + 32] = (word % (1 << 256)).to_bytes(32, "big")
         elif choice < 0.9:
-            changed[rng.integers(4, len(changed))] = rng.integers(256)
+            changed[rng.integers(place, min(place + 64, len(changed)))] = rng.integers(256)
         else:
             changed = changed[: rng.integers(40, len(changed) + 1)]
     return bytes(changed)
@@ -194,6 +197,22 @@ def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
 
 
 def _light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
+    """Of any kind; a spot light most often points at an object."""
+    light = _plain_light(rng, kind, objects)
+    if light.kind != "point" or rng.random() > 0.3:
+        return light
+    toward = rng.normal(size=3)
+    if objects and rng.random() < 0.8:
+        toward = np.asarray(objects[rng.integers(len(objects))].position) - np.asarray(light.vector)
+        toward = toward * rng.choice([1, 1e-4]) + 0.1 * rng.normal(size=3) * np.abs(toward).max()
+    toward = _q32(toward)
+    outer = float(rng.choice([rng.uniform(0, 60), rng.uniform(0, 180), 180.0, 0.0], p=[0.6, 0.3, 0.05, 0.05]))
+    inner = outer * float(rng.choice([0.0, rng.random(), 1.0]))
+    direction = toward if toward.any() else (0, 0, -1)
+    return replace(light, kind="spot", direction=direction, inner_angle=inner, outer_angle=outer)
+
+
+def _plain_light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
     color = (255, 255, 255) if rng.random() < 0.4 else _color(rng)
     if objects and rng.random() < 0.15:
         return Light("point", _on_surface(rng, objects[rng.integers(len(objects))]), color)
@@ -242,7 +261,14 @@ def _object(rng: Rng, kind: Kind) -> Object:
         material=material,
         cull=bool(rng.random() < 0.6),
         wireframe=bool(rng.random() < 0.15),
+        opacity=_opacity(rng),
     )
+
+
+def _opacity(rng: Rng) -> float:
+    if rng.random() < 0.8:
+        return 1.0
+    return float(rng.choice([rng.integers(1 << 24) / (1 << 24), 0.5, 0.0, 1 - 2.0**-24], p=[0.8, 0.1, 0.05, 0.05]))
 
 
 def _mesh(rng: Rng, extent: float) -> Mesh:

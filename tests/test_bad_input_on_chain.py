@@ -104,7 +104,7 @@ def put(*path: int, value: Any) -> Callable[[Values], None]:
     return change
 
 
-CANVAS, CAMERA, BACKGROUND, INVERT, AMBIENT, LIGHTS, OBJECTS = range(7)
+CANVAS, CAMERA, BACKGROUND, INVERT, AMBIENT, LIGHTS, OBJECTS, EXTENSIONS = range(8)
 MESH, POSITION, ROTATION, SCALE, MATERIAL, FLAGS = range(6)
 FAR = 1 << 58
 BIG = (1 << 255) - 1
@@ -178,6 +178,21 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
         "IndexOutOfRange(object=1, face=0, vertexCount=1)",
     ),
     (put(OBJECTS, 1, MESH, value=b"\0\0\0\0\1" + bytes(6)), "IndexOutOfRange(object=1, face=0, vertexCount=0)"),
+    # test_extensions.py has more of these
+    (put(EXTENSIONS, value=b"\2\0\0\0"), "ExtensionCutOff(position=0)"),
+    (put(EXTENSIONS, value=b"\3\0\0\0\0"), "UnknownExtension(kind=3, index=0)"),
+    (put(EXTENSIONS, value=b"\2\0\1\0\4\0\0\0\0\2\0\0\0\4"), "ExtensionCutOff(position=9)"),
+    (put(EXTENSIONS, value=2 * b"\2\0\1\0\4\0\0\0\0"), "ExtensionOrder(kind=2, index=1)"),
+    (put(EXTENSIONS, value=b"\2\0\0\0\0"), "ExtensionSize(kind=2, index=0, expected=4, actual=0)"),
+    (put(EXTENSIONS, value=b"\2\0\2\0\4\0\0\0\0"), "ExtensionIndex(kind=2, index=2, count=2)"),
+    (put(EXTENSIONS, value=b"\2\0\0\0\4\1\0\0\0"), f"OpacityOutOfRange(object=0, opacity={1 << 24})"),
+    (put(EXTENSIONS, value=b"\1\0\0\0\x28" + bytes(40)), "SpotIsNoPoint(light=0)"),
+    (put(EXTENSIONS, value=b"\1\0\1\0\x28" + bytes(40)), "SpotWithoutDirection(light=1)"),
+    (
+        put(EXTENSIONS, value=b"\1\0\1\0\x28" + bytes(7) + b"\1" + bytes(31) + b"\1"),
+        "SpotAngles(light=1, cosInner=0, cosOuter=1)",
+    ),
+    (put(EXTENSIONS, value=b"\1\0\1\0\x28\x7f" + bytes(39)), f"SpotOutOfRange(light=1, x={127 << 56}, y=0, z=0)"),
 ]
 
 
@@ -200,6 +215,7 @@ def test_every_error_of_a_scene_is_provoked() -> None:
             "NoEngine",
             "OutOfGas",
             "RectangleOutsideCanvas",
+            "RegistersOverlap",
         }
         & declared
     )
@@ -275,7 +291,7 @@ def test_too_little_gas() -> None:
 
 HEAD = 4 + 32
 #: Places in the calldata of `small_scene`, where offsets and lengths are.
-LIGHTS_OFFSET, OBJECTS_OFFSET = HEAD + 32 * 18, HEAD + 32 * 19
+LIGHTS_OFFSET, OBJECTS_OFFSET, EXTENSIONS_OFFSET = (HEAD + 32 * word for word in (18, 19, 20))
 
 
 def word_at(data: bytes, position: int) -> int:
@@ -295,6 +311,8 @@ def layout(data: bytes) -> dict[str, int]:
         "offset of the objects": OBJECTS_OFFSET,
         "number of lights": lights,
         "number of objects": objects,
+        "offset of the extensions": EXTENSIONS_OFFSET,
+        "length of the extensions": HEAD + word_at(data, EXTENSIONS_OFFSET),
     }
     for i in range(word_at(data, objects)):
         start = objects + 32 + word_at(data, objects + 32 + 32 * i)
@@ -358,11 +376,10 @@ def test_bytes_after_the_scene_do_not_matter() -> None:
 def test_truncated_calls_are_refused(function: str) -> None:
     data = call_data(function)
     places = layout(call_data())
-    last = places["length of the mesh of object 1"]
-    needed = last + 32 + word_at(data, last)
+    needed = places["length of the extensions"] + 32
     for size in {*range(0, needed, 32), needed - 1, needed - 31}:
         message = refusal(data[:size])
-        if size >= HEAD + 32 * 20:
+        if size >= HEAD + 32 * 21:
             assert re.fullmatch(r"MalformedScene\(position=\d+\)", message), f"{size} bytes: {message}"
     chain().call("Renderer", data[:needed])
 

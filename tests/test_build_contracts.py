@@ -4,26 +4,40 @@ from __future__ import annotations
 
 import builtins
 import importlib.util
+import json
+import re
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+from shackled.artifacts import contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
+@pytest.fixture
+def tool() -> ModuleType:
+    """tools/build_contracts.py."""
     spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
     assert spec is not None
     assert spec.loader is not None
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
+    return tool
+
+
+def test_a_closed_pipe_leaves_no_old_artifacts(
+    tool: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
     text = '{"contract": "Thing", "deployedBytecode": "00", "group": "calls"}\n'
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
-    monkeypatch.setattr(tool, "build", lambda **_: {"Thing.json": text})
+    monkeypatch.setattr(tool, "build", lambda **_: {"Thing.json": text, tool.SOURCE_MAPS: "{}"})
     monkeypatch.setattr(sys, "argv", ["build_contracts.py", "--group", "calls"])
     (tmp_path / "Old.json").write_text(text)
+    (tmp_path / "standard-input-old.json").write_text("{}")
 
     def closed(*_: object, **__: object) -> None:
         raise BrokenPipeError
@@ -31,4 +45,45 @@ def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setattr(builtins, "print", closed)
     with pytest.raises(BrokenPipeError):
         tool.main()
-    assert [path.name for path in tmp_path.iterdir()] == ["Thing.json"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS]
+
+
+def test_every_contract_is_in_one_group(tool: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = tool.find_contracts()
+    assert sorted(found) == sorted(contracts())
+    for name in found:
+        built = json.loads((tool.ARTIFACTS / f"{name}.json").read_text("utf-8"))
+        assert (built["group"], built["source"]) == (tool.group_of(name), found[name])
+        assert built["settings"] == tool.settings_of(name)
+        assert built["settings"]["optimizer"]["runs"] == tool.GROUPS[built["group"]]["runs"]
+    monkeypatch.setattr(tool, "GROUPS", {"one": {"contracts": [*found, "Engine", "Nothing"]}})
+    with pytest.raises(SystemExit, match="each contract once: Engine, Nothing"):
+        tool.find_contracts()
+
+
+def test_source_maps_of_groups_are_merged(tool: ModuleType) -> None:
+    """Each run of the compiler numbers sources in its own way; what is no source of ours has none."""
+    a, b = {"name": "a.sol", "functions": []}, {"name": "b.sol", "functions": []}
+    one = {"contracts": {"Two": {"map": "1:2:7:-;;3:4:9:i", "entries": {}}}, "sources": {"7": b}}
+    other = {"contracts": {"One": {"map": "5:6:0:o;:7;0:0:7:-", "entries": {}}}, "sources": {"0": a, "7": b}}
+    merged = json.loads(tool.merge_maps([one, other]))
+    assert merged["sources"] == {"0": a, "1": b}
+    assert merged["contracts"]["One"]["map"] == "5:6:0:o;:7;0:0:1:-"
+    assert merged["contracts"]["Two"]["map"] == "1:2:1:-;;3:4:-1:i"
+
+
+def test_no_line_of_the_contracts_is_too_long() -> None:
+    for path in (ROOT / "contracts" / "src").rglob("*.sol"):
+        for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
+            assert len(line) <= 140, f"{path.name}:{number}"
+
+
+def test_documentation_names_one_thing_a_tag() -> None:
+    """In `@param a The ... b The ...` what is said of `b` would be part of the text of `a`."""
+    for path in (ROOT / "contracts" / "src").rglob("*.sol"):
+        text = path.read_text("utf-8")
+        for found in re.finditer(
+            r"((?:^ *///.*\n)*)^ +function (\w+)\([^{;]*?\) (?:external|public)[^{;]*[{;]", text, re.MULTILINE
+        ):
+            documented = "@notice" in found[1] or "@inheritdoc" in found[1] or " override" in found[0]
+            assert documented, f"{path.name}: {found[2]}"

@@ -10,7 +10,7 @@ import pytest
 
 import float64
 from pictures import UNLIT, call_data, draw, recolored, soup, unlit_scene
-from shackled import Camera, Mesh, Object, Scene
+from shackled import Camera, Light, Material, Mesh, Object, Scene
 
 RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
 Projection = Literal["perspective", "orthographic"]
@@ -178,3 +178,21 @@ def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:
             assert (picture == expected).all(), np.argwhere((picture != expected).any(axis=2))
             seen += int((picture == RED).all(axis=2).sum())
     assert seen > 1000
+
+
+@pytest.mark.parametrize("camera", CAMERAS.values(), ids=CAMERAS.keys())
+@pytest.mark.parametrize("towards", [1, -1])
+def test_of_surfaces_that_coincide_the_first_stays(camera: Camera, towards: int) -> None:
+    """Both sides of a tilted wall are faces, of which one is black and the other has light and highlights."""
+    corners = np.array([[-900, -700, -500], [800, -600, -1700], [700, 900, -1900], [-600, 700, -800]])
+    sun = Light("directional", (0.3, 0.2, towards))
+    shiny = Material("flat", ambient=0.0, diffuse=0.8, specular=0.4, shininess=30)
+
+    def picture(faces: list[list[int]]) -> np.ndarray:
+        mesh = Mesh(corners, faces, [[250, 200, 150]] * 4)
+        return draw(Scene([Object(mesh, material=shiny, cull=False)], camera, [sun], width=96, height=96))
+
+    front, back = [[0, 1, 2], [0, 2, 3]], [[2, 1, 0], [3, 2, 0]]
+    alone = picture(front)
+    assert (picture(front + back) == alone).all()
+    assert (picture(back) != alone).any()

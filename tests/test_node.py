@@ -72,7 +72,7 @@ class Node:
         self.w3 = connection.web3
         self.sender = self.w3.eth.accounts[0]
         self.contracts: dict[str, Contract] = {}
-        for name in ("Engine", "Renderer", "Original"):
+        for name in ("Engine", "FragmentEngine", "Renderer", "Original"):
             self.contracts[name] = self.deploy(name)
 
     def deploy(self, name: str) -> Contract:
@@ -158,6 +158,7 @@ def struct(scene: Scene) -> tuple[Any, ...]:
             )
             for o in scene.objects
         ],
+        extensions(scene),
     )
 
 

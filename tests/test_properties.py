@@ -231,7 +231,7 @@ def test_all_of_the_world_moved(scene: Scene, way: tuple[int, int, int]) -> None
     other = replace(
         changed(scene, position=lambda o: np.asarray(o.position) + shift),
         camera=replace(camera, eye=np.asarray(camera.eye) + shift, target=np.asarray(camera.target) + shift),
-        lights=[replace(w, vector=np.asarray(w.vector) + shift * (w.kind == "point")) for w in scene.lights],
+        lights=[replace(w, vector=np.asarray(w.vector) + shift * (w.kind != "directional")) for w in scene.lights],
     )
     assert_same_picture(scene, contracts.picture(other))
 
@@ -329,6 +329,10 @@ def walls(draw: st.DrawFn) -> Scene:
     return Scene([wall], Camera(near=1.0), lamps, width=96, height=64)
 
 
+#: Gas of the colours of the patches that a tile cuts: two triangles, two cells each, nine colours.
+PATCHES = 2 * 2 * 9 * 2_500
+
+
 @EACH
 @given(walls(), st.integers(LEAST_WIDTH, 96), st.integers(1, 64), st.data())
 def test_a_tile_costs_its_share(scene: Scene, width: int, height: int, data: st.DataObject) -> None:
@@ -341,4 +345,4 @@ def test_a_tile_costs_its_share(scene: Scene, width: int, height: int, data: st.
     whole, part = call("render", scene).gas, call("renderTile", scene, Rectangle(x, y, width, height)).gas
     window = covered[y : y + height, x : x + width]
     share = max(window.size / covered.size, window.sum() / max(covered.sum(), 1))
-    assert part <= 1.2 * share * whole + least
+    assert part <= 1.3 * share * whole + least + PATCHES

@@ -1,46 +1,79 @@
-"""The registers of the pipeline are numbered by hand: none may lie over another."""
+"""The registers and words of the pipeline are made of one table: none may lie over another."""
 
 from __future__ import annotations
 
 import re
+import tomllib
 from itertools import pairwise
 from pathlib import Path
 
-SOURCE = Path(__file__).parents[1] / "contracts" / "src" / "pipeline" / "Registers.sol"
-CONSTANTS = {
-    name: int(value, 0)
-    for name, value in re.findall(r"^uint256 constant (\w+) = (\w+);", SOURCE.read_text("utf-8"), re.MULTILINE)
+from tools import layout
+
+ROOT = Path(__file__).resolve().parents[1]
+PIPELINE = ROOT / "contracts" / "src" / "pipeline"
+TABLE = tomllib.loads((ROOT / "contracts" / "layout.toml").read_text("utf-8"))
+
+
+def constants(name: str) -> dict[str, int]:
+    """The constants of a file of the contracts, as they stand there."""
+    text = (PIPELINE / name).read_text("utf-8")
+    return {key: int(value, 0) for key, value in re.findall(r"^uint256 constant (\w+) = (\w+);", text, re.MULTILINE)}
+
+
+REGISTERS = constants("Registers.sol")
+#: The names of registers, and the words of each.
+SIZES = {
+    name: words
+    for part in TABLE["registers"]
+    for names, words, _ in layout.rows_of_registers(part)
+    for name in names.split()
+    if words
 }
-#: Records and tables, by the words that they take.
-SIZES = {"LIGHTS": 4 * 0x160, "SPECULAR_TABLE": 65 * 32}
-MODES = {name: value for name, value in CONSTANTS.items() if name.startswith("IS_") or name == "HAS_SPECULAR"}
-NO_ADDRESSES = {"REGISTERS", "REGISTERS_END", "ONES", "PIXEL_BIAS", "GUARD_BAND", "GUARD_BITS", "LIGHT_SIZE"}
-OFFSETS = {name: value for name, value in CONSTANTS.items() if name.startswith("LIGHT_") and name != "LIGHT_SIZE"}
-ADDRESSES = {
-    name: value
-    for name, value in CONSTANTS.items()
-    if name not in MODES and name not in OFFSETS and name not in NO_ADDRESSES
-}
+
+
+def test_the_files_are_made_of_the_table() -> None:
+    for path, text in layout.files().items():
+        assert path.read_text("utf-8") == text, f"run tools/layout.py: {path.name}"
 
 
 def test_no_register_lies_over_another() -> None:
-    assert len(ADDRESSES) > 80
-    places = sorted((address, address + SIZES.get(name, 32), name) for name, address in ADDRESSES.items())
-    assert places[0][0] == CONSTANTS["REGISTERS"]
-    assert places[-1][1] <= CONSTANTS["REGISTERS_END"]
+    assert len(SIZES) > 80
+    places = sorted((REGISTERS[name], REGISTERS[name] + 32 * words, name) for name, words in SIZES.items())
+    assert places[0][0] == REGISTERS["REGISTERS"]
+    assert places[-1][1] == REGISTERS["REGISTERS_END"]
     for (_, end, name), (begin, _, other) in pairwise(places):
-        assert end <= begin, f"{name} and {other}"
+        assert end == begin, f"{name} and {other}"
 
 
 def test_records_of_lights_hold_their_fields() -> None:
-    assert sorted(OFFSETS.values()) == list(range(0, CONSTANTS["LIGHT_SIZE"], 32))
-    assert 4 * CONSTANTS["LIGHT_SIZE"] == SIZES["LIGHTS"]
+    for part in TABLE["records"]:
+        fields = [name for names, _, _ in layout.rows_of_registers(part) for name in names.split()]
+        offsets = [REGISTERS[f"{part['name']}_{field}"] for field in fields]
+        first = 0
+        if "behind" in part:
+            first = REGISTERS[part["behind"][1]] - REGISTERS[part["behind"][0]]
+        assert offsets == list(range(first, first + 32 * len(fields), 32))
+        assert offsets[-1] + 32 - first <= REGISTERS[f"{part['name']}_SIZE"]
+    assert 4 * REGISTERS["LIGHT_SIZE"] == 32 * SIZES["LIGHTS"] == 32 * SIZES["OBJECT_LIGHTS"]
 
 
 def test_mode_bits_are_bits_of_their_own() -> None:
-    assert len(set(MODES.values())) == len(MODES)
-    assert all(value & (value - 1) == 0 for value in MODES.values())
+    modes = [REGISTERS[name] for part in TABLE["flags"] for names, _ in part["rows"] for name in names.split()]
+    assert len(set(modes)) == len(modes)
+    assert all(value & (value - 1) == 0 for value in modes)
     # what the code gets from one bit by shifting another
-    assert CONSTANTS["HAS_SPECULAR"] == 4 * CONSTANTS["IS_LIT"]
-    assert CONSTANTS["IS_BLOCKED"] | CONSTANTS["IS_BARYCENTRIC"] == 0x240
-    assert CONSTANTS["IS_CROSSING"] == 1 << (147 - 139)
+    assert REGISTERS["HAS_SPECULAR"] == 4 * REGISTERS["IS_LIT"]
+    assert REGISTERS["IS_CROSSING"] == 1 << (147 - 139)
+
+
+def test_fields_of_packed_words_do_not_overlap() -> None:
+    for part in TABLE["words"]:
+        fields = sorted((at, at + width, name) for name, at, width, _ in part["rows"])
+        assert fields[-1][1] <= 256
+        for (_, end, name), (begin, _, other) in pairwise(fields):
+            assert end <= begin, f"{part['name']}: {name} and {other}"
+
+
+def test_no_number_of_40_hexadecimal_digits_which_would_be_an_address() -> None:
+    assert layout.solidity_literal((1 << 160) - 1) == "0x00" + "f" * 40
+    assert layout.solidity_literal(1 << 160) == "0x1" + "0" * 40

@@ -43,7 +43,7 @@ def test_walls_that_leave_the_canvas(look: str) -> None:
     """Two triangles cost no more than exact shading of each pixel of the canvas, wherever else they are."""
     rng = np.random.default_rng(1)
     costs = [gas(tilted_walls(rng, LOOKS[look])) for _ in range(60)]
-    assert max(costs) <= 2800 * SIZE**2
+    assert max(costs) <= 3200 * SIZE**2
 
 
 @pytest.mark.parametrize("look", LOOKS)
@@ -62,8 +62,8 @@ def test_tiles_of_walls_cost_their_share(look: str) -> None:
                 assert gas(scene, tile) <= 1.2 * whole * width * height / SIZE**2 + alone + SET_UP, tile
 
 
-#: Gas of a triangle before its first pixel, of which a tile pays all.
-SET_UP = 2 * 20_000
+#: Gas of a triangle before its first pixel, and of the colours of the patches that it cuts, of which a tile pays all.
+SET_UP = 2 * 20_000 + 2 * 9 * 9 * 2_500
 
 
 def parts(width: int, height: int) -> list[Rectangle]:
@@ -72,6 +72,10 @@ def parts(width: int, height: int) -> list[Rectangle]:
     columns = [(0, x), (x, width - x)] if width > 1 else [(0, 1)]
     rows = [(0, y), (y, height - y)] if height > 1 else [(0, 1)]
     return [Rectangle(left, top, w, h) for left, w in columns for top, h in rows]
+
+
+#: The colours of a patch or two, where the whole has each fragment shaded for itself.
+PATCHES = 2 * 9 * 2_500
 
 
 @pytest.mark.parametrize("first", range(0, 150, 50))
@@ -83,4 +87,4 @@ def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
         except RenderError:
             continue
         for tile in parts(scene.width, scene.height):
-            assert gas(scene, tile) <= 1.02 * whole, f"seed {seed}, {tile}"
+            assert gas(scene, tile) <= 1.02 * whole + PATCHES, f"seed {seed}, {tile}"

@@ -7,8 +7,9 @@
 
 Needs Node and `npm ci` in contracts/. The compiler is npm's solc, a JavaScript build: the same bytes on every machine.
 
-Groups are compiled one by one, since what is compiled together can change the order of instructions: a new token must
-not change the engine, whose address is made of its bytes.
+contracts/groups.toml says which contracts are compiled together, and how. Groups are compiled one by one, since what is
+compiled together can change the order of instructions: a new token must not change the engine, whose address is made of
+its bytes.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
-from pathlib import Path, PurePosixPath
+import tomllib
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from Crypto.Hash import keccak
@@ -32,68 +34,93 @@ SOURCES = CONTRACTS / "src"
 LIBRARIES = CONTRACTS / "node_modules"
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
 STANDARD_INPUT = "standard-input"
-#: Where in the sources of the core each instruction comes from, for profiles.
+#: Where in the sources each instruction comes from, for profiles.
 SOURCE_MAPS = "source-maps.json"
 
-#: The engine and what draws with it: all sources but those of the other groups.
-CORE = "core"
-#: The folders of contracts/src that are compiled by themselves, with what they import.
-GROUPS = ("calls", "studio", "tokens")
+#: Of each group its contracts and how the optimizer treats them.
+GROUPS: dict[str, dict[str, Any]] = tomllib.loads((CONTRACTS / "groups.toml").read_text("utf-8"))
 
 #: EIP-170: the largest contract that a chain takes.
 MAX_RUNTIME_SIZE = 24576
-#: What verifiers of sources accept.
-MAX_STANDARD_INPUT_SIZE = 1 << 20
-MAX_SOURCE_MAPS_SIZE = 1 << 20
+#: What verifiers of sources accept; the source maps are to be no larger.
+MAX_INPUT_SIZE = 1 << 20
 
 #: No licence or pragma in a file, an old way to say that assembly is memory-safe (libraries), and the size of a
 #: contract, which is checked here with a plainer message.
 HARMLESS = {"1878", "2424", "3420", "5574"}
 
-#: Chosen by measuring: without the compiler's full inliner, which undoes the splitting of hot loops into functions that
-#: fit the stack.
+#: For groups with `inline = false`: the compiler's own without its full inliner, which undoes the splitting of hot
+#: loops into functions that fit the stack.
 OPTIMIZER_STEPS = (
     "dhfoDgvulfnTUtnIf[exa[r]EescLMVcul [j]Trpeulxa[r]ecLgvefMCTUca[r]LSsTFOtfDnca[r]eIulcescCTUtgvefM]"
     "jmul[jul] VcTOcul jmul:fDnTOcmu"
 )
-SETTINGS: dict[str, Any] = {
-    "viaIR": True,
-    "evmVersion": "cancun",
-    "optimizer": {
-        "enabled": True,
-        "runs": 4000,
-        "details": {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}},
-    },
-    "metadata": {"appendCBOR": False},
-}
 OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.object", "evm.methodIdentifiers"]
 
 
-def group_of(name: str) -> str:
-    """The group of a source of ours."""
-    folder = name.partition("/")[0]
-    return folder if folder in GROUPS else CORE
+def group_of(contract: str) -> str:
+    """The group in which a contract is compiled."""
+    return next(name for name, group in GROUPS.items() if contract in group["contracts"])
 
 
-def read_sources(folder: Path, group: str | None = None) -> dict[str, str]:
-    """Every .sol file under the folder, named by its path in it, and what these import from the libraries.
+def settings_of(contract: str) -> dict[str, Any]:
+    """The compiler's settings for a contract."""
+    group = GROUPS[group_of(contract)]
+    return settings(group["runs"], group["inline"])
 
-    Of a group, its files and what these import from anywhere.
+
+def settings(runs: int, inline: bool) -> dict[str, Any]:
+    """The compiler's settings.
+
+    inline: whether functions are put into those that call them, as the compiler does by itself.
     """
-    ours = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*.sol"))}
-    sources = {name: path.read_text("utf-8") for name, path in ours.items() if group is None or group_of(name) == group}
-    waiting = list(sources)
+    steps = {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}}
+    return {
+        "viaIR": True,
+        "evmVersion": "cancun",
+        "optimizer": {"enabled": True, "runs": runs} | ({} if inline else {"details": steps}),
+        "metadata": {"appendCBOR": False},
+    }
+
+
+def find_contracts() -> dict[str, str]:
+    """The files of our contracts, as they are named in contracts/src, by contract.
+
+    SystemExit if two are called alike, or if the groups are not those of these contracts.
+    """
+    found: dict[str, str] = {}
+    for path in sorted(SOURCES.rglob("*.sol")):
+        if re.search(rf"^contract {path.stem}\b", path.read_text("utf-8"), re.MULTILINE):
+            if path.stem in found:
+                raise SystemExit(f"two contracts are called {path.stem}")
+            found[path.stem] = path.relative_to(SOURCES).as_posix()
+    grouped = [contract for group in GROUPS.values() for contract in group["contracts"]]
+    if sorted(grouped) != sorted(found):
+        wrong = {name for name in {*grouped, *found} if grouped.count(name) != (name in found)}
+        raise SystemExit(f"contracts/groups.toml should have each contract once: {', '.join(sorted(wrong))}")
+    return found
+
+
+def read_sources(contracts: Iterable[str]) -> dict[str, str]:
+    """The files of contracts and what these import, named by their paths in contracts/src or contracts/node_modules."""
+    found = find_contracts()
+    return follow_imports([found[contract] for contract in contracts])
+
+
+def follow_imports(names: Iterable[str], folder: Path = SOURCES) -> dict[str, str]:
+    """The files of these names in the folder or the libraries, and what they import."""
+    sources: dict[str, str] = {}
+    waiting = list(names)
     while waiting:
         name = waiting.pop()
+        if name in sources:
+            continue
+        path = next((path for path in (folder / name, LIBRARIES / name) if path.is_file()), None)
+        if path is None:
+            raise SystemExit(f"{name} is imported: it is neither in {folder} nor in contracts/node_modules")
+        sources[name] = path.read_text("utf-8")
         for target in re.findall(r"""^\s*import\b[^;"']*["']([^"']+)["']\s*;""", sources[name], re.MULTILINE):
-            if target.startswith("."):
-                target = _join(name, target)
-            if target not in sources:
-                path = ours.get(target, LIBRARIES / target)
-                if not path.is_file():
-                    raise SystemExit(f"{name} imports {target}: neither in contracts/src nor in contracts/node_modules")
-                sources[target] = path.read_text("utf-8")
-                waiting.append(target)
+            waiting.append(_join(name, target) if target.startswith(".") else target)
     return dict(sorted(sources.items()))
 
 
@@ -107,25 +134,22 @@ def _join(name: str, relative: str) -> str:
     return "/".join(parts)
 
 
-def standard_input(sources: dict[str, str], group: str | None = None) -> dict[str, Any]:
-    """The input of the compiler; outputs are asked only for contracts (of a group) that are named as their files."""
-    selection = {
-        name: {PurePosixPath(name).stem: OUTPUTS}
-        for name, text in sources.items()
-        if _declares(name, text) and (group is None or group_of(name) == group)
-    }
+def standard_input(group: str) -> dict[str, Any]:
+    """The input of the compiler for a group; outputs are asked only for its contracts."""
+    contracts, found = GROUPS[group]["contracts"], find_contracts()
+    selection = {found[contract]: {contract: OUTPUTS} for contract in contracts}
+    return request(read_sources(contracts), settings_of(contracts[0]), selection)
+
+
+def request(
+    sources: dict[str, str], settings: dict[str, Any], selection: dict[str, dict[str, list[str]]]
+) -> dict[str, Any]:
+    """The input of the compiler: outputs are asked for by source and contract."""
     return {
         "language": "Solidity",
         "sources": {name: {"content": content} for name, content in sources.items()},
-        "settings": SETTINGS | {"outputSelection": selection},
+        "settings": settings | {"outputSelection": selection},
     }
-
-
-def _declares(name: str, text: str) -> bool:
-    """Whether a file of ours declares a contract of its own name."""
-    return (SOURCES / name).is_file() and bool(
-        re.search(rf"^contract {PurePosixPath(name).stem}\b", text, re.MULTILINE)
-    )
 
 
 def run_compiler(request: str) -> dict[str, Any]:
@@ -144,58 +168,50 @@ def run_compiler(request: str) -> dict[str, Any]:
     return dict(result)
 
 
-def build(folder: Path = SOURCES, groups: Sequence[str] = (CORE, *GROUPS)) -> dict[str, str]:
+def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
     """The text of every artifact file of these groups, by name."""
     files: dict[str, str] = {}
+    maps = [_kept_maps(groups)]
     for group in groups:
-        built = build_group(folder, group)
-        if doubled := files.keys() & built.keys():
-            raise SystemExit(f"two contracts are called {min(doubled).removesuffix('.json')}")
+        built, source_map = build_group(group)
         files |= built
+        maps.append(source_map)
+    files[SOURCE_MAPS] = merge_maps(maps)
+    for name, text in files.items():
+        if name.startswith((SOURCE_MAPS, STANDARD_INPUT)) and len(text) > MAX_INPUT_SIZE:
+            raise SystemExit(f"{name} has {len(text):,} bytes, more than {MAX_INPUT_SIZE:,}")
     return files
 
 
-def build_group(folder: Path, group: str) -> dict[str, str]:
-    """The text of every artifact file of a group, by name."""
-    sources = read_sources(folder, group)
-    request = standard_input(sources, group)
-    if not request["settings"]["outputSelection"]:
-        return {}
-    files = {input_name(group): _text(without_libraries(request))}
-    for name, text in files.items():
-        if len(text) > MAX_STANDARD_INPUT_SIZE:
-            raise SystemExit(f"{name} has {len(text):,} bytes, more than {MAX_STANDARD_INPUT_SIZE:,}")
-    answer = run_compiler(_text(_with_source_maps(request) if group == CORE else request))
-    if group == CORE:
-        files[SOURCE_MAPS] = source_maps(answer)
-        if len(files[SOURCE_MAPS]) > MAX_SOURCE_MAPS_SIZE:
-            raise SystemExit(f"{SOURCE_MAPS} has {len(files[SOURCE_MAPS]):,} bytes, more than {MAX_SOURCE_MAPS_SIZE:,}")
+def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
+    """The text of every artifact file of a group, by name; and its source maps."""
+    asked = standard_input(group)
+    files = {input_name(group): _text(without_libraries(asked))}
+    answer = compile_with_maps(asked)
     for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
-            if not output["evm"]["bytecode"]["object"]:
-                continue  # an interface
             metadata = json.loads(output["metadata"])
-            used = sorted(metadata["sources"])
+            texts = {path: asked["sources"][path]["content"] for path in sorted(metadata["sources"])}
             files[f"{name}.json"] = _text(
                 {
                     "contract": name,
                     "group": group,
                     "source": source,
                     "compiler": metadata["compiler"]["version"],
-                    "settings": SETTINGS,
-                    "sources": {path: hashlib.sha256(sources[path].encode()).hexdigest() for path in used},
+                    "settings": settings_of(name),
+                    "sources": {path: hashlib.sha256(text.encode()).hexdigest() for path, text in texts.items()},
                     "methodIdentifiers": output["evm"]["methodIdentifiers"],
                     "abi": output["abi"],
                     "bytecode": output["evm"]["bytecode"]["object"],
                     "deployedBytecode": output["evm"]["deployedBytecode"]["object"],
                 }
             )
-    return files
+    return files, json.loads(source_maps(answer))
 
 
 def input_name(group: str) -> str:
     """The file of the compiler's input of a group."""
-    return f"{STANDARD_INPUT}.json" if group == CORE else f"{STANDARD_INPUT}-{group}.json"
+    return f"{STANDARD_INPUT}-{group}.json"
 
 
 def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
@@ -212,14 +228,19 @@ def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
     return request | {"sources": sources}
 
 
-def _with_source_maps(request: dict[str, Any]) -> dict[str, Any]:
-    """The request that asks for source maps and syntax trees too, which verifiers of sources do not want."""
+def compile_with_maps(asked: dict[str, Any]) -> dict[str, Any]:
+    """The compiler's answer, with source maps and syntax trees too, which verifiers of sources do not want.
+
+    The trees are asked for apart, before anything is compiled: together they take three times as long.
+    """
     more = ["evm.deployedBytecode.sourceMap", "evm.deployedBytecode.functionDebugData"]
     selection = {
         source: {contract: [*wanted, *more] for contract, wanted in contracts.items()}
-        for source, contracts in request["settings"]["outputSelection"].items()
+        for source, contracts in asked["settings"]["outputSelection"].items()
     }
-    return request | {"settings": request["settings"] | {"outputSelection": selection | {"*": {"": ["ast"]}}}}
+    answer = run_compiler(_text(asked | {"settings": asked["settings"] | {"outputSelection": selection}}))
+    trees = {"stopAfter": "parsing", "outputSelection": {"*": {"": ["ast"]}}}
+    return answer | {"sources": run_compiler(_text(asked | {"settings": trees}))["sources"]}
 
 
 def source_maps(answer: dict[str, Any]) -> str:
@@ -245,6 +266,32 @@ def source_maps(answer: dict[str, Any]) -> str:
     return json.dumps({"contracts": maps, "sources": sources}, sort_keys=True, separators=(",", ":")) + "\n"
 
 
+def _kept_maps(groups: Sequence[str]) -> dict[str, Any]:
+    """The source maps on disk of the contracts of other groups than these."""
+    others = {contract for name, group in GROUPS.items() if name not in groups for contract in group["contracts"]}
+    path = ARTIFACTS / SOURCE_MAPS
+    maps: dict[str, Any] = json.loads(path.read_text("utf-8")) if path.is_file() and others else {"sources": {}}
+    return maps | {"contracts": {name: each for name, each in maps.get("contracts", {}).items() if name in others}}
+
+
+def merge_maps(parts: Iterable[dict[str, Any]]) -> str:
+    """Source maps of several runs of the compiler, which numbers sources in its own way each time, as one."""
+    numbers: dict[str, str] = {}
+    sources: dict[str, Any] = {}
+    contracts: dict[str, Any] = {}
+    found = [(name, each, part["sources"]) for part in parts for name, each in part["contracts"].items()]
+    for contract, each, known in sorted(found, key=lambda row: row[0]):
+        entries = [entry.split(":") for entry in each["map"].split(";")]
+        for fields in entries:
+            if len(fields) > 2 and fields[2]:
+                source = known.get(fields[2])
+                # what the compiler adds is no source of anyone
+                fields[2] = "-1" if source is None else numbers.setdefault(source["name"], str(len(numbers)))
+                sources |= {} if source is None else {fields[2]: source}
+        contracts[contract] = each | {"map": ";".join(map(":".join, entries))}
+    return json.dumps({"contracts": contracts, "sources": sources}, sort_keys=True, separators=(",", ":")) + "\n"
+
+
 def _functions(node: Any, owner: str) -> list[list[Any]]:
     """The functions in a syntax tree: name with that of the contract or file, begin, and length."""
     if isinstance(node, list):
@@ -265,14 +312,16 @@ def _text(value: object) -> str:
 
 def artifacts_of(groups: Sequence[str]) -> set[str]:
     """The names of the artifact files on disk that belong to these groups."""
-    names = {input_name(group) for group in groups} | ({SOURCE_MAPS} if CORE in groups else set())
-    found = {path.name: path for path in ARTIFACTS.glob("*.json")}
-    for name, path in found.items():
-        if name.startswith((SOURCE_MAPS, STANDARD_INPUT)):
-            continue
-        if json.loads(path.read_text("utf-8"))["group"] in groups:
-            names.add(name)
-    return names & found.keys()
+    names = set()
+    for path in ARTIFACTS.glob("*.json"):
+        if path.name.startswith(STANDARD_INPUT):
+            group = path.stem.removeprefix(f"{STANDARD_INPUT}-")
+        elif path.name != SOURCE_MAPS:
+            group = json.loads(path.read_text("utf-8"))["group"]
+        # the source maps are of all; groups that there are no more belong to none
+        if path.name == SOURCE_MAPS or group in groups or group not in GROUPS:
+            names.add(path.name)
+    return names
 
 
 def differences(files: dict[str, str], groups: Sequence[str]) -> list[str]:
@@ -308,13 +357,13 @@ def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(description="Compile the contracts into src/shackled/artifacts.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
-    parser.add_argument("--group", choices=(CORE, *GROUPS), help="only the contracts of this group")
-    parser.add_argument("--input", choices=(CORE, *GROUPS), help="print the compiler's input of a group, and stop")
+    parser.add_argument("--group", choices=tuple(GROUPS), help="only the contracts of this group")
+    parser.add_argument("--input", choices=tuple(GROUPS), help="print the compiler's input of a group, and stop")
     options = parser.parse_args()
     if options.input:
-        print(_text(standard_input(read_sources(SOURCES, options.input), options.input)), end="")
+        print(_text(standard_input(options.input)), end="")
         return 0
-    groups = (options.group,) if options.group else (CORE, *GROUPS)
+    groups = (options.group,) if options.group else tuple(GROUPS)
     files = build(groups=groups)
     if options.check:
         fits = report_sizes(files)

@@ -1,4 +1,4 @@
-"""Write contracts/src/studio/PngCode.sol: the tables of the PNG encoder, of the code lengths in shackled.reference.png.
+"""Write contracts/src/encode/PngCode.sol: the tables of the PNG encoder, of the code lengths in shackled.reference.png.
 
 python tools/png_code.py            writes the file
 python tools/png_code.py --check    writes nothing; fails if the file is not as it would be written
@@ -11,18 +11,19 @@ from pathlib import Path
 
 from shackled.reference import png
 
-TARGET = Path(__file__).resolve().parent.parent / "contracts" / "src" / "studio" / "PngCode.sol"
+TARGET = Path(__file__).resolve().parent.parent / "contracts" / "src" / "encode" / "PngCode.sol"
 
 FILE = """// SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
+
+/// @dev The codes of three zeros; those of other bytes are as much more. They have 9 bits each.
+uint256 constant LITERALS = {literals};
 
 /// @notice The Huffman code of the PNG encoder, fitted to pictures of the renderer. Written by tools/png_code.py.
 /// @dev All bits are in the order of the stream.
 library PngCode {{
     /// @notice The code of a zero; those of other bytes are as much more. They have 9 bits.
     uint256 internal constant LITERAL = {literal};
-    /// @notice Three zeros.
-    uint256 internal constant LITERALS = {literals};
     /// @notice Bits of the longest match, and 32 of them: at the distance of a pixel, and of a byte.
     uint256 internal constant LONGEST_SIZE = {longest_size};
     uint256 internal constant LONGEST = {longest};
@@ -81,7 +82,7 @@ def write() -> str:
 
 
 def _literal(digits: str) -> str:
-    lines = [digits[at : at + 128] for at in range(0, len(digits), 128)]
+    lines = [digits[at : at + 120] for at in range(0, len(digits), 120)]
     return "\n".join(f'            hex"{line}"' for line in lines)
 
 

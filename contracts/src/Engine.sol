@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Scene, Rectangle} from "./scene/Scene.sol";
-import {Picture, draw} from "./pipeline/Pipeline.sol";
+import {FlatShading} from "./pipeline/FlatShading.sol";
+import {LinearSpans} from "./pipeline/LinearSpans.sol";
+import {Patches} from "./pipeline/Patches.sol";
+import {Pipeline} from "./pipeline/Pipeline.sol";
+import "./pipeline/Registers.sol";
 
-/// @title Engine: from a scene to pixels.
-/// @notice The work of the Renderer, which checks the scene before and makes a file of the pixels after. Call the Renderer: a scene that
-/// did not pass its checks is drawn wrong here.
-contract Engine {
-    /// @notice Draws a part of the canvas.
-    /// @param countPixels Whether to count what was drawn.
-    /// @return Two words without the ABI's offsets and lengths: how many triangles were left after culling and clipping, how many pixels
-    /// they cover (0 if not counted); then the pixels, blue, green, red, rows from the bottom.
-    function drawTile(Scene calldata scene, Rectangle calldata tile, bool countPixels) external pure returns (bytes memory) {
-        Picture memory picture = draw(scene, tile, countPixels);
-        assembly ("memory-safe") {
-            let data := sub(mload(picture), 0x40)
-            mstore(data, mload(add(picture, 0x40)))
-            mstore(add(data, 0x20), mload(add(picture, 0x60)))
-            return(data, add(0x40, mload(add(picture, 0x20))))
-        }
+/// @title Engine: from vertices to pixels, for flat and unlit surfaces.
+/// @notice The work of the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels after. Call
+/// the Renderer: the engine relies on what it is handed.
+contract Engine is Pipeline {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        FlatShading.prepare(a, b, c, crossing);
     }
+
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
+        uint256 mode = load(MODE);
+        if (mode == 0) LinearSpans.plain(edges, rows, row);
+        else if (mode == IS_LINEAR) LinearSpans.saturating(edges, rows, row);
+        else drawBothParts(edges, rows, row);
+    }
+
+    function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
+        if (load(MODE) & IS_PATCHED == 0) LinearSpans.general(edges, slopes, start, row, end);
+        else Patches.fill(edges, slopes, start, rowAt(row), rowAt(end));
+    }
+
+    /// @dev Wires are drawn by the FragmentEngine.
+    function drawWires(uint256, uint256) internal pure override {}
 }

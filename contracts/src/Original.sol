@@ -21,18 +21,19 @@ import {
     WIREFRAME
 } from "./scene/Scene.sol";
 import {MAX_SHININESS, MAX_COORDINATE, MAX_COEFFICIENT, MAX_EXTENT} from "./scene/Checks.sol";
-import {SceneErrors} from "./scene/SceneErrors.sol";
 import {WIDE} from "./scene/Mesh.sol";
 import {Base64} from "./encode/Base64.sol";
 import {Text} from "./encode/Text.sol";
+import {HEADER_SIZE, FACE_SIZE} from "./mesh/PackedMesh.sol";
 import {Renderer} from "./Renderer.sol";
+import {WithRenderer} from "./WithRenderer.sol";
 
 /// @title Original: the interface of the first Shackled contracts, served by this renderer.
 /// @notice Whatever was written against `render(RenderParams, int256, bool)` works here. Geometry, camera, culling, wireframe, background
 /// and inversion carry over exactly, except where the original drew them wrong. Its light becomes one directional light: the colour of
 /// the surface shows in full, as there; the highlight is its highlight; the diffuse term is multiplied by the colour of the surface. The
 /// ambient power and a diffuse colour of another hue than the highlight have no counterpart.
-contract Original is SceneErrors {
+contract Original is WithRenderer {
     struct LightingParams {
         bool applyLighting;
         int256 lightAmbiPower;
@@ -62,15 +63,12 @@ contract Original is SceneErrors {
         bool wireframe;
     }
 
-    Renderer public immutable renderer;
-
     /// @dev 1 / 2.145: half the height of the picture at distance 1, a field of view of about 50 degrees.
     Fixed internal constant HALF_HEIGHT = Fixed.wrap(2002315756);
     /// @dev Half the units that the orthographic camera spans for each pixel of the canvas.
     uint256 internal constant ORTHOGRAPHIC_UNITS = 500;
     uint256 internal constant MAX_COUNT = 65535;
 
-    error NoRenderer(address renderer);
     error TooManyFaces(uint256 count);
     error TooManyVertices(uint256 count);
     /// @notice A face uses a vertex that has no position or no colour.
@@ -82,10 +80,7 @@ contract Original is SceneErrors {
     /// @notice `lightPos` is the direction to the light and must not be zero.
     error NoLightDirection();
 
-    constructor(Renderer renderer_) {
-        if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
-        renderer = renderer_;
-    }
+    constructor(Renderer renderer_) WithRenderer(renderer_) {}
 
     /// @notice Draws a scene of the original.
     /// @param canvasDim Width and height in pixels.
@@ -207,12 +202,12 @@ contract Original is SceneErrors {
             if (vertices > MAX_COUNT) revert TooManyVertices(vertices);
             if (faces > MAX_COUNT) revert TooManyFaces(faces);
             uint256 vertexSize = 3 * bits / 8 + 3;
-            mesh = new bytes(5 + vertexSize * vertices + 6 * faces);
+            mesh = new bytes(HEADER_SIZE + vertexSize * vertices + FACE_SIZE * faces);
             uint256 target;
             assembly ("memory-safe") {
                 target := add(mesh, 32)
             }
-            target = write(target, ((bits == 24 ? WIDE : 0) << 32) | (vertices << 16) | faces, 5);
+            target = write(target, ((bits == 24 ? WIDE : 0) << 32) | (vertices << 16) | faces, HEADER_SIZE);
             // the original's scale may be negative: the mesh is mirrored at its origin instead
             int256 factor = (params.objScale < 0 ? -1 : int256(1)) << shift;
             uint256 colored = params.cols.length;
@@ -224,7 +219,7 @@ contract Original is SceneErrors {
             for (uint256 i; i != faces; ++i) {
                 uint256[3] calldata f = params.faces[i];
                 for (uint256 j; j != 3; ++j) if (f[j] >= usable) revert NoVertex(i, f[j]);
-                target = write(target, (f[0] << 32) | (f[1] << 16) | f[2], 6);
+                target = write(target, (f[0] << 32) | (f[1] << 16) | f[2], FACE_SIZE);
             }
         }
     }

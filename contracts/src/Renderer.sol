@@ -5,17 +5,24 @@ import {Fixed} from "./math/Fixed.sol";
 import {Quaternion} from "./math/Quaternion.sol";
 import {fromEuler} from "./math/Euler.sol";
 import {Scene, Rectangle} from "./scene/Scene.sol";
+import {BAND_PIXELS, Pipeline} from "./pipeline/Pipeline.sol";
 import {checkScene} from "./scene/Checks.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
 import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {Engine} from "./Engine.sol";
+import {FragmentEngine} from "./FragmentEngine.sol";
+import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
+import {Uniforms} from "./uniforms/Uniforms.sol";
+import "./pipeline/Registers.sol";
 
 /// @title Renderer: pictures of 3D scenes.
 /// @notice Stateless. What is wrong with a scene is told by the errors of `SceneErrors.sol`.
 contract Renderer is SceneErrors {
-    /// @notice What computes the pixels.
+    /// @notice What computes the pixels of flat and unlit surfaces.
     Engine public immutable engine;
+    /// @notice What computes the pixels of all else.
+    FragmentEngine public immutable fragmentEngine;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
@@ -28,9 +35,16 @@ contract Renderer is SceneErrors {
         uint256 litPixels;
     }
 
-    constructor(Engine engine_) {
+    /// @dev Where the answer of an engine is written, behind the beginning of the call: room for the header of the file.
+    uint256 private constant ANSWER = 0xc0;
+    /// @dev Room in memory before the pixels, for the texts that encoders allocate.
+    uint256 private constant TEXTS = 0x400;
+
+    constructor(Engine engine_, FragmentEngine fragmentEngine_) {
         if (address(engine_).code.length == 0) revert NoEngine(address(engine_));
+        if (address(fragmentEngine_).code.length == 0) revert NoEngine(address(fragmentEngine_));
         engine = engine_;
+        fragmentEngine = fragmentEngine_;
     }
 
     /// @notice Draws a scene.
@@ -51,19 +65,19 @@ contract Renderer is SceneErrors {
     /// @return triangles How many triangles were left after culling and clipping.
     /// @return litPixels How many pixels any of them covers.
     function renderCounted(Scene calldata scene) external view returns (bytes memory bmp, uint256 triangles, uint256 litPixels) {
-        File memory file = draw(scene, whole(scene), true);
-        (triangles, litPixels) = (file.triangles, file.litPixels);
-        assembly ("memory-safe") {
-            let size := mload(add(file, 0x20))
-            let data := sub(mload(file), 0x80)
-            mstore(data, 0x60)
-            mstore(add(data, 0x20), triangles)
-            mstore(add(data, 0x40), litPixels)
-            mstore(add(data, 0x60), size)
-            // the file stands where the bytes of `bmp` belong
-            bmp := add(data, 0x60)
-            return(data, add(0x80, and(add(size, 31), not(31))))
-        }
+        return counted(scene, whole(scene));
+    }
+
+    /// @notice Draws a part of the canvas, as `renderTile` does, and counts what was drawn of it.
+    /// @return bmp As `renderTile` returns it.
+    /// @return triangles How many triangles were left after culling and clipping, of the whole picture.
+    /// @return litPixels How many pixels of the part any of them covers.
+    function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
+        external
+        view
+        returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
+    {
+        return counted(scene, tile);
     }
 
     /// @notice Draws a scene.
@@ -91,44 +105,144 @@ contract Renderer is SceneErrors {
         return fromEuler(x, y, z);
     }
 
+    /// @notice The data with which the Renderer calls the engine to draw a part of the canvas, as `Uniforms.sol` says: for measurements.
+    function engineCall(Scene calldata scene, Rectangle calldata tile) external pure returns (bytes memory) {
+        unchecked {
+            checkScene(scene, tile);
+            (uint256 begin, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
+            returnBytes(begin, end - begin);
+        }
+    }
+
     function whole(Scene calldata scene) private pure returns (Rectangle memory) {
         return Rectangle(0, 0, scene.canvas.width, scene.canvas.height);
+    }
+
+    /// @dev Ends the call.
+    function counted(Scene calldata scene, Rectangle memory tile)
+        private
+        view
+        returns (bytes memory bmp, uint256 triangles, uint256 litPixels)
+    {
+        File memory file = draw(scene, tile, true);
+        (triangles, litPixels) = (file.triangles, file.litPixels);
+        assembly ("memory-safe") {
+            let size := mload(add(file, 0x20))
+            let data := sub(mload(file), 0x80)
+            mstore(data, 0x60)
+            mstore(add(data, 0x20), triangles)
+            mstore(add(data, 0x40), litPixels)
+            mstore(add(data, 0x60), size)
+            // the file stands where the bytes of `bmp` belong
+            bmp := add(data, 0x60)
+            return(data, add(0x80, and(add(size, 31), not(31))))
+        }
     }
 
     function draw(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (File memory file) {
         unchecked {
             checkScene(scene, tile);
-            uint256 pixels = callEngine(scene, tile, countPixels);
-            assembly ("memory-safe") {
-                mstore(add(file, 0x40), mload(sub(pixels, 0x40)))
-                mstore(add(file, 0x60), mload(sub(pixels, 0x20)))
+            (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
+            uint256 pixels;
+            uint256 free = freeMemory();
+            bool isOneRun = Runs.next(data, Runs.begin(data)).count == 0;
+            setFreeMemory(free);
+            if (tile.width * tile.height > BAND_PIXELS && !isOneRun) {
+                (pixels, file.triangles, file.litPixels) = drawBands(scene, tile, countPixels);
+            } else {
+                (pixels, file.triangles, file.litPixels) = callEngines(data, end);
             }
             file.begin = pixels - Bmp.HEADER;
             file.size = Bmp.finish(pixels, tile.width, tile.height);
-            uint256 end = file.begin + file.size;
+            end = file.begin + file.size;
             assembly ("memory-safe") {
                 mstore(end, 0)
             }
         }
     }
 
-    /// @dev Hands the scene on as it is: the call is made by hand because the compiler would take it apart and put it together again.
-    /// @return pixels Their address. The rest of memory is free.
-    function callEngine(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (uint256 pixels) {
-        address target = address(engine);
-        bytes4 selector = Engine.drawTile.selector;
+    /// @dev Where several engines draw a large picture: band by band, since what one has drawn, depths too, is handed to the next.
+    function drawBands(Scene calldata scene, Rectangle memory tile, bool countPixels)
+        private
+        view
+        returns (uint256 pixels, uint256 triangles, uint256 litPixels)
+    {
+        unchecked {
+            uint256 rows = BAND_PIXELS / tile.width;
+            uint256 free = freeMemory();
+            pixels = free + TEXTS + 0x100;
+            uint256 target = pixels;
+            // what the bands need stands behind the file, which has gaps
+            uint256 behind = (pixels + 3 * tile.width * tile.height + 4 * tile.height + 0x3f) & ~uint256(31);
+            for (uint256 bottom = tile.height; bottom != 0;) {
+                setFreeMemory(behind);
+                uint256 top = bottom < rows ? 0 : bottom - rows;
+                Rectangle memory band = Rectangle(tile.x, tile.y + top, tile.width, bottom - top);
+                (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, band, countPixels, TEXTS);
+                (uint256 source,, uint256 lit) = callEngines(data, end);
+                litPixels += lit;
+                uint256 size = 3 * tile.width * (bottom - top);
+                assembly ("memory-safe") {
+                    mcopy(target, source, size)
+                    target := add(target, size)
+                }
+                bottom = top;
+            }
+            if (countPixels) triangles = countTriangles(scene, tile);
+            setFreeMemory(free);
+        }
+    }
+
+    /// @dev Has each engine draw what it draws of the scene, one run of objects after the other.
+    /// @param data Where the call begins; `end` where it ends. The memory behind is free.
+    /// @return pixels Their address. The memory behind them is free.
+    /// @return triangles How many triangles were left after culling and clipping.
+    /// @return litPixels How many pixels they cover, if they are counted.
+    function callEngines(uint256 data, uint256 end) private view returns (uint256 pixels, uint256 triangles, uint256 litPixels) {
+        unchecked {
+            // what is allocated here and in each turn is given up again: the call stands behind
+            uint256 free = freeMemory();
+            Run memory run = Runs.begin(data);
+            uint256 kept = freeMemory();
+            uint256 size = end;
+            while (true) {
+                Run memory next = Runs.next(data, run);
+                Runs.set(data, run, next.count == 0);
+                if (next.count == 0) break;
+                uint256 answered = callEngine(engineOf(run), data, size, end);
+                triangles += load(end);
+                // the head of the answer does not belong to what was drawn
+                Runs.setDrawn(data, end + 0x40);
+                size = end + answered;
+                (run.turn, run.first, run.count, run.position, run.end) = (next.turn, next.first, next.count, next.position, next.end);
+                setFreeMemory(kept);
+            }
+            callEngine(engineOf(run), data, size, data + ANSWER);
+            setFreeMemory(free);
+            pixels = data + ANSWER + 0x40;
+            triangles += load(data + ANSWER);
+            litPixels = load(data + ANSWER + 0x20);
+        }
+    }
+
+    /// @dev The triangles of all objects.
+    function countTriangles(Scene calldata scene, Rectangle memory tile) private view returns (uint256) {
+        (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
+        Runs.setOnlyCounts(data);
+        callEngine(address(engine), data, end, data);
+        return load(data);
+    }
+
+    function engineOf(Run memory run) private view returns (address) {
+        return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
+    }
+
+    /// @param answer Where to write the answer.
+    /// @return size Its bytes.
+    function callEngine(address target, uint256 data, uint256 end, uint256 answer) private view returns (uint256 size) {
         bytes4 outOfGas = OutOfGas.selector;
         assembly ("memory-safe") {
-            // behind the texts that encoders will allocate
-            let data := add(mload(0x40), 0x400)
-            mstore(data, selector)
-            // offset of the scene, four words of the tile, one of the flag
-            mstore(add(data, 0x04), 0xc0)
-            mcopy(add(data, 0x24), tile, 0x80)
-            mstore(add(data, 0xa4), countPixels)
-            let size := sub(calldatasize(), scene)
-            calldatacopy(add(data, 0xc4), scene, size)
-            if iszero(staticcall(gas(), target, data, add(size, 0xc4), 0, 0)) {
+            if iszero(staticcall(gas(), target, data, sub(end, data), 0, 0)) {
                 if iszero(returndatasize()) {
                     mstore(0, outOfGas)
                     revert(0, 4)
@@ -136,9 +250,8 @@ contract Renderer is SceneErrors {
                 returndatacopy(data, 0, returndatasize())
                 revert(data, returndatasize())
             }
-            // room for the head of the answer and the header of the file
-            pixels := add(data, 0x100)
-            returndatacopy(sub(pixels, 0x40), 0, returndatasize())
+            size := returndatasize()
+            returndatacopy(answer, 0, size)
         }
     }
 

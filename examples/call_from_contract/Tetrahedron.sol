@@ -17,7 +17,7 @@ import {
     PERSPECTIVE
 } from "../../contracts/src/scene/Scene.sol";
 import {Renderer} from "../../contracts/src/Renderer.sol";
-import {PngEncoder} from "../../contracts/src/studio/PngEncoder.sol";
+import {PngEncoder} from "../../contracts/src/encode/PngEncoder.sol";
 
 /// @notice A contract that shows itself: a tetrahedron, turned as far as the caller wants, as a PNG file or as a bitmap.
 contract Tetrahedron {

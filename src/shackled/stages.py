@@ -19,8 +19,8 @@ from PIL import ImageDraw, ImageFont
 from .chain import Chain, open_chain
 from .image import decode_bmp
 from .reference.call import read_call
+from .reference.layout import PIXEL_BIAS
 from .reference.pipeline import Geometry, assemble
-from .reference.registers import PIXEL_BIAS
 from .reference.vector import to_matrix
 from .scene.background import Background
 from .scene.codec import encode

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import InputError, bench, load
-from shackled.artifacts import artifact, contracts
+from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Lab, fits, scenes
 from shackled.bench.anvil import AnvilChain, find_anvil
 from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
@@ -19,6 +19,7 @@ from shackled.bench.original import CODE_SIZES, original, original_gas
 from shackled.bench.report import Report, wrapped
 from shackled.chain import open_chain
 from shackled.cli.app import run
+from shackled.deploy.contract import STANDARD
 from shackled.image import decode_bmp
 from shackled.reference import render as reference_render
 
@@ -177,7 +178,7 @@ def test_culling(made: Path) -> None:
 
 def test_deploy(made: Path) -> None:
     rows = rows_of(made, "deploy")
-    assert {row["contract"] for row in rows} == set(contracts("core"))
+    assert {row["contract"] for row in rows} == set(STANDARD)
     for row in rows:
         built = artifact(row["contract"])
         assert int(row["code_bytes"]) == len(built.runtime)

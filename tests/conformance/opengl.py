@@ -14,7 +14,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from .world import Array, Solid, World
+from .world import ALL_THROUGH, Array, Solid, World
 
 #: What a vertex consists of: name and count of numbers.
 VERTEX = {
@@ -67,7 +67,8 @@ out vec4 result;
 uniform bool perspective, lit, smooth_normals;
 uniform float near, ambient, diffuse, specular;
 uniform int lights, shininess;
-uniform vec3 ambient_light, light[4];
+uniform vec3 ambient_light, light[4], axis[4];
+uniform vec2 cosines[4];
 
 vec3 unit(vec3 v) {
     float square = dot(v, v);
@@ -93,9 +94,14 @@ void main() {
             vec3 to_light = unit(f_to_light[i]);
             float lambert = dot(normal, to_light);
             if (lambert > 0.0) {
-                surface += diffuse * lambert * light[i];
-                if (specular > 0.0) shining |= 1 << i;
-                highlight += specular * power(max(0.0, dot(normal, unit(to_light + view))), shininess) * light[i];
+                // a spot light: from 1 at the inner angle to 0 at the outer one, squared, as in glTF
+                float along = dot(-axis[i], to_light) - cosines[i].y;
+                float through = clamp(along / max(cosines[i].x - cosines[i].y, 1.0 / 1024.0), 0.0, 1.0);
+                through *= through;
+                surface += diffuse * lambert * through * light[i];
+                if (specular * through > 0.0) shining |= 1 << i;
+                float gloss = power(max(0.0, dot(normal, unit(to_light + view))), shininess);
+                highlight += specular * through * gloss * light[i];
             }
         }
         color = color * surface + 255.0 * highlight;
@@ -222,6 +228,8 @@ def _set_uniforms(program: moderngl.Program, world: World, solid: Solid) -> None
         "lights": len(hues),
         "shininess": material.shininess,
         "ambient_light": tuple(world.ambient / 255),
+        "axis": [*(tuple(lamp.axis) for lamp in world.lamps), *[(0.0, 0.0, 0.0)] * (4 - len(hues))],
+        "cosines": [*(lamp.cosines for lamp in world.lamps), *[ALL_THROUGH] * (4 - len(hues))],
         "light": hues + [(0.0, 0.0, 0.0)] * (4 - len(hues)),
     }
     for name, value in values.items():

@@ -216,7 +216,12 @@ def _light(rng: Rng, seen: Object) -> Light:
         return Light("directional", _direction(rng), color)
     # from far away to close above a surface
     distance = _size(seen) * 10.0 ** rng.uniform(-1.5, 1)
-    return Light("point", _point(rng, seen) + distance * _direction(rng), color)
+    place = _point(rng, seen) + distance * _direction(rng)
+    if rng.random() < 0.75:
+        return Light("point", place, color)
+    outer = rng.uniform(5, 90)
+    toward = _point(rng, seen) - place
+    return Light("spot", place, color, toward if toward.any() else (0, 0, -1), outer * rng.random(), outer)
 
 
 def _point(rng: Rng, seen: Object) -> Array:

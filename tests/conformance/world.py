@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from shackled import Camera, Material, Scene
+from shackled import Camera, Light, Material, Scene
 from shackled.scene.mesh import vertex_normals
 
 Array = NDArray[np.float64]
@@ -20,6 +20,10 @@ Array = NDArray[np.float64]
 NORMAL_STEPS = 511
 #: Where the near plane is if the scene does not say, as a part of the farthest distance.
 NEAR_PART = 2.0**-10
+
+
+#: The cosines of a cone that is wider than all directions.
+ALL_THROUGH = (-1.0, -2.0)
 
 
 @dataclass(frozen=True)
@@ -41,11 +45,16 @@ class Solid:
 
 @dataclass(frozen=True)
 class Lamp:
-    """A light in the space of the camera: the place of a point light, or the direction toward one that is far away."""
+    """A light in the space of the camera: the place of a point light, or the direction toward one that is far away.
+
+    axis, cosines: where a spot light points, and the cosines of its angles, the inner one first.
+    """
 
     is_point: bool
     vector: Array
     color: Array
+    axis: Array
+    cosines: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -103,10 +112,7 @@ def before_camera(scene: Scene) -> World:
                 )
             )
         first += len(faces) * (not o.wireframe)
-    lamps = [
-        Lamp(w.kind == "point", (_floats(w.vector) - eye * (w.kind == "point")) @ axes.T, _floats(w.color))
-        for w in scene.lights
-    ]
+    lamps = [_lamp(light, eye, axes) for light in scene.lights]
     near = camera.near
     if near is None:
         farthest = max((float(-s.corners[..., 2].min()) for s in solids), default=1.0)
@@ -121,6 +127,16 @@ def before_camera(scene: Scene) -> World:
         lamps,
         _floats(scene.ambient_light),
     )
+
+
+def _lamp(light: Light, eye: Array, axes: Array) -> Lamp:
+    is_point = light.kind != "directional"
+    axis, cosines = np.zeros(3), ALL_THROUGH
+    if light.kind == "spot":
+        axis = unit(_floats(light.direction)) @ axes.T
+        inner, outer = (float(np.cos(np.radians(angle))) for angle in (light.inner_angle, light.outer_angle))
+        cosines = inner, outer
+    return Lamp(is_point, (_floats(light.vector) - eye * is_point) @ axes.T, _floats(light.color), axis, cosines)
 
 
 def background(scene: Scene) -> Array:

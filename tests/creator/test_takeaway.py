@@ -146,7 +146,7 @@ def test_a_line_for_cast(kind: str) -> None:
     assert bytes.fromhex(match[1][2:]) == chain().address("Renderer")
     assert match[2] == picture.take("calldata").data.decode().strip()
     codes = dict(each.split(":") for each in match[3].split(" --override-code ")[1:])
-    assert len(codes) == (0 if kind == "cast" else 2)
+    assert len(codes) == (0 if kind == "cast" else 3)
     assert all(chain().codes()[bytes.fromhex(place[2:])].hex() == code[2:] for place, code in codes.items())
     # what the shell makes of the answer
     answer = "0x" + chain().call("Renderer", bytes.fromhex(match[2][2:])).output.hex()
@@ -325,24 +325,19 @@ def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
     assert spec.loader is not None
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
-    folder = ROOT / "contracts" / "src"
-    ours = [path for path in folder.rglob("*.sol") if path.relative_to(folder).parts[0] not in tool.GROUPS]
-    sources = {f"shackled/contracts/src/{path.relative_to(folder).as_posix()}": path.read_text() for path in ours}
+    found = tool.read_sources(["Renderer"])
+    sources = {f"shackled/contracts/src/{name}": text for name, text in found.items()}
     names = [f"{number}.sol" for number in range(len(contracts))]
     sources |= dict(zip(names, contracts, strict=True))
-    request = {
-        "language": "Solidity",
-        "sources": {name: {"content": content} for name, content in sources.items()},
-        "settings": tool.SETTINGS | {"outputSelection": {name: {"*": tool.OUTPUTS} for name in names}},
-    }
+    request = tool.request(sources, tool.settings(200, True), {name: {"*": tool.OUTPUTS} for name in names})
     output = tool.run_compiler(json.dumps(request))["contracts"]
-    found = []
+    made = []
     for name in names:
         (contract,) = output[name].values()
         assert len(contract["evm"]["deployedBytecode"]["object"]) / 2 <= tool.MAX_RUNTIME_SIZE
         selectors = contract["evm"]["methodIdentifiers"]
-        found.append((bytes.fromhex(contract["evm"]["bytecode"]["object"]), selectors))
-    return found
+        made.append((bytes.fromhex(contract["evm"]["bytecode"]["object"]), selectors))
+    return made
 
 
 def test_what_is_not_there() -> None:

@@ -12,7 +12,7 @@ from eth_account import Account
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
-from shackled.artifacts import artifact
+from shackled.artifacts import RENDERER, artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import AddressBook
 from shackled.chain.addresses import PROXY, SALT, create2_address, keccak256, parse_address, show_address
@@ -69,9 +69,9 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
         assert each.address == local.address(each.name)
         assert each.creation.startswith(artifact(each.name).creation)
         assert len(each.code) == len(artifact(each.name).runtime)
-    assert [each.name for each in deployments(["Renderer"])] == ["Engine", "Renderer"]
-    assert [each.name for each in deployments(["Genesis", "Renderer"])] == ["Engine", "Renderer", "Genesis"]
-    assert [each.name for each in deployments(["Studio"])] == ["Engine", "Renderer", "PngEncoder", "Studio"]
+    assert [each.name for each in deployments(["Renderer"])] == list(RENDERER)
+    assert [each.name for each in deployments(["Genesis", "Renderer"])] == [*RENDERER, "Genesis"]
+    assert [each.name for each in deployments(["Studio"])] == [*RENDERER, "PngEncoder", "Studio"]
     assert [each.name for each in deployments(["PngEncoder"])] == ["PngEncoder"]
     for name in CONTRACTS:
         assert deployments([name])[-1].name == name
@@ -82,9 +82,9 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
 
 
 def test_a_constructor_that_refuses() -> None:
-    engine = bytes(31) + b"\x05"
+    engines = 2 * (bytes(31) + b"\x05")
     with pytest.raises(RenderError, match=r"Renderer could not be deployed|the contract refused"):
-        deployment("Renderer", artifact("Renderer").creation + engine)
+        deployment("Renderer", artifact("Renderer").creation + engines)
 
 
 def test_the_transaction_that_deploys_the_proxy() -> None:
@@ -134,14 +134,14 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
     with anvil(*NO_PROXY, "--chain-id", "4321") as node:
         deployer, transactor = parts(node, book)
         assert code(node, PROXY) == b""
-        plan = deployer.plan(wanted[:2])
-        assert missing(plan) == ["deployment proxy", "Engine", "Renderer"]
+        plan = deployer.plan(wanted[:3])
+        assert missing(plan) == ["deployment proxy", *RENDERER]
         before = transactor.balance()
         deployer.carry_out(plan, transactor)
         assert before - transactor.balance() <= plan.cost
         assert code(node, PROXY) == PROXY_CODE
-        assert [code(node, each.address) for each in wanted[:2]] == [each.code for each in wanted[:2]]
-        assert book.entries(4321).keys() == {"Engine", "Renderer"}
+        assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+        assert book.entries(4321).keys() == set(RENDERER)
 
 
 @needs_anvil
@@ -208,10 +208,10 @@ def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[
 @needs_anvil
 def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, _ = parts(node, book)
-    node.rpc("anvil_setCode", "0x" + wanted[1].address.hex(), "0x00")
+    node.rpc("anvil_setCode", "0x" + wanted[2].address.hex(), "0x00")
     with pytest.raises(TransactionError, match="is not that of Renderer"):
         deployer.plan(wanted)
-    node.rpc("anvil_setCode", "0x" + wanted[1].address.hex(), "0x")
+    node.rpc("anvil_setCode", "0x" + wanted[2].address.hex(), "0x")
     node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x00")
     with pytest.raises(TransactionError, match="something else where the deployment proxy belongs"):
         deployer.plan(wanted)
@@ -295,12 +295,12 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
 
     with serving(answer) as url:
         deployer = Deployer(Connection(url), book)
-        engine, renderer = deployer.plan(wanted[:2]).quotes
+        engine, _, renderer = deployer.plan(wanted[:3]).quotes
         assert engine.estimate is not None
         assert renderer.estimate is None
         assert 5 * renderer.call.ours <= renderer.gas <= 6 * renderer.call.ours
-        deployer.carry_out(deployer.plan(wanted[:2]), Transactor(Connection(url), Account.from_key(KEY)))
-    assert [code(node, each.address) for each in wanted[:2]] == [each.code for each in wanted[:2]]
+        deployer.carry_out(deployer.plan(wanted[:3]), Transactor(Connection(url), Account.from_key(KEY)))
+    assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
 
 
 @needs_anvil

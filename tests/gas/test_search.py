@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -11,7 +13,9 @@ from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError
-from shackled.gas.exact import KEPT, engine_call, floor_gas, margin, measure, needed_for, render_call
+from shackled.gas import runs
+from shackled.gas.exact import KEPT, floor_gas, margin, measure, needed_for, render_call
+from shackled.gas.runs import engine_calls
 from shackled.gas.search import FIRST_LIMIT, Step, search, suffices
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
@@ -75,7 +79,7 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
         chain.call("Renderer", data, found.gas - 1)
     account = margin(exact, found.gas)
     assert found.gas == exact.gas + account.gas
-    assert account.kept == needed_for(exact.engine_gas) - exact.engine_gas
+    assert account.kept == needed_for(exact.dearest_call) - exact.dearest_call
     # what the Renderer itself uses after its call is some of what it uses at all
     assert 0 < account.after < exact.gas - exact.engine_gas
     assert 0 <= account.gas <= exact.gas / (KEPT - 1) + 1
@@ -106,16 +110,36 @@ def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> 
     assert not isinstance(caught.value, OutOfGasError)
 
 
-def test_the_call_of_the_engine_is_the_one_that_the_renderer_makes(scenes: dict[str, Scene]) -> None:
+@pytest.mark.parametrize("name", ["smooth", "mixed", "large"])
+def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, scenes: dict[str, Scene]) -> None:
     pytest.importorskip("pyrevm")
     chain = open_chain("pyrevm")
     assert isinstance(chain, ContractChain)
     scene = scenes["smooth"]
+    if name != "smooth":
+        (pot,) = scene.objects
+        flat = replace(pot, material=replace(pot.material, shading="flat"))
+        scene = replace(scene, objects=[flat, pot, replace(flat, opacity=0.5), flat], invert=True)
+    if name == "large":
+        # 32 rows need no padding
+        scene = replace(scene, width=512, height=40)
     whole = chain.call("Renderer", render_call(scene)).output
-    pixels = chain.call("Engine", engine_call(scene)).output[64:]
-    # 24 pixels a row need no padding
-    assert pixels == whole[64 + 54 : 64 + 54 + 3 * 24 * 16]
-    assert engine_call(scene)[:4] == artifact("Engine").selectors["drawTile"]
+    calls = engine_calls(scene, chain)
+    engines = ["FragmentEngine"] if name == "smooth" else ["Engine", "FragmentEngine", "Engine", "FragmentEngine"]
+    bands = 2 if name == "large" else 1
+    assert [call.engine for call in calls] == bands * engines
+    pixels = b"".join(call.result.output[64:] for call in calls[len(engines) - 1 :: len(engines)])
+    assert pixels == whole[64 + 54 : 64 + 54 + 3 * scene.width * scene.height]
+    assert all(call.data[:4] == artifact(call.engine).selectors["drawTile"] for call in calls)
+
+
+def test_registers_are_those_of_the_contracts() -> None:
+    sources = Path(__file__).parents[2] / "contracts" / "src"
+    text = "".join((sources / name).read_text("utf-8") for name in ("pipeline/Registers.sol", "pipeline/Pipeline.sol"))
+    values = dict(re.findall(r"constant (\w+) = (\w+);", text))
+    names = [name for name in vars(runs) if name.isupper() and name in values and not name.startswith("IS_")]
+    assert len(names) == 12
+    assert all(int(values[name], 0) == getattr(runs, name) for name in names)
 
 
 def test_the_least_that_a_transaction_costs() -> None:

@@ -61,8 +61,9 @@ def test_a_whole_numbered_scene_passes_exactly() -> None:
         width=320,
         height=200,
     )
-    ((canvas, camera, background, invert, ambient, lights, objects),) = decode(encode(SELECTOR, scene))
+    ((canvas, camera, background, invert, ambient, lights, objects, more),) = decode(encode(SELECTOR, scene))
     assert canvas == (320, 200)
+    assert more == b""
     assert camera == ((0, 0, 0), (0, 0, -ONE), (0, ONE, 0), 0, round(ONE / 2.145), 2 * ONE)
     assert (background, invert, ambient) == ((0x010203, 0x040506), 1, 0x0A141E)
     assert lights == (
@@ -84,8 +85,8 @@ def test_two_objects_and_a_tile() -> None:
     data = encode(SELECTOR, scene, Rectangle(5, 6, 7, 8))
     values, rectangle = decode(data, "(uint256,uint256,uint256,uint256)")
     assert rectangle == (5, 6, 7, 8)
-    assert [o[-1] for o in values[-1]] == [1, 2]
-    assert values[-1][1][1] == (ONE, 2 * ONE, -3000 * ONE)
+    assert [o[-1] for o in values[-2]] == [1, 2]
+    assert values[-2][1][1] == (ONE, 2 * ONE, -3000 * ONE)
 
 
 @pytest.mark.parametrize("tile", [(-1, 0, 5, 5), (0, 0, 0, 5), (124, 0, 5, 5), (0, 127, 1, 2), (0, 0, 129, 1)])

@@ -52,6 +52,19 @@ contract BuilderProbe {
         return stage.scene;
     }
 
+    function extended() external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(20, 10, 3);
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.fade(50);
+        stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
+        stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), 90, -50, 0x808080);
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.fade(0);
+        stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 100, 100, 0x010203);
+        return stage.scene;
+    }
+
     function scene(uint256 objects, uint256 added, uint256 lights) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(20, 10, objects);
         for (uint256 k; k < added; ++k) {

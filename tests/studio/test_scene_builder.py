@@ -138,7 +138,8 @@ def test_a_box_is_closed(world: World, probe: bytes) -> None:
 
 def test_a_scene(world: World, probe: bytes) -> None:
     (scene,) = ask(world, probe, [SCENE_STRUCT], "scene(uint256,uint256,uint256)", 5, 3, 2)
-    canvas, camera, background, invert, ambient, lights, objects = scene
+    canvas, camera, background, invert, ambient, lights, objects, more = scene
+    assert more == b""
     assert canvas == (20, 10)
     assert camera[:3] == ((0, 0, 1000 * ONE), (0, 0, 0), (0, ONE, 0))
     assert abs(camera[4] / ONE - np.tan(np.radians(25))) < 1e-6
@@ -149,6 +150,19 @@ def test_a_scene(world: World, probe: bytes) -> None:
     assert objects[1][4] == (0, ONE, 0, 0, 1)
     assert abs(objects[2][2][1] / ONE - np.sqrt(0.5)) < 1e-6
     assert all(o[0] == bytes(5) and o[3] == ONE and o[5] == 1 for o in objects)
+
+
+def test_spot_lights_and_opacities(world: World, probe: bytes) -> None:
+    """In whatever order they are added, their records ascend."""
+    (scene,) = ask(world, probe, [SCENE_STRUCT], "extended()")
+    assert [light[0] for light in scene[5]] == [0, 1, 1]
+    numbers = [(0, ONE, -2 * ONE, 90 * ONE // 100, -(50 * ONE // 100)), (-ONE, 0, 0, ONE, ONE)]
+    cones = [b"".join(number.to_bytes(8, "big", signed=True) for number in cone) for cone in numbers]
+    assert scene[7] == (
+        b"\1\0\1\0\x28" + cones[0] + b"\1\0\2\0\x28" + cones[1] + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0"
+    )
+    call = call_data(f"render({SCENE_STRUCT})", scene)
+    assert len(world.run(world.address("Renderer"), call)) > 54 + 3 * 20 * 10
 
 
 @pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])

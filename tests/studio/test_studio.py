@@ -103,6 +103,24 @@ def test_what_is_kept_is_the_scene(world: World) -> None:
     assert drawn == world.call("Studio", "renderPNG(address,uint256)", pointer, 1)
 
 
+def test_extensions_are_kept_with_the_scene(world: World) -> None:
+    glass = [replace(o, opacity=opacity) for o, opacity in zip(SCENE.objects, (0.5, 1.0), strict=True)]
+    cone = Light("spot", (300, 500, 900), (255, 240, 200), (-300, -500, -900), 5, 20)
+    scene = replace(SCENE, objects=glass, lights=[*SCENE.lights, cone])
+    pointer = stored(world, scene)
+    png = world.call("Studio", "renderPNG(address,uint256)", pointer, 1)
+    with PillowImage.open(io.BytesIO(png)) as picture:
+        drawn = np.array(picture.convert("RGB"))
+    assert (drawn == render(scene).pixels).all()
+    assert (drawn != render(SCENE).pixels).any()
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
+    assert len(struct[7]) == 45 + 9
+    # what a newer contract may know is told when it is drawn
+    newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x09\0\0\0\1\7")).hex()
+    with pytest.raises(RenderError, match=r"UnknownExtension\(kind=9, index=0\)"):
+        world.call("Studio", "check(address)", newer)
+
+
 def test_the_same_has_the_same_pointer_and_is_kept_once(world: World) -> None:
     mesh = b"\0" + (7).to_bytes(2, "big") + b"\0\0" + bytes(range(63))
     first = world.store("storeMesh(bytes)", mesh)
@@ -257,7 +275,7 @@ def test_a_scene_with_a_broken_mesh_spoils_only_itself(world: World) -> None:
     for o in range(2):
         objects = list(struct[6])
         objects[o] = (b"\x12" + bytes.fromhex(broken[2:]), *objects[o][1:])
-        pointer = world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], objects))
+        pointer = world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], objects, struct[7]))
         with pytest.raises(RenderError, match="MeshLength"):
             world.call("Studio", "render(address)", "0x" + pointer.hex())
     assert world.call("Studio", "render(address)", good) == render(SCENE).bmp
@@ -272,7 +290,7 @@ def test_kinds_of_meshes_that_there_are_not(world: World, kind: int) -> None:
     stored = world.store("storePart(bytes)", data)
     with pytest.raises(RenderError, match=f"UnknownMesh.*{kind}"):
         world.call("Studio", "mesh(address)", "0x" + stored.hex(), gas=100_000)
-    struct = (*draw_nothing(), [(data, (0,) * 3, (0, 0, 0, 1), 1, (0, 0, 0, 0, 1), 0)])
+    struct = (*draw_nothing(), [(data, (0,) * 3, (0, 0, 0, 1), 1, (0, 0, 0, 0, 1), 0)], b"")
     with pytest.raises(RenderError, match=f"UnknownMesh.*{kind}"):
         world.call("Studio", f"drawPNG({SCENE_STRUCT},uint256)", struct, 1, gas=100_000)
 
@@ -345,7 +363,9 @@ def test_what_is_refused_plain_is_refused_turned(
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     second = list(struct[6][1])
     second[field] = {1: (value, 0, 0), 2: (0, 0, 0, 0) if value is None else (value, 0, 0, 1 << 32), 3: value}[field]
-    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [struct[6][0], tuple(second)])).hex()
+    broken = (
+        "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [struct[6][0], tuple(second)], struct[7])).hex()
+    )
     changes = [] if turn is None else [(fields, turn, 0, (0, 0), 0, (8, 8))]
     with pytest.raises(RenderError, match=re.escape(error.format(value))):
         world.call("Studio", function, broken, *changes)
@@ -362,7 +382,7 @@ def test_turned_however_long_the_rotations_are(world: World, length: int) -> Non
     for own, turn in ((1 << 32, 1 << 32), (length, 1 << 32), (1 << 32, min(length, 1 << 48)), (length, 1)):
         o = list(struct[6][0])
         o[2] = (0, -own, 0, own)
-        pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [tuple(o)])).hex()
+        pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:6], [tuple(o)], struct[7])).hex()
         pictures.append(changed(world, pointer, fields=1, turn=(turn, 0, 0, -turn)))
     assert len(np.unique(pictures[0].reshape(-1, 3), axis=0)) > 20
     for picture in pictures[1:]:
@@ -390,7 +410,7 @@ def test_what_cannot_be_drawn_does_not_pass_the_check(
     world.run(world.address("Studio"), call_data("check(address)", pointer))
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     others, objects = change(struct[:6], list(struct[6]))
-    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*others, objects)).hex()
+    broken = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*others, objects, struct[7])).hex()
     for function in ("check", "render"):
         with pytest.raises(RenderError, match=re.escape(error)):
             world.run(world.address("Studio"), call_data(f"{function}(address)", broken))

@@ -41,11 +41,11 @@ def _compiled() -> dict[str, Built]:
     if not SOLC.is_dir():
         return {}
     tool = build_tool()
-    sources = {path.name: {"content": path.read_text("utf-8")} for path in sorted(FOLDER.glob("*.sol"))}
-    settings = tool.SETTINGS | {"outputSelection": {"*": {"*": ["abi", "evm.bytecode.object"]}}}
+    sources = {path.name: path.read_text("utf-8") for path in sorted(FOLDER.glob("*.sol"))}
+    request = tool.request(sources, tool.settings(200, True), {"*": {"*": ["abi", "evm.bytecode.object"]}})
     # selfdestruct is outdated, and just what is needed here
     tool.HARMLESS.add("5159")
-    answer = tool.run_compiler(json.dumps({"language": "Solidity", "sources": sources, "settings": settings}))
+    answer = tool.run_compiler(json.dumps(request))
     return {
         name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
         for contracts in answer["contracts"].values()

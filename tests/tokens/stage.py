@@ -54,7 +54,7 @@ class Stage:
 def _deployed(chain_id: int) -> Stage:
     world = World(chain_id)
     owner, alice, bob = (world.fund(account(name)) for name in ("owner", "alice", "bob"))
-    renderer = world.deploy("Renderer", world.deploy("Engine"))
+    renderer = world.deploy("Renderer", world.deploy("Engine"), world.deploy("FragmentEngine"))
     generator = world.deploy("Genesis", renderer)
     metadata = world.deploy("GenesisMetadata", generator)
     genesis = world.deploy("GenesisCollection", metadata, PRICE, RESERVE, (owner, LIMIT, owner, 500), sender=owner)

@@ -214,11 +214,11 @@ def put(s: Stage, function: str, value: Any) -> str:
 
 def test_icons_that_cannot_be_drawn_are_refused(s: Stage) -> None:
     c, nobody = fresh(s), "0x" + "12" * 20
-    canvas, *others, objects = s.studio.call("scene(address)", pointer(s))
+    canvas, *others, objects, more = s.studio.call("scene(address)", pointer(s))
     mesh, position, *rest = objects[0]
 
     def kept(canvas: Any = canvas, mesh: Any = mesh, position: Any = position) -> str:
-        return put(s, "storeScene", (canvas, *others, [(mesh, position, *rest)]))
+        return put(s, "storeScene", (canvas, *others, [(mesh, position, *rest)], more))
 
     c.send("add", "One", kept(), 4, ETHER, 5, 1, sender=s.owner)
     cases: list[tuple[str, tuple[Any, ...]]] = [

@@ -25,9 +25,9 @@ def test_the_contract_of_the_documentation_compiles() -> None:
     tool = build_tool()
     code = PAGE.read_text("utf-8").split("```solidity\n")[1].split("```")[0]
     comment = next(line for line in code.splitlines() if "contractURI likewise" in line)
-    sources = tool.read_sources(tool.SOURCES, "tokens") | {"tokens/Mine.sol": HEAD + code.replace(comment, LEFT_OUT)}
-    request = tool.standard_input(sources, "tokens")
-    request["settings"]["outputSelection"] = {"tokens/Mine.sol": {"*": ["abi", "evm.deployedBytecode.object"]}}
+    sources = tool.read_sources(["GenesisCollection"]) | {"tokens/Mine.sol": HEAD + code.replace(comment, LEFT_OUT)}
+    outputs = {"tokens/Mine.sol": {"*": ["abi", "evm.deployedBytecode.object"]}}
+    request = tool.request(sources, tool.settings_of("GenesisCollection"), outputs)
     built = tool.run_compiler(json.dumps(request))["contracts"]["tokens/Mine.sol"]["MyCollection"]
     assert 0 < len(built["evm"]["deployedBytecode"]["object"]) // 2 <= tool.MAX_RUNTIME_SIZE
     assert {"mint", "reveal", "seedOf"} <= {entry.get("name") for entry in built["abi"]}

@@ -15,11 +15,13 @@ contract CreationCall {
     error NotCreated(uint256 index);
 
     /// @param limit The gas that the call gets; 0 for all there is.
-    /// @param count How many contracts are to be created. The constructor of each is handed the address of the one before.
+    /// @param count How many contracts are to be created. The constructor of each is handed the addresses of the two before, the last one
+    /// first.
     /// @param packed Deflated: for each contract four bytes, the size of its creation code, and this code; then the data of the call.
     constructor(uint256 limit, uint256 count, bytes memory packed) {
         bytes memory data = inflate(packed);
         address target;
+        address before;
         uint256 next;
         uint256 end;
         assembly ("memory-safe") {
@@ -30,16 +32,21 @@ contract CreationCall {
             assembly ("memory-safe") {
                 let size := shr(224, mload(next))
                 next := add(next, 4)
-                // the address takes the place of what comes next for a moment
-                let behind := mload(add(next, size))
-                mstore(add(next, size), target)
-                target := create(0, next, add(size, 0x20))
+                let code := next
                 next := add(next, size)
+                // the addresses take the place of what comes next for a moment
+                let behind := mload(next)
+                let further := mload(add(next, 0x20))
+                mstore(next, target)
+                mstore(add(next, 0x20), before)
+                before := target
+                target := create(0, code, add(size, 0x40))
                 mstore(next, behind)
+                mstore(add(next, 0x20), further)
             }
             if (target == address(0)) revert NotCreated(i);
         }
-        // each but the first to be called is accessed by the one after it
+        // each but the first to be called is taken to be accessed by one after it: where a single engine draws that is one too many
         answer(target, limit, next, end - next, (count - 1) * FIRST_ACCESS);
     }
 }

@@ -4,6 +4,8 @@ pragma solidity 0.8.37;
 /// @notice Base64 without a table: 24 bytes at a time, whose 32 characters are computed side by side in one word.
 /// @dev Source of the encoding: RFC 4648.
 library Base64 {
+    /// @dev 1 in each byte.
+    uint256 private constant EACH_BYTE = 0x0101010101010101010101010101010101010101010101010101010101010101;
     uint256 internal constant MARGIN = 128;
 
     /// @notice Writes the characters of `size` bytes at `data` to `target`, and up to MARGIN bytes without meaning behind them. The 32
@@ -33,10 +35,22 @@ library Base64 {
                 bits := add(bits, mul(and(bits, 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0), 3))
                 // "A" + n, then what the steps to "a", "0", "+" and "/" differ from that
                 text := add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)
-                text := add(text, mul(and(shr(7, add(bits, 0x6666666666666666666666666666666666666666666666666666666666666666)), 0x0101010101010101010101010101010101010101010101010101010101010101), 6))
-                text := sub(text, mul(and(shr(7, add(bits, 0x4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c)), 0x0101010101010101010101010101010101010101010101010101010101010101), 75))
-                text := sub(text, mul(and(shr(7, add(bits, 0x4242424242424242424242424242424242424242424242424242424242424242)), 0x0101010101010101010101010101010101010101010101010101010101010101), 15))
-                text := add(text, mul(and(shr(7, add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)), 0x0101010101010101010101010101010101010101010101010101010101010101), 3))
+                text := add(
+                    text,
+                    mul(and(shr(7, add(bits, 0x6666666666666666666666666666666666666666666666666666666666666666)), EACH_BYTE), 6)
+                )
+                text := sub(
+                    text,
+                    mul(and(shr(7, add(bits, 0x4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c)), EACH_BYTE), 75)
+                )
+                text := sub(
+                    text,
+                    mul(and(shr(7, add(bits, 0x4242424242424242424242424242424242424242424242424242424242424242)), EACH_BYTE), 15)
+                )
+                text := add(
+                    text,
+                    mul(and(shr(7, add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)), EACH_BYTE), 3)
+                )
             }
 
             // pictures have runs of one colour, and its period of three bytes divides 24: often a group is like the one before

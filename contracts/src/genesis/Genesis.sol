@@ -1,59 +1,32 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {forward} from "../encode/Forward.sol";
 import {Scene, Background} from "../scene/Scene.sol";
-import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Renderer} from "../Renderer.sol";
+import {WithRenderer} from "../WithRenderer.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Structures, SWARM} from "./Structures.sol";
 import {Layout, Layouts} from "./Layout.sol";
 import {Prisms, PrismMaker} from "./Prisms.sol";
 import {Scheme, Schemes, SUNSET, STONE_AND_GOLD, VIVID_ALABASTER, VIVID_INK} from "./Schemes.sol";
 import {Colors} from "./Colors.sol";
+import {Piece, Traits} from "./Piece.sol";
 import {PieceMesh} from "./PieceMesh.sol";
 import {PieceScene} from "./PieceScene.sol";
 
-/// @notice What a piece is called.
-/// @param structure How its prisms are arranged.
-/// @param chroma The scheme of its colours.
-/// @param pseudosymmetry Its mirrors.
-struct Traits {
-    string structure;
-    string chroma;
-    string pseudosymmetry;
-    uint256 prisms;
-    bool wireframe;
-    bool invert;
-}
-
-/// @notice What a seed stands for.
-/// @param culling Whether faces that turn away are left out.
-/// @param mesh In the format of `Mesh.sol`: six vertices and seven faces a prism.
-struct Piece {
-    Traits traits;
-    Background background;
-    bool culling;
-    bytes mesh;
-}
-
 /// @title Genesis: a collection of pictures made from nothing but a seed of 32 bytes.
 /// @notice The seed gives a piece, the piece a scene, and the renderer its picture, in one call.
-contract Genesis is SceneErrors {
+contract Genesis is WithRenderer {
     using Random for Seed;
-
-    Renderer public immutable renderer;
 
     Tag internal constant WIRES = Tag.wrap(bytes32("wireframe") | bytes32(uint256(9)));
     Tag internal constant INVERSION = Tag.wrap(bytes32("invert") | bytes32(uint256(6)));
 
-    error NoRenderer(address renderer);
     /// @notice No triangle fits: the seed has no piece.
     error NoTriangle();
 
-    constructor(Renderer renderer_) {
-        if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
-        renderer = renderer_;
-    }
+    constructor(Renderer renderer_) WithRenderer(renderer_) {}
 
     /// @notice The piece of a seed.
     function generate(bytes32 seed) public pure returns (Piece memory piece) {
@@ -79,31 +52,19 @@ contract Genesis is SceneErrors {
     /// @notice The picture of a piece.
     /// @return A Windows bitmap of 24 bits a pixel.
     function render(bytes32 seed) external view returns (bytes memory) {
-        answer(abi.encodeCall(Renderer.render, (PieceScene.make(generate(seed)))));
+        forward(address(renderer), abi.encodeCall(Renderer.render, (PieceScene.make(generate(seed)))));
     }
 
     /// @notice The picture of a piece.
     /// @return A `data:` URI of the bitmap.
     function renderDataURI(bytes32 seed) external view returns (string memory) {
-        answer(abi.encodeCall(Renderer.renderDataURI, (PieceScene.make(generate(seed)))));
+        forward(address(renderer), abi.encodeCall(Renderer.renderDataURI, (PieceScene.make(generate(seed)))));
     }
 
     /// @notice The picture of a piece.
     /// @return An SVG document that shows the bitmap at any size without smoothing.
     function renderSVG(bytes32 seed) external view returns (string memory) {
-        answer(abi.encodeCall(Renderer.renderSVG, (PieceScene.make(generate(seed)))));
-    }
-
-    /// @dev Ends the call with what the renderer answers, or why it refuses, as it is: the compiler would copy a picture twice.
-    function answer(bytes memory data) private view {
-        address target = address(renderer);
-        assembly ("memory-safe") {
-            let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
-            // the data of the call is not needed any more
-            returndatacopy(data, 0, returndatasize())
-            if iszero(done) { revert(data, returndatasize()) }
-            return(data, returndatasize())
-        }
+        forward(address(renderer), abi.encodeCall(Renderer.renderSVG, (PieceScene.make(generate(seed)))));
     }
 
     function plan(Seed seed) private pure returns (Layout memory laid, Scheme memory scheme) {

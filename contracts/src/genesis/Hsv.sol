@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 /// @title Hsv: colours as hue, saturation and value, 0..255 each, by divisions that cut off.
 library Hsv {
-    /// @param red, green, blue From 0; if they exceed 255, so may the value.
+    /// @notice Of a colour whose channels are 0 or more; if one exceeds 255, so may the value.
     function fromRgb(int256 red, int256 green, int256 blue) internal pure returns (int256 hue, int256 saturation, int256 value) {
         unchecked {
             red = red * 1000 / 255;
@@ -27,7 +27,7 @@ library Hsv {
         }
     }
 
-    /// @param hue, saturation, value From 0 to 255; hue 255 is hue 0.
+    /// @notice Of numbers from 0 to 255; hue 255 is hue 0.
     function toRgb(int256 hue, int256 saturation, int256 value) internal pure returns (int256 red, int256 green, int256 blue) {
         unchecked {
             int256 sixth = 6 * (hue % 255 * 1000 / 255);

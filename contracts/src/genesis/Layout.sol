@@ -6,7 +6,11 @@ import {Structure, EXTRUDED, UNIFORM} from "./Structures.sol";
 import {Trigonometry, SINES, ONE} from "./Trigonometry.sol";
 
 /// @notice A triangle in the plane, counter-clockwise, and the heights of the two ends of the prism over it.
-/// @param x, y The centroid.
+/// @param corners x and y of each.
+/// @param far The height of the far end.
+/// @param near That of the near one.
+/// @param x Of the centroid.
+/// @param y Of the centroid.
 /// @param radius From the centroid to the first corner, cut off.
 /// @param isUp Whether one corner points upward, not two.
 /// @param edges Of each side, from corner to next corner, four numbers: dx, dy; dx * y - dy * x of either corner, so that a point p is
@@ -23,9 +27,14 @@ struct Triangle {
 }
 
 /// @notice The triangles of a piece.
+/// @param seed Of the piece.
+/// @param structure The rules.
 /// @param unit Of heights.
-/// @param count How many triangles are kept. `slots` may hold one more: the first one is no part of a piece that is mirrored at the x
-/// axis, and only the reference for what follows.
+/// @param mirrorX Whether each triangle comes with its mirror image at the y axis.
+/// @param mirrorY At the x axis; both: turned by half a turn.
+/// @param count How many triangles are kept.
+/// @param slots These. There may be one more: the first one is no part of a piece that is mirrored at the x axis, and only the
+/// reference for what follows.
 /// @param spare The triangle that is tried next, written to in place.
 /// @param sines Trigonometry's table.
 struct Layout {
@@ -105,7 +114,12 @@ library Layouts {
             uint256 side = uint256(seed.draw(ADJACENT_SIDE, i, 0, 0, 2));
             int256 scale = structure.sizesVary ? seed.draw(ADJACENT_SCALE, i, 0, 333, 800) : int256(1000);
             for (uint256 depth;; ++depth) {
-                Triangle memory beside = laid.slots[base];
+                Triangle memory beside = laid.spare;
+                Triangle[] memory slots = laid.slots;
+                assembly ("memory-safe") {
+                    // slots[base], which is there
+                    beside := mload(add(add(slots, 0x20), shl(5, base)))
+                }
                 int256 size = limited(structure, scale * beside.radius / 1000);
                 if (isTooSmall(structure, size)) return;
                 uint256 turn = 4 * side + (beside.isUp ? 2 : 0);
@@ -141,7 +155,11 @@ library Layouts {
             }
             for (uint256 depth;; ++depth) {
                 // read anew each time: it may be the slot that was filled last
-                Triangle memory other = laid.slots[base];
+                Triangle memory other = laid.spare;
+                Triangle[] memory slots = laid.slots;
+                assembly ("memory-safe") {
+                    other := mload(add(add(slots, 0x20), shl(5, base)))
+                }
                 int256 size = limited(structure, scale * other.radius / 1000);
                 if (isTooSmall(structure, size)) return;
                 uint256 turn = 4 * side + 2 + (other.isUp ? 2 : 0);
@@ -264,7 +282,7 @@ library Layouts {
             uint256 count = laid.count;
             if (count >= laid.structure.maxPrisms || triangle.radius < int256(laid.structure.minRadius)) return false;
             Triangle[] memory slots = laid.slots;
-            (int256 x, int256 y, int256 half) = (triangle.x, triangle.y, triangle.radius / 2);
+            (int256 x, int256 y, int256 half) = (triangle.x, triangle.y, triangle.radius >> 1);
             // any value at first: the compiler would allocate a new triangle
             Triangle memory old = triangle;
             for (uint256 k; k != count; ++k) {
@@ -273,7 +291,7 @@ library Layouts {
                     old := mload(add(add(slots, 0x20), shl(5, k)))
                 }
                 (int256 dx, int256 dy) = (x - old.x, y - old.y);
-                int256 least = half + old.radius / 2;
+                int256 least = half + (old.radius >> 1);
                 if (dx * dx + dy * dy < least * least) return false;
             }
             setEdges(triangle);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {Prisms} from "./Prisms.sol";
 
 /// @title PieceMesh: prisms in the format of `Mesh.sol`.
 library PieceMesh {
-    uint256 internal constant HEADER_SIZE = 5;
-    uint256 internal constant VERTEX_SIZE = 9;
-    uint256 internal constant FACE_SIZE = 6;
-
     /// @dev The seven faces of a prism, three vertex numbers of 2 bytes each, and what is added to each for the next prism. There is no
     /// far cap.
     uint256 private constant FACES_A = 0x0003_0004_0005_0004_0003_0000_0000_0001_0004_0005_0004_0001;

@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {Scene, Canvas, Camera, Light, Material, Object, DIRECTIONAL, FLAT, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
-import {Piece} from "./Genesis.sol";
+import {Piece} from "./Piece.sol";
 
 /// @notice How a piece is drawn. Who wants its traits too has the piece already, and need not have it made again.
 library PieceScene {

@@ -6,9 +6,12 @@ import {Layout, Triangle} from "./Layout.sol";
 import {Trigonometry} from "./Trigonometry.sol";
 
 /// @notice The prisms over the triangles of a layout, tilted.
-/// @param flatX, flatY, flatRadius Of each triangle, scaled and turned in its plane: the centroid, and its distance from the first
-/// corner, cut off.
-/// @param x, y, z Six points a prism, three at the far end and three at the near one, not yet centred; z away from the viewer.
+/// @param flatX The centroids of the triangles, scaled and turned in their plane.
+/// @param flatY Likewise.
+/// @param flatRadius Their distances from the first corners, cut off.
+/// @param x Six points a prism, three at the far end and three at the near one, not yet centred.
+/// @param y Likewise.
+/// @param z Likewise; away from the viewer.
 /// @param center Of the piece.
 /// @param half Half of the mean extent of both ends.
 struct Prisms {

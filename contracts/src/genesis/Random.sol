@@ -33,7 +33,11 @@ library Random {
     function toRange(uint256 value, int256 low, int256 high) internal pure returns (int256) {
         unchecked {
             uint256 count = high < low ? 1 : uint256(high - low + 1);
-            return low + int256(value % count);
+            assembly ("memory-safe") {
+                // the compiler would ask whether the count is zero
+                value := mod(value, count)
+            }
+            return low + int256(value);
         }
     }
 

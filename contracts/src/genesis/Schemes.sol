@@ -32,8 +32,10 @@ uint256 constant CENTER_X = 1;
 uint256 constant CENTER_Y = 2;
 
 /// @notice How prisms are coloured. Colours are 0xRRGGBB.
-/// @param start, end The colours of the gradient.
+/// @param start The first colour of the gradient.
+/// @param end Its last one.
 /// @param across Whether it runs across the whole piece, not each triangle.
+/// @param direction In which it runs.
 /// @param jiggle The mean of what is added to hue, saturation and value, a byte each.
 /// @param byVertex Whether each vertex of a prism gets its own.
 /// @param shift What the far end loses in brightness.
@@ -48,8 +50,14 @@ struct Paint {
 }
 
 /// @notice The colours of a piece.
-/// @param count, select, key How many prisms are highlights, and which.
-/// @param top, bottom The background.
+/// @param index Which scheme it is.
+/// @param primary How most prisms are coloured.
+/// @param highlight How the others are.
+/// @param count How many these are.
+/// @param select How they are chosen.
+/// @param key By what.
+/// @param top The background at the top.
+/// @param bottom The background at the bottom.
 struct Scheme {
     uint256 index;
     Paint primary;

@@ -2,11 +2,11 @@
 pragma solidity 0.8.37;
 
 /// @title Fixed: signed binary fixed-point numbers with 32 fraction bits (Q32).
-/// @notice One is `1 << 32`. The operators do not check for overflow: scenes are bounded by `Checks` before anything is computed of them, and
-/// within those bounds nothing here can overflow.
+/// @notice One is `1 << 32`. The operators do not check for overflow: scenes are bounded by `Checks` before anything is computed of them,
+/// and within those bounds nothing here can overflow.
 type Fixed is int256;
 
-using {add as +, sub as -, neg as -, mul as *, div as /, lessThan as <, greaterThan as >, equal as ==, raw} for Fixed global;
+using {add as +, sub as -, neg as -, mul as *, div as /, lessThan as <, greaterThan as >, raw} for Fixed global;
 
 Fixed constant ZERO = Fixed.wrap(0);
 Fixed constant ONE = Fixed.wrap(1 << 32);
@@ -53,8 +53,4 @@ function lessThan(Fixed a, Fixed b) pure returns (bool) {
 
 function greaterThan(Fixed a, Fixed b) pure returns (bool) {
     return a.raw() > b.raw();
-}
-
-function equal(Fixed a, Fixed b) pure returns (bool) {
-    return a.raw() == b.raw();
 }

@@ -11,7 +11,7 @@ struct Vector {
     Fixed z;
 }
 
-using {add, sub, scale, dot, cross, negate, normalize, isZero} for Vector global;
+using {add, sub, scale, dot, cross, normalize, isZero} for Vector global;
 
 function add(Vector memory a, Vector memory b) pure returns (Vector memory) {
     return Vector(a.x + b.x, a.y + b.y, a.z + b.z);
@@ -23,10 +23,6 @@ function sub(Vector memory a, Vector memory b) pure returns (Vector memory) {
 
 function scale(Vector memory a, Fixed k) pure returns (Vector memory) {
     return Vector(a.x * k, a.y * k, a.z * k);
-}
-
-function negate(Vector memory a) pure returns (Vector memory) {
-    return Vector(-a.x, -a.y, -a.z);
 }
 
 function dot(Vector memory a, Vector memory b) pure returns (Fixed) {

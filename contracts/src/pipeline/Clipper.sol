@@ -2,28 +2,15 @@
 pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
-import {LANES_24} from "./FragmentShader.sol";
-import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
-import {MUST_CLIP, VertexShader} from "./VertexShader.sol";
+import {Triangles} from "./Triangles.sol";
+import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";
 
 // Triangles that leave the guard band or reach behind the near plane are cut there, in homogeneous coordinates, where no division has
 // happened yet. Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 //
 // An edge is always cut from its inner end, and each end is put on the same side of a plane in all faces, so that faces that share an
-// edge share the cut as well. A polygon is a row of corners in memory, six words each:
-
-/// @dev Clip coordinates, Q32: see VertexShader.
-uint256 constant CORNER_X = 0x00;
-uint256 constant CORNER_Y = 0x20;
-uint256 constant CORNER_W = 0x40;
-/// @dev Lanes of Q10.
-uint256 constant CORNER_COLOR = 0x60;
-/// @dev As in a vertex record.
-uint256 constant CORNER_NORMAL = 0x80;
-/// @dev 1 if the edge to the next corner is one of the face, 0 if a cut has made it.
-uint256 constant CORNER_IS_EDGE = 0xa0;
-uint256 constant CORNER_SIZE = 0xc0;
+// edge share the cut as well. A polygon is a row of corners in memory, CORNER_SIZE bytes each.
 
 /// @dev Near, left, right, top, bottom.
 uint256 constant PLANES = 5;
@@ -40,16 +27,16 @@ uint256 constant NORMAL_LANES = 0xfffffffffffffc00000003ffffffffffffe00000001fff
 
 library Clipper {
     /// @notice Cuts the faces that the primitive assembly left, and appends what remains of them to its list.
-    /// @param count How many faces have to be cut.
     /// @return end The end of the list.
     /// @return free The first address behind the list and the new vertices.
-    /// @return drawn Of how many faces something remains that faces the viewer.
-    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, uint256 count, bool cull)
+    /// @return drawn Of how many faces something remains that is to be drawn: see PrimitiveAssembly.
+    function run(Mesh memory mesh, uint256 records, uint256 shift, uint256 list, bool cull)
         internal
         pure
         returns (uint256 end, uint256 free, uint256 drawn)
     {
         unchecked {
+            uint256 count = countFaces(mesh, records, shift);
             uint256 polygon = list + count * FAN_SIZE;
             free = polygon + 2 * POLYGON_SIZE;
             end = list;
@@ -61,13 +48,26 @@ library Clipper {
                 (uint256 start, uint256 corners) = cut(polygon);
                 if (corners < 3) continue;
                 for (uint256 i; i != corners; ++i) project(start + i * CORNER_SIZE, free + (i << shift));
-                uint256 fanEnd = fan(start, corners, free, shift, face, end, cull);
-                if (fanEnd != end) ++drawn;
-                end = fanEnd;
+                store(FACE, mesh.faces + FACE_SIZE * face);
+                bool isDrawn;
+                (end, isDrawn) = fan(start, corners, free, shift, end, cull);
+                if (isDrawn) ++drawn;
                 free += corners << shift;
             }
             // a record of 64 bytes has no place for the normal, which is written behind it: into the next, which comes later, or here
             free += 32;
+        }
+    }
+
+    /// @dev How many faces have to be cut.
+    function countFaces(Mesh memory mesh, uint256 records, uint256 shift) private pure returns (uint256 count) {
+        unchecked {
+            for (uint256 face; face != mesh.faceCount; ++face) {
+                uint256 indices = Triangles.readIndices(mesh.faces + FACE_SIZE * face);
+                uint256 all = load(records + (indices >> FACE_FIRST_AT << shift)) | load(records + ((indices & FACE_INDEX_MASK) << shift))
+                    | load(records + (((indices >> FACE_SECOND_AT) & FACE_INDEX_MASK) << shift));
+                if (all & MUST_CLIP != 0) ++count;
+            }
         }
     }
 
@@ -80,14 +80,14 @@ library Clipper {
         returns (bool isCut, bool isOutside)
     {
         unchecked {
-            uint256 indices = PrimitiveAssembly.readIndices(mesh.faces + 6 * face);
+            uint256 indices = Triangles.readIndices(mesh.faces + FACE_SIZE * face);
             uint256 outcodes = type(uint256).max;
             for (uint256 i; i != 3; ++i) {
-                uint256 index = (indices >> (32 - 16 * i)) & 0xffff;
+                uint256 index = (indices >> (FACE_FIRST_AT - FACE_SECOND_AT * i)) & FACE_INDEX_MASK;
                 uint256 record = records + (index << shift);
                 bool mustClip = load(record) & MUST_CLIP != 0;
                 isCut = isCut || mustClip;
-                outcodes &= mustClip ? load(record + 0x20) : 0;
+                outcodes &= mustClip ? load(record + VERTEX_ATTRIBUTES) : 0;
                 VertexShader.clipCoordinates(mesh, index, polygon);
                 store(polygon + CORNER_NORMAL, load(record + 0x40));
                 store(polygon + CORNER_IS_EDGE, 1);
@@ -152,7 +152,7 @@ library Clipper {
 
     /// @dev What clip coordinates are divided by.
     function divisor(int256 w) private pure returns (int256) {
-        return load(FRAME_IS_ORTHOGRAPHIC) == 0 ? w : int256(1 << 32);
+        return load(FRAME_IS_ORTHOGRAPHIC) == 0 ? w : int256(ONE_32);
     }
 
     /// @notice The point between two corners where the distance is zero.
@@ -182,7 +182,7 @@ library Clipper {
             uint256 y = inGuardBand(loadSigned(corner + CORNER_Y) / divisor(w));
             uint256 depth = load(FRAME_IS_ORTHOGRAPHIC) == 0 ? load(DEPTH_SCALE) / uint256(w) : load(DEPTH_SCALE) - uint256(w >> 8);
             store(record, VertexShader.screenWord(x, y, record));
-            store(record + 0x20, (depth << 168) | load(corner + CORNER_COLOR));
+            store(record + VERTEX_ATTRIBUTES, (depth << ATTRIBUTE_DEPTH_AT) | load(corner + CORNER_COLOR));
             store(record + 0x40, load(corner + CORNER_NORMAL));
         }
     }
@@ -194,12 +194,13 @@ library Clipper {
     }
 
     /// @notice Appends the triangles of a polygon, whose vertices are at `records`, to the list.
-    function fan(uint256 corner, uint256 corners, uint256 records, uint256 shift, uint256 face, uint256 list, bool cull)
+    function fan(uint256 corner, uint256 corners, uint256 records, uint256 shift, uint256 list, bool cull)
         private
         pure
-        returns (uint256)
+        returns (uint256 end, bool isDrawn)
     {
         unchecked {
+            end = list;
             uint256 first = load(records);
             uint256 edges = load(corner + CORNER_IS_EDGE);
             for (uint256 i = 2; i != corners; ++i) {
@@ -207,10 +208,11 @@ library Clipper {
                 records += 1 << shift;
                 edges |= load(corner + CORNER_IS_EDGE) << 1;
                 if (i == corners - 1) edges |= load(corner + CORNER_SIZE + CORNER_IS_EDGE) << 2;
-                list = PrimitiveAssembly.append(list, first, load(records), load(records + (1 << shift)), edges, face, cull);
+                uint256 drawn;
+                (end, drawn) = Triangles.append(end, first, load(records), load(records + (1 << shift)), edges, cull);
+                isDrawn = isDrawn || drawn != 0;
                 edges = 0;
             }
-            return list;
         }
     }
 }

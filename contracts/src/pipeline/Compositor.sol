@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Rectangle} from "../scene/Scene.sol";
-import {ONES} from "../pipeline/Registers.sol";
+import "./Words.sol";
 
 // The background under the objects, and what happens to all pixels when they are drawn.
 
@@ -14,14 +14,31 @@ library Compositor {
             // lanes of Q24: the change from row to row upwards, and the bottom row
             uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
             uint256 color = (lanes(height == 1 ? top : bottom) << 24) + (ONES << 23) + step * (height - tile.y - tile.height);
-            uint256 last = type(uint256).max;
-            for (uint256 row = tile.height; row != 0; --row) {
-                uint256 rounded = (color >> 24) & (ONES * 0xff);
-                if (rounded == last) copyRow(image, rowBytes);
-                else fillRow(image, rowBytes, rounded);
-                last = rounded;
-                image += rowBytes;
-                color += step;
+            fillRows(image, rowBytes, image + rowBytes * tile.height, color, step);
+        }
+    }
+
+    /// @dev Fills the rows from `row` to before `end`.
+    /// @param color Lanes of Q24; `step` is its change per row.
+    function fillRows(uint256 row, uint256 rowBytes, uint256 end, uint256 color, uint256 step) private pure {
+        assembly ("memory-safe") {
+            // not a colour
+            let last := ONE_24
+            for {} lt(row, end) { row := add(row, rowBytes) } {
+                let rounded := and(shr(24, color), BYTES_56)
+                color := add(color, step)
+                if eq(rounded, last) {
+                    mcopy(row, sub(row, rowBytes), rowBytes)
+                    continue
+                }
+                last := rounded
+                // b g r b g r ...: 32 bytes hold ten pixels and two thirds
+                rounded := shr(232, mul(rounded, LANES_TO_PIXEL))
+                let word := or(mul(shl(16, rounded), TEN_PIXELS), shr(8, rounded))
+                mstore(row, word)
+                mstore(add(row, 32), or(shl(248, rounded), shr(8, word)))
+                mstore(add(row, 64), or(shl(240, rounded), shr(16, word)))
+                for { let done := 96 } lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) }
             }
         }
     }
@@ -46,8 +63,8 @@ library Compositor {
             for {} lt(depth, end) { depth := add(depth, 32) } {
                 let depths := mload(depth)
                 // the highest bit of a lane is set if any bit of it is
-                let some := add(and(depths, 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff), 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff)
-                counts := add(counts, shr(63, and(or(some, depths), 0x8000000000000000800000000000000080000000000000008000000000000000)))
+                let some := add(and(depths, BELOW_TOPS_64), BELOW_TOPS_64)
+                counts := add(counts, shr(63, and(or(some, depths), TOPS_64)))
             }
             count := mod(counts, 0xffffffffffffffff)
         }
@@ -61,29 +78,8 @@ library Compositor {
         unchecked {
             for (uint256 i; i != 3; ++i) {
                 int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
-                step += uint256((difference << 24) / int256(rows)) << (56 * i);
+                step += uint256((difference << 24) / int256(rows)) << (MIDDLE_AT * i);
             }
-        }
-    }
-
-    /// @dev Repeats the row before.
-    function copyRow(uint256 row, uint256 rowBytes) private pure {
-        assembly ("memory-safe") {
-            mcopy(row, sub(row, rowBytes), rowBytes)
-        }
-    }
-
-    /// @param color Lanes of bytes.
-    function fillRow(uint256 row, uint256 rowBytes, uint256 color) private pure {
-        assembly ("memory-safe") {
-            // b g r b g r ...: 32 bytes hold ten pixels and two thirds
-            color := shr(232, mul(color, 0x100000000000000010000000000000001000000000000000000000000000000))
-            let word := or(mul(shl(16, color), 0x1000001000001000001000001000001000001000001000001000001), shr(8, color))
-            mstore(row, word)
-            mstore(add(row, 32), or(shl(248, color), shr(8, word)))
-            mstore(add(row, 64), or(shl(240, color), shr(16, word)))
-            let done := 96
-            for {} lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) }
         }
     }
 }

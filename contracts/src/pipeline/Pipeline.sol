@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Matrix} from "../math/Quaternion.sol";
-import {Rectangle, Scene, Object, SMOOTH, FLAT, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
-import {Mesh, openMesh} from "../scene/Mesh.sol";
-import {View, lookAt} from "./View.sol";
+import {Mesh} from "../scene/Mesh.sol";
+import {Rectangle, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
 import {VertexShader} from "./VertexShader.sol";
 import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
-import {Lighting} from "./Lighting.sol";
-import {Rasterizer} from "./Rasterizer.sol";
-import {Wireframe} from "./Wireframe.sol";
+import {Clipper} from "./Clipper.sol";
 import {Compositor} from "./Compositor.sol";
 import "./Registers.sol";
 
-// A picture from beginning to end. Memory holds, in this order: registers, vertices and triangles of all objects, the depths of a band
-// of rows, and the pixels.
+// A picture from beginning to end. Memory holds, in this order: registers, vertices and listed triangles of all objects, the pixels, and
+// the depths of a band of rows.
 
 /// @dev Pixels of a band, so that the depth buffer stays small however large the picture is.
 uint256 constant BAND_PIXELS = 16384;
@@ -22,7 +18,7 @@ uint256 constant BAND_PIXELS = 16384;
 uint256 constant OVERHANG = 96;
 
 /// @param pixels Address of the pixels: rows from the bottom without gaps, blue, green, red; before them are two free words.
-/// @param size Their length in bytes.
+/// @param size Their length in bytes, or that of the pixels and the depths behind them: see RETURNS_DEPTHS.
 /// @param triangles How many faces were to be drawn: see PrimitiveAssembly.
 /// @param litPixels How many pixels they cover, if that was asked for.
 struct Picture {
@@ -32,117 +28,177 @@ struct Picture {
     uint256 litPixels;
 }
 
-/// @notice Draws a part of the canvas. The scene must have passed the checks.
-function draw(Scene calldata scene, Rectangle memory tile, bool count) pure returns (Picture memory picture) {
-    unchecked {
-        reserveRegisters();
-        View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
-        store(COLUMN_BEGIN, tile.x + PIXEL_BIAS);
-        store(COLUMN_END, tile.x + tile.width + PIXEL_BIAS);
-        store(DEPTH_STRIDE, 8 * tile.width);
-        Lighting.setLights(view_, scene.lights);
+abstract contract Pipeline is PrimitiveAssembly {
+    /// @notice Draws the edges of the triangles of a list, if this engine is one for wires.
+    function drawWires(uint256 list, uint256 end) internal pure virtual;
 
-        uint256[2][] memory lists = new uint256[2][](scene.objects.length);
-        for (uint256 i; i != lists.length; ++i) {
-            uint256 drawn;
-            (lists[i][0], lists[i][1], drawn) = assembleObject(scene, i, view_, tile);
-            picture.triangles += drawn;
-        }
-
-        uint256 depth = freeMemory();
-        uint256 bandRows = BAND_PIXELS / tile.width;
-        if (bandRows > tile.height) bandRows = tile.height;
-        // depths are read as whole words, of which 8 bytes count
-        uint256 image = depth + 8 * bandRows * tile.width + 32 + 64;
-        setFreeMemory(image + 3 * tile.width * (tile.height + 1) + OVERHANG);
-        Compositor.background(image, scene.background.top, scene.background.bottom, scene.canvas.height, tile);
-
-        for (uint256 bottom = tile.height; bottom != 0;) {
-            // bands go up, as the rows of the file do
-            uint256 top = bottom < bandRows ? 0 : bottom - bandRows;
-            setBand(tile, depth, image, top, bottom);
-            for (uint256 i; i != lists.length; ++i) {
-                Object calldata object = scene.objects[i];
-                // what a single object needs is still there from the band before
-                if (lists.length != 1 || bottom == tile.height) {
-                    Lighting.setObject(view_, scene, object, object.rotation.toMatrix(), openMesh(object.mesh));
-                }
-                if (object.flags & WIREFRAME == 0) Rasterizer.run(lists[i][0], lists[i][1]);
-                else Wireframe.run(lists[i][0], lists[i][1]);
-            }
-            if (count) picture.litPixels += Compositor.litPixels(depth, depth + 8 * (bottom - top) * tile.width);
-            bottom = top;
-        }
-
-        picture.pixels = image;
-        picture.size = 3 * tile.width * tile.height;
-        if (scene.invert != 0) Compositor.invert(image, picture.size);
-    }
-}
-
-/// @dev Vertices and triangles of one object, after what memory holds already.
-function assembleObject(Scene calldata scene, uint256 index, View memory view_, Rectangle memory tile)
-    pure
-    returns (uint256 list, uint256 end, uint256 drawn)
-{
-    unchecked {
-        Object calldata object = scene.objects[index];
-        Mesh memory mesh = openMesh(object.mesh);
-        Matrix memory rotation = object.rotation.toMatrix();
-        VertexShader.setMatrix(view_, object, rotation);
-        VertexShader.setNormalMatrix(view_, rotation);
-        setRounding(tile, object.flags & WIREFRAME != 0);
-        uint256 shift = recordShift(object.material.shading, object.material.specular.raw() != 0, scene.lights.length > 1);
-        uint256 records = freeMemory();
-        VertexShader.run(mesh, records, 1 << shift, object.material.shading == SMOOTH);
-        list = records + (mesh.vertexCount << shift);
-        uint256 free;
-        (end, free, drawn) = PrimitiveAssembly.run(mesh, records, shift, list, object.flags & CULL_BACKFACES != 0, index);
-        setFreeMemory(free);
-    }
-}
-
-/// @dev The size of a vertex record, as a power of two: position, colour, and what the fragment shader keeps there.
-function recordShift(uint256 shading, bool hasSpecular, bool hasManyLights) pure returns (uint256) {
-    unchecked {
-        if (shading == SMOOTH) return 8;
-        if (shading == FLAT && hasSpecular) return hasManyLights ? 8 : 7;
-        return 6;
-    }
-}
-
-/// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it.
-function setRounding(Rectangle memory tile, bool wireframe) pure {
-    unchecked {
-        uint256 wider = wireframe ? 0 : 127;
-        store(TILE_LEFT, ((tile.x + PIXEL_BIAS) << 8) - 128 - wider);
-        store(TILE_SPAN, (tile.width << 8) - 1 + 2 * wider + (wider & 2));
-        store(ROUND_TOP, (128 + wider) << 128);
-        store(ROUND_BOTTOM, uint256(wireframe ? 128 + 256 : 255) << 128);
-    }
-}
-
-/// @dev Rows `top` to before `bottom` of the tile, and where their depths and colours are.
-function setBand(Rectangle memory tile, uint256 depth, uint256 image, uint256 top, uint256 bottom) pure {
-    unchecked {
-        uint256 first = tile.y + PIXEL_BIAS;
-        store(BAND_TOP, first + top);
-        store(BAND_BOTTOM, first + bottom);
-        store(DEPTH_ORIGIN, depth + 8 * ((first + bottom - 1) * tile.width - tile.x - PIXEL_BIAS));
-        store(IMAGE_ORIGIN, image + 3 * (tile.height - bottom) * tile.width - 3 * (depth >> 3));
-        // and the word behind them, since depths are read as whole words
-        uint256 size = 8 * (bottom - top) * tile.width + 32;
+    /// @notice Draws a part of the canvas. The data behind the selector are those of `Uniforms.sol`.
+    /// @return Two words without the ABI's offsets and lengths: how many triangles were left after culling and clipping, how many pixels
+    /// they cover (0 if not counted); then the pixels, blue, green, red, rows from the bottom, and the depths, if they are asked for.
+    function drawTile() external pure returns (bytes memory) {
+        Picture memory picture = draw();
         assembly ("memory-safe") {
-            // beyond its end calldata is zero
-            calldatacopy(depth, calldatasize(), size)
+            let data := sub(mload(picture), 0x40)
+            mstore(data, mload(add(picture, 0x40)))
+            mstore(add(data, 0x20), mload(add(picture, 0x60)))
+            return(data, add(0x40, mload(add(picture, 0x20))))
         }
     }
-}
 
-function freeMemory() pure returns (uint256) {
-    return load(0x40);
-}
+    function draw() private pure returns (Picture memory picture) {
+        unchecked {
+            reserveRegisters(REGISTERS, REGISTERS_END);
+            copyCalldata(REGISTERS, 4, FRAME_SIZE);
+            // once, since what is allocated later stands behind the depths, and makes memory grow over rows that nothing touches
+            Rectangle memory tile;
+            Mesh memory mesh;
+            assembly ("memory-safe") {
+                tile := TILE_X
+                mesh := MESH_VERTICES
+            }
+            store(STRIDE_LANES, (8 * tile.width << EDGE_ADDRESS_FRACTION) * ONES_128);
 
-function setFreeMemory(uint256 free) pure {
-    store(0x40, free);
+            uint256 bandRows = BAND_PIXELS / tile.width;
+            if (bandRows > tile.height) bandRows = tile.height;
+            bool atOnce = bandRows == tile.height;
+            // of each object the vertex records, the list of its triangles, the end of that
+            uint256[3][] memory lists = new uint256[3][](load(OBJECT_COUNT));
+            uint256 uniforms = load(OBJECTS);
+            for (uint256 i; i != lists.length; ++i) {
+                uniforms = readObject(uniforms);
+                uint256 drawn;
+                (lists[i][0], lists[i][1], lists[i][2], drawn) = assembleObject(mesh, load(OBJECT_FIRST) + i, atOnce);
+                // what is not seen at all is checked only
+                if (load(OPACITY) != 0) picture.triangles += drawn;
+            }
+
+            uint256 image = freeMemory() + 64;
+            picture.pixels = image;
+            if (load(ONLY_COUNTS) != 0) return picture;
+            // at the end of memory, where what is never touched costs nothing; depths are read as whole words, of which 8 bytes count;
+            // their addresses are multiples of 8
+            uint256 depth = (image + 3 * tile.width * (tile.height + 1) + OVERHANG + 31) & ~uint256(31);
+            setFreeMemory(depth + 8 * bandRows * tile.width + 32);
+            picture.size = load(RETURNS_DEPTHS) == 0 ? 3 * tile.width * tile.height : depth + 8 * tile.width * tile.height - image;
+            if (load(DRAWN_BEFORE) == 0) {
+                Compositor.background(image, load(BACKGROUND_TOP), load(BACKGROUND_BOTTOM), load(CANVAS_HEIGHT), tile);
+            } else {
+                copyCalldata(image, load(DRAWN_BEFORE), depth + 8 * tile.width * tile.height - image);
+            }
+
+            for (uint256 bottom = tile.height; bottom != 0;) {
+                // bands go up, as the rows of the file do
+                uint256 top = bottom < bandRows ? 0 : bottom - bandRows;
+                setBand(tile, depth, image, top, bottom);
+                uniforms = load(OBJECTS);
+                for (uint256 i; i != lists.length; ++i) {
+                    // what a single object needs is still there
+                    if (lists.length != 1) uniforms = readObject(uniforms);
+                    uint256 mode = load(OBJECT_MODE);
+                    if (load(OPACITY) == 0) continue;
+                    if (mode & IS_BLENDED != 0) {
+                        // first which of its surfaces is the nearest, then its colour
+                        store(OBJECT_MODE, (mode & IS_ORTHOGRAPHIC) | IS_DEPTH_PASS);
+                        drawObject(mesh, lists[i], atOnce, recordShift(mode));
+                        store(OBJECT_MODE, mode);
+                    }
+                    picture.triangles += drawObject(mesh, lists[i], atOnce, recordShift(mode));
+                }
+                if (load(COUNT_PIXELS) != 0) picture.litPixels += Compositor.litPixels(depth, depth + 8 * (bottom - top) * tile.width);
+                bottom = top;
+            }
+
+            if (load(INVERT) != 0) Compositor.invert(image, picture.size);
+        }
+    }
+
+    /// @dev Reads the uniforms of an object into their registers.
+    /// @return next Where those of the next begin.
+    function readObject(uint256 position) private pure returns (uint256 next) {
+        unchecked {
+            uint256 size;
+            assembly ("memory-safe") {
+                size := calldataload(position)
+            }
+            copyCalldata(OBJECT_BYTES, position, size);
+            return position + size;
+        }
+    }
+
+    function copyCalldata(uint256 target, uint256 position, uint256 size) private pure {
+        assembly ("memory-safe") {
+            calldatacopy(target, position, size)
+        }
+    }
+
+    /// @return drawn How many faces were drawn that were not listed before.
+    function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
+        if (load(OBJECT_FLAGS) & WIREFRAME == 0) {
+            if (atOnce) (, drawn) = assemble(mesh, list[0], shift, 0, load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
+            drawList(list[1], list[2]);
+        } else {
+            drawWires(list[1], list[2]);
+        }
+    }
+
+    /// @dev Vertices and triangles of the object whose uniforms were read, after what memory holds already.
+    /// @param atOnce Whether faces that need no clipping are drawn at once, and are not to be listed.
+    function assembleObject(Mesh memory mesh, uint256 index, bool atOnce)
+        private
+        pure
+        returns (uint256 records, uint256 list, uint256 end, uint256 drawn)
+    {
+        unchecked {
+            uint256 mode = load(OBJECT_MODE);
+            uint256 shift = recordShift(mode);
+            records = freeMemory();
+            store(HAS_CLIPPED, 0);
+            VertexShader.run(mesh, records, 1 << shift, mode & IS_SMOOTH != 0);
+            checkIndices(mesh, index);
+            list = records + (mesh.vertexCount << shift);
+            end = list;
+            bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;
+            if (!atOnce || load(OBJECT_FLAGS) & WIREFRAME != 0) (end, drawn) = assemble(mesh, records, shift, list, cull);
+            uint256 free = end;
+            if (load(HAS_CLIPPED) != 0) {
+                uint256 cut;
+                (end, free, cut) = Clipper.run(mesh, records, shift, end, cull);
+                drawn += cut;
+            }
+            setFreeMemory(free);
+        }
+    }
+
+    /// @dev The size of a vertex record, as a power of two: position, colour, and what the fragment shader keeps there.
+    function recordShift(uint256 mode) private pure returns (uint256) {
+        unchecked {
+            if (mode & IS_SMOOTH != 0) return 8;
+            // flat with highlights: two words for each light
+            if (mode & HAS_SPECULAR != 0) {
+                uint256 end = load(LIGHTS_END);
+                return end > LIGHTS + 3 * LIGHT_SIZE ? 9 : end > LIGHTS + LIGHT_SIZE ? 8 : 7;
+            }
+            return 6;
+        }
+    }
+
+    /// @dev Rows `top` to before `bottom` of the tile, and where their depths and colours are.
+    function setBand(Rectangle memory tile, uint256 depth, uint256 image, uint256 top, uint256 bottom) private pure {
+        unchecked {
+            uint256 first = tile.y + PIXEL_BIAS;
+            store(BAND_TOP, first + top);
+            store(BAND_BOTTOM, first + bottom);
+            store(DEPTH_ORIGIN, depth + 8 * ((first + bottom - 1) * tile.width - tile.x - PIXEL_BIAS));
+            store(IMAGE_ORIGIN, image + 3 * (tile.height - bottom) * tile.width - 3 * (depth >> 3));
+            // the first band finds memory that nothing has touched
+            if (bottom != tile.height) {
+                // and the word behind them, since depths are read as whole words
+                uint256 size = 8 * (bottom - top) * tile.width + 32;
+                assembly ("memory-safe") {
+                    // beyond its end calldata is zero
+                    calldatacopy(depth, calldatasize(), size)
+                }
+            }
+        }
+    }
 }

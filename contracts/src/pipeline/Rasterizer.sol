@@ -1,192 +1,177 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {FragmentShader, LANES_24} from "./FragmentShader.sol";
-import {Shading} from "./Shading.sol";
 import "./Registers.sol";
 
 // From triangles to fragments, by a digital differential analyzer.
-library Rasterizer {
+//
+// Edges are two columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge: the
+// left one below, the right one above. Rows are told by the addresses that their depths have at column 0, which go down. Q48 columns are
+// Q45 numbers of bytes of depths, so with the address of the row added, edges are the addresses of depths.
+//
+// How triangles are shaded, each engine says: see Engine and FragmentEngine.
+abstract contract Rasterizer {
+    /// @notice Chooses the way to shade a triangle, and sets what that way needs: MODE, ATTRIBUTE_0, DELTA_1, DELTA_2 and more.
+    /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
+    /// @param crossing IS_CROSSING, IS_CUT, both or neither.
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual;
+
+    /// @notice Draws the fragments of a triangle.
+    /// @param edges Addresses, of the upper part; SLOPES are their changes.
+    /// @param rows How many rows the upper part has.
+    /// @param row The address of the first row.
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure virtual;
+
+    /// @notice Draws the fragments between two edges, in the rows from `row` to before `end`, told by addresses.
+    /// @param edges, slopes Columns, Q48.
+    /// @param start The accumulator at column 0 of the first row; DX and DY are its changes.
+    function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure virtual;
+
     /// @notice Draws the triangles of a list into the current band.
-    function run(uint256 list, uint256 end) internal pure {
+    function drawList(uint256 list, uint256 end) internal pure {
         unchecked {
             (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
             for (; list != end; list += 32) {
                 uint256 word = load(list);
-                uint256 top = (word >> 96) & 0xffff;
-                uint256 bottom = (word >> 112) & 0xffff;
-                if (top < bandTop) top = bandTop;
-                if (bottom > bandBottom) bottom = bandBottom;
-                if (top < bottom) triangle(word, top, bottom);
+                uint256 top = (word >> TRIANGLE_TOP_AT) & TRIANGLE_TOP_MASK;
+                uint256 bottom = (word >> TRIANGLE_BOTTOM_AT) & TRIANGLE_BOTTOM_MASK;
+                if (top >= bandBottom || bottom <= bandTop) continue;
+                store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
+                uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
+                uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
+                uint256 c = load(word & TRIANGLE_C_MASK);
+                shade(a, b, c, ((word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING) | (top < bandTop || bottom > bandBottom ? IS_CUT : 0));
+                drawTriangle(a, b, c);
             }
         }
     }
 
-    function triangle(uint256 word, uint256 top, uint256 bottom) private pure {
-        unchecked {
-            Shading.prepare(word);
-            (uint256 edges, uint256 slopes, uint256 middle) = setUp(word, top);
-            if (middle > bottom) middle = bottom;
-            if (top < middle) fill(edges, slopes, load(START), top, middle);
-            else middle = top;
-            if (middle < bottom) {
-                (edges, slopes) = lowerEdges(edges, slopes, word, top, middle);
-                fill(edges, slopes, load(START) + load(DY) * (middle - top), middle, bottom);
-            }
-        }
-    }
-
-    /// @notice Draws the fragments between two edges, in the rows from `top` to before `bottom`.
-    /// @param edges, slopes As `setUp` says.
-    /// @param start The accumulator at column 0 of row `top`; DX and DY are its changes.
-    function fill(uint256 edges, uint256 slopes, uint256 start, uint256 top, uint256 bottom) internal pure {
-        uint256 mode = load(MODE);
-        if (mode > IS_LINEAR) FragmentShader.shadeRows(edges, slopes, start, top, bottom);
-        else if (mode == 0) rows(edges, slopes, start, top, bottom, 0);
-        else rows(edges, slopes, start, top, bottom, 1);
-    }
-
-    /// @notice What changes linearly over a triangle, at row `top`. Stores the accumulator at column 0 (START) and its changes (DX, DY).
-    /// @return edges The left edge, from the first vertex to the second, and the right one, from the first to the third: columns, Q48,
-    /// such that the integer part is the first pixel whose centre is not left of the edge, in lanes of 128 bits.
-    /// @return slopes Their change per row.
-    /// @return middle The first row below the upper of the two lower vertices, where one edge ends and another begins.
-    function setUp(uint256 word, uint256 top) private pure returns (uint256 edges, uint256 slopes, uint256 middle) {
+    /// @notice Draws a triangle for which `shade` was called.
+    /// @param a, b, c The screen words of its vertices, the topmost first, counter-clockwise.
+    function drawTriangle(uint256 a, uint256 b, uint256 c) internal pure {
+        uint256 edges;
         assembly ("memory-safe") {
-            let a := mload(and(shr(64, word), 0xffffffff))
-            let b := mload(and(shr(32, word), 0xffffffff))
-            let c := mload(and(word, 0xffffffff))
-            let x := and(shr(64, a), 0xfffff)
-            a := shr(128, a)
-            let xb := sub(and(shr(64, b), 0xfffff), x)
-            let xc := sub(and(shr(64, c), 0xfffff), x)
-            b := sub(shr(128, b), a)
-            c := sub(shr(128, c), a)
-            middle := b
-            if lt(c, b) { middle := c }
-            middle := shr(8, add(add(middle, a), 255))
-            // from the first vertex to the centres of the row
-            let y := sub(shl(8, top), a)
-
-            slopes := sdiv(shl(48, xb), b)
-            a := sdiv(shl(48, xc), c)
-            edges := add(shl(40, x), 0xffffffffc000)
-            edges := add(add(edges, sar(8, mul(y, slopes))), shl(128, add(edges, sar(8, mul(y, a)))))
-            slopes := add(slopes, shl(128, a))
-
-            // change of the barycentric coordinates per pixel, Q32
-            a := sub(mul(xc, b), mul(xb, c))
-            if and(mload(MODE), IS_DEEP) {
-                // depths by themselves, Q32, for which barycentric coordinates are too coarse
-                let z := shr(168, mload(ATTRIBUTE_0))
-                let zb := sub(shr(168, mload(ATTRIBUTE_1)), z)
-                let zc := sub(shr(168, mload(ATTRIBUTE_2)), z)
-                let dy := sdiv(shl(40, sub(mul(zb, xc), mul(zc, xb))), a)
-                zb := sdiv(shl(40, sub(mul(zc, b), mul(zb, c))), a)
-                mstore(LANE_BIAS, add(mload(LANE_BIAS), shl(168, add(shl(32, z), sar(8, sub(mul(y, dy), mul(x, zb)))))))
-                mstore(DX, shl(168, zb))
-                mstore(DY, shl(168, dy))
-                mstore(ATTRIBUTE_0, 0)
-                mstore(ATTRIBUTE_1, shl(56, 1))
-                mstore(ATTRIBUTE_2, 1)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
+            // from the first vertex to the centres of the first row
+            let y := and(sub(0, a), SUBPIXEL_MASK)
+            {
+                // The gradients of the barycentric coordinates t (of c) and s (of b), Q29 per pixel:
+                // dt/dx = yb / area, dt/dy = -xb / area, ds/dx = -yc / area, ds/dy = xc / area
+                // Rounded to 2^-29, over the 4,096 pixels of the guard band in both directions they leave s + t within 2^-15.
+                let area := sub(mul(xc, b), mul(xb, c)) // xc * yb - xb * yc: twice the area, in sub-pixels
+                let dx := sdiv(shl(GRADIENT_SHIFT, b), area)
+                let dy := sdiv(shl(GRADIENT_SHIFT, xb), area)
+                let delta := mload(DELTA_2)
+                mstore(DX_8, mul(delta, dx)) // (c - a) * dt/dx; Q29 per pixel is Q32 per byte of depths, of which a pixel has 8
+                mstore(DY, mul(delta, dy))
+                // from the first vertex to the centre of pixel 0 in the first row
+                mstore(START, sub(mload(ATTRIBUTE_0), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
+                dx := sdiv(shl(GRADIENT_SHIFT, c), area)
+                dy := sdiv(shl(GRADIENT_SHIFT, xc), area)
+                delta := mload(DELTA_1)
+                mstore(START, add(mload(START), mul(delta, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, dx), mul(y, dy))))))
+                mstore(DX_8, sub(mload(DX_8), mul(delta, dx)))
+                mstore(DY, shl(3, sub(mul(delta, dy), mload(DY))))
             }
-            xb := sdiv(shl(40, xb), a)
-            xc := sdiv(shl(40, xc), a)
-            b := sdiv(shl(40, b), a)
-            c := sdiv(shl(40, c), a)
-            a := mload(ATTRIBUTE_0)
-            let deltaB := sub(mload(ATTRIBUTE_1), a)
-            let deltaC := sub(mload(ATTRIBUTE_2), a)
-            // from the first vertex to the centre of pixel 0 in row `top`
-            a := add(add(shl(32, a), mload(LANE_BIAS)), mul(deltaB, sar(8, add(mul(y, xc), mul(x, c)))))
-            mstore(START, sub(a, mul(deltaC, sar(8, add(mul(x, b), mul(y, xb))))))
-            b := sub(mul(deltaC, b), mul(deltaB, c))
-            c := sub(mul(deltaB, xc), mul(deltaC, xb))
-            if and(mload(MODE), IS_DEEP) {
-                b := add(b, mload(DX))
-                c := add(c, mload(DY))
-            }
-            mstore(DX, b)
-            mstore(DY, c)
-        }
-    }
-
-    /// @notice The same at row `middle`, where the edge between b and c takes the place of the one that has ended.
-    function lowerEdges(uint256 upper, uint256 upperSlopes, uint256 word, uint256 top, uint256 middle)
-        private
-        pure
-        returns (uint256 edges, uint256 slopes)
-    {
-        assembly ("memory-safe") {
-            edges := add(upper, mul(upperSlopes, sub(middle, top)))
-            let b := mload(and(shr(32, word), 0xffffffff))
-            let c := mload(and(word, 0xffffffff))
-            let side := 0
-            if lt(c, b) {
-                side := 128
-                let t := b
-                b := c
-                c := t
-            }
-            upper := and(shr(64, b), 0xfffff)
-            b := shr(128, b)
-            let slope := sdiv(shl(48, sub(and(shr(64, c), 0xfffff), upper)), sub(shr(128, c), b))
-            upper := add(add(shl(40, upper), 0xffffffffc000), sar(8, mul(sub(shl(8, middle), b), slope)))
-            // keep the lane of the other edge
-            b := signextend(15, upperSlopes)
-            switch side
-            case 0 {
-                edges := or(shl(128, shr(128, edges)), upper)
-                slopes := add(sub(upperSlopes, b), slope)
+            // columns per row, Q48: left (xb / yb) and right (xc / yc)
+            let slopes := add(sdiv(shl(EDGE_FRACTION, xb), b), shl(RIGHT_EDGE_AT, sdiv(shl(EDGE_FRACTION, xc), c)))
+            // Shifted as a whole, the product leaves 8 bits of the upper lane at the top of the lower one, where they do no harm.
+            edges := sar(SUBPIXEL_BITS, mul(y, slopes)) // y * slope, Q48
+            // the edge between b and c
+            y := sdiv(shl(EDGE_FRACTION, sub(xc, xb)), sub(c, b))
+            switch lt(b, c)
+            case 1 {
+                c := shr(SUBPIXEL_BITS, add(add(a, c), SUBPIXEL_MASK))
+                xc := add(a, b)
+                b := shr(SUBPIXEL_BITS, add(xc, SUBPIXEL_MASK))
+                mstore(LOWER_ROWS, sub(c, b))
+                mstore(LOWER_EDGE, and(LANE_128, add(
+                    add(
+                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xb)),
+                        add(CEIL_48, shl(EDGE_ADDRESS_FRACTION, sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), b))))
+                    ),
+                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xc), y))
+                )))
+                mstore(LOWER_KEPT, UPPER_LANE_128)
+                mstore(LOWER_SLOPES, sub(add(sub(slopes, signextend(15, slopes)), y), mload(STRIDE_LANES)))
             }
             default {
-                edges := or(and(edges, 0xffffffffffffffffffffffffffffffff), shl(128, upper))
-                slopes := add(b, shl(128, slope))
+                xb := add(a, c)
+                c := shr(SUBPIXEL_BITS, add(xb, SUBPIXEL_MASK))
+                mstore(LOWER_ROWS, sub(shr(SUBPIXEL_BITS, add(add(a, b), SUBPIXEL_MASK)), c))
+                b := c
+                mstore(LOWER_EDGE, shl(RIGHT_EDGE_AT, add(
+                    add(
+                        shl(EDGE_SUBPIXEL_SHIFT, add(x, xc)),
+                        add(CEIL_48, shl(EDGE_ADDRESS_FRACTION, sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), b))))
+                    ),
+                    sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, b), xb), y))
+                )))
+                mstore(LOWER_KEPT, LANE_128)
+                mstore(LOWER_SLOPES, sub(add(signextend(15, slopes), shl(RIGHT_EDGE_AT, y)), mload(STRIDE_LANES)))
             }
+            // the first row, its address; the number of rows of the upper part
+            a := shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK))
+            b := sub(b, a)
+            a := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), a))
+            edges := add(edges, mul(add(add(shl(EDGE_SUBPIXEL_SHIFT, x), CEIL_48), shl(EDGE_ADDRESS_FRACTION, a)), ONES_128))
+            mstore(SLOPES, sub(slopes, mload(STRIDE_LANES)))
+        }
+        drawParts(edges, b, a);
+    }
+
+    /// @dev The fragments of a triangle of which some rows may lie outside the band, or with more to do than the plain loop does.
+    function drawBothParts(uint256 edges, uint256 rows, uint256 row) internal pure {
+        unchecked {
+            uint256 start = load(START);
+            store(DX, load(DX_8) << 3);
+            if (load(MODE) & IS_DEEP != 0) {
+                start += load(DEEP_START);
+                store(DX, load(DX) + load(DEEP_DX));
+                store(DY, load(DY) + load(DEEP_DY));
+            }
+            uint256 stride = load(DEPTH_STRIDE);
+            uint256 slopes = load(SLOPES);
+            fill(edges, slopes, start, row, row - stride * rows);
+            row -= stride * rows;
+            fill(
+                ((edges + slopes * rows) & load(LOWER_KEPT)) | load(LOWER_EDGE),
+                load(LOWER_SLOPES),
+                start + load(DY) * rows,
+                row,
+                row - stride * load(LOWER_ROWS)
+            );
         }
     }
 
-    /// @param saturate 1 if colours may be above 255, else 0; a literal, of which the compiler makes two functions.
-    function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end, uint256 saturate) private pure {
-        assembly ("memory-safe") {
-            row := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), row))
-            end := sub(mload(DEPTH_ORIGIN), mul(mload(DEPTH_STRIDE), end))
-            let dx := mload(DX)
-            for {} sgt(row, end) {} {
-                let p := and(shr(48, edges), 0xffff)
-                if lt(p, shr(176, edges)) {
-                    let attribute := add(start, mul(dx, p))
-                    p := add(row, shl(3, p))
-                    let last := add(row, shl(3, shr(176, edges)))
-                    let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
-                    for {} 1 {} {
-                        let old := mload(p)
-                        if gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff)) {
-                            mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
-                            switch saturate
-                            case 0 {
-                                old := mload(pixel)
-                                mstore(pixel, xor(old, and(xor(old, mul(and(attribute, 0x3fc000000000003fc000000000003fc0000000000), 0x4000000000000000400000000000000040000000000000000000)), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
-                            }
-                            default {
-                                // lanes above 255 get all the bits of 255
-                                let color := and(shr(32, attribute), LANES_24)
-                                color := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
-                                color := mul(and(color, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
-                                old := mload(pixel)
-                                mstore(pixel, xor(old, and(xor(old, color), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
-                            }
-                        }
-                        p := add(p, 8)
-                        if eq(p, last) { break }
-                        pixel := add(pixel, 3)
-                        attribute := add(attribute, dx)
-                    }
-                }
-                edges := add(edges, slopes)
-                start := add(start, mload(DY))
-                row := sub(row, mload(DEPTH_STRIDE))
+    /// @notice Draws the fragments between two edges, in the rows from `row` to before `end` that lie in the band.
+    /// @param start The accumulator at column 0 of row `row`; DX and DY are its changes.
+    function fill(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure {
+        unchecked {
+            uint256 stride = load(DEPTH_STRIDE);
+            uint256 first = load(DEPTH_ORIGIN) - stride * load(BAND_TOP);
+            uint256 last = load(DEPTH_ORIGIN) - stride * load(BAND_BOTTOM);
+            if (int256(row) > int256(first)) {
+                uint256 skipped = (row - first) / stride;
+                edges += slopes * skipped;
+                start += load(DY) * skipped;
+                row = first;
             }
+            if (int256(end) < int256(last)) end = last;
+            if (int256(row) <= int256(end)) return;
+            drawRows(edges - (row << EDGE_ADDRESS_FRACTION) * ONES_128, slopes + load(STRIDE_LANES), start, row, end);
+        }
+    }
+
+    /// @dev The row whose depths have this address at column 0.
+    function rowAt(uint256 position) internal pure returns (uint256) {
+        unchecked {
+            return (load(DEPTH_ORIGIN) - position) / load(DEPTH_STRIDE);
         }
     }
 }

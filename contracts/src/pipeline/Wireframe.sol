@@ -2,50 +2,63 @@
 pragma solidity 0.8.37;
 
 import {Rasterizer} from "./Rasterizer.sol";
-import {Shading} from "./Shading.sol";
+import {SmoothShading} from "./SmoothShading.sol";
 import "./Registers.sol";
 
 // From the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel that is nearest to it, with the depth and the colour of the line at the centre of that column or row.
 
-/// @dev Makes the integer part of a Q48 number the next integer, as far as such numbers are exact: see Rasterizer.setUp.
-int256 constant CEIL = 0xffffffffc000;
-
-library Wireframe {
+abstract contract Wireframe is Rasterizer {
     /// @notice Draws the edges of the triangles of a list into the current band.
-    function run(uint256 list, uint256 end) internal pure {
+    function drawWires(uint256 list, uint256 end) internal pure virtual {
         unchecked {
             (uint256 bandTop, uint256 bandBottom) = (load(BAND_TOP), load(BAND_BOTTOM));
             for (; list != end; list += 32) {
                 uint256 word = load(list);
-                if ((word >> 112) & 0xffff <= bandTop || (word >> 96) & 0xffff >= bandBottom) continue;
-                Shading.prepare(word);
-                uint256 a = load((word >> 64) & 0xffffffff);
-                uint256 b = load((word >> 32) & 0xffffffff);
-                uint256 c = load(word & 0xffffffff);
-                if (word & (1 << 144) != 0) line(a, b, load(ATTRIBUTE_0), load(ATTRIBUTE_1), bandTop, bandBottom);
-                if (word & (2 << 144) != 0) line(b, c, load(ATTRIBUTE_1), load(ATTRIBUTE_2), bandTop, bandBottom);
-                if (word & (4 << 144) != 0) line(c, a, load(ATTRIBUTE_2), load(ATTRIBUTE_0), bandTop, bandBottom);
+                if (
+                    (word >> TRIANGLE_BOTTOM_AT) & TRIANGLE_BOTTOM_MASK <= bandTop
+                        || (word >> TRIANGLE_TOP_AT) & TRIANGLE_TOP_MASK >= bandBottom
+                ) continue;
+                uint256 a = load((word >> TRIANGLE_A_AT) & TRIANGLE_A_MASK);
+                uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
+                uint256 c = load(word & TRIANGLE_C_MASK);
+                store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
+                SmoothShading.prepareExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
+                (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
+                if (load(MODE) & IS_DEEP != 0) {
+                    uint256 depth = depthOf(a);
+                    start += depth << ACCUMULATOR_VERTEX_DEPTH_AT;
+                    toB += (depthOf(b) - depth) << ATTRIBUTE_DEPTH_AT;
+                    toC += (depthOf(c) - depth) << ATTRIBUTE_DEPTH_AT;
+                }
+                if (word & EDGE_AB != 0) line(a, b, start, toB, bandTop, bandBottom);
+                if (word & EDGE_BC != 0) line(b, c, start + (toB << ACCUMULATOR_FRACTION), toC - toB, bandTop, bandBottom);
+                if (word & EDGE_CA != 0) line(c, a, start + (toC << ACCUMULATOR_FRACTION), 0 - toC, bandTop, bandBottom);
             }
         }
     }
 
+    function depthOf(uint256 screenWord) private pure returns (uint256) {
+        return load((screenWord & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES) >> ATTRIBUTE_DEPTH_AT;
+    }
+
     /// @param p, q The screen words of its ends.
-    /// @param attributeP, attributeQ Their attribute words.
-    function line(uint256 p, uint256 q, uint256 attributeP, uint256 attributeQ, uint256 top, uint256 bottom) private pure {
+    /// @param attribute The accumulator at p.
+    /// @param change What its attribute word changes from there to q.
+    function line(uint256 p, uint256 q, uint256 attribute, uint256 change, uint256 top, uint256 bottom) private pure {
         unchecked {
             int256 dx = column(q) - column(p);
             int256 dy = row(q) - row(p);
             bool steep = dy * dy >= dx * dx;
             // the same pixels, whichever face the line belongs to
             if (steep ? dy < 0 : dx < 0) {
-                (p, q, attributeP, attributeQ) = (q, p, attributeQ, attributeP);
+                (p, q) = (q, p);
                 (dx, dy) = (-dx, -dy);
+                attribute += change << ACCUMULATOR_FRACTION;
+                change = 0 - change;
             }
-            attributeQ -= attributeP;
-            attributeP = (attributeP << 32) + load(LANE_BIAS);
-            if (steep) steepLine(p, q, dx, dy, attributeP, attributeQ, top, bottom);
-            else flatLine(p, q, dx, dy, attributeP, attributeQ, top, bottom);
+            if (steep) steepLine(p, q, dx, dy, attribute, change, top, bottom);
+            else flatLine(p, q, dx, dy, attribute, change, top, bottom);
         }
     }
 
@@ -56,19 +69,19 @@ library Wireframe {
         pure
     {
         unchecked {
-            top = max(top, (p + (255 << 128)) >> 136);
-            bottom = min(bottom, (q + (255 << 128)) >> 136);
+            top = max(top, (p + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            bottom = min(bottom, (q + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
             if (top >= bottom) return;
-            int256 below = int256(top << 8) - row(p);
-            int256 slope = (dx << 48) / dy;
+            int256 below = int256(top << SUBPIXEL_BITS) - row(p);
+            int256 slope = (dx << EDGE_FRACTION) / dy;
             uint256 step = uint256((1 << 40) / dy);
             // the pixel whose middle is nearest
-            uint256 left = uint256((column(p) << 40) + ((below * slope) >> 8) + (1 << 47));
+            uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
             store(DX, 0);
             store(DY, change * step);
-            attribute += change * ((uint256(below) * step) >> 8);
-            uint256 slopes = uint256(slope) + (uint256(slope) << 128);
-            Rasterizer.fill(left + ((left + (1 << 48)) << 128), slopes, attribute, top, bottom);
+            attribute += change * ((uint256(below) * step) >> SUBPIXEL_BITS);
+            uint256 slopes = uint256(slope) + (uint256(slope) << RIGHT_EDGE_AT);
+            draw(left + ((left + (1 << EDGE_FRACTION)) << RIGHT_EDGE_AT), slopes, attribute, top, bottom);
         }
     }
 
@@ -77,40 +90,49 @@ library Wireframe {
         pure
     {
         unchecked {
-            int256 begin = (column(p) + 255) >> 8;
-            int256 end = (column(q) + 255) >> 8;
+            int256 begin = (column(p) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
+            int256 end = (column(q) + int256(SUBPIXEL_MASK)) >> SUBPIXEL_BITS;
             if (begin >= end) return;
-            top = max(top, (min(p, q) + (128 << 128)) >> 136);
-            bottom = min(bottom, ((max(p, q) + (128 << 128)) >> 136) + 1);
+            top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
+            bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
             uint256 step = uint256((1 << 40) / dx);
             store(DX, change * step);
             store(DY, 0);
-            attribute += change * uint256((-column(p) * int256(step)) >> 8);
-            int256 slope = dy == 0 ? int256(0) : (dx << 48) / dy;
+            attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
+            int256 slope = dy == 0 ? int256(0) : (dx << EDGE_FRACTION) / dy;
             for (; top < bottom; ++top) {
                 (int256 left, int256 right) = (begin, end);
                 if (dy != 0) {
                     // where the line enters and leaves the row
-                    int256 enter = (column(p) << 40) + (((int256(top << 8) - 128 - row(p)) * slope) >> 8) + CEIL;
-                    int256 exit = (enter + slope) >> 48;
-                    enter >>= 48;
+                    int256 enter = (column(p) << EDGE_SUBPIXEL_SHIFT)
+                        + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - row(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
+                    int256 exit = (enter + slope) >> EDGE_FRACTION;
+                    enter >>= EDGE_FRACTION;
                     if (dy < 0) (enter, exit) = (exit, enter);
                     if (enter > left) left = enter;
                     if (exit < right) right = exit;
                 }
                 // one row only, so that the slopes make no difference
-                uint256 edges = uint256(left << 48) | (uint256(right) << 176);
-                if (left < right) Rasterizer.fill(edges, uint256(slope), attribute, top, top + 1);
+                uint256 edges = uint256(left << EDGES_LEFT_COLUMN_AT) | (uint256(right) << EDGES_RIGHT_COLUMN_AT);
+                if (left < right) draw(edges, uint256(slope), attribute, top, top + 1);
             }
         }
     }
 
+    /// @dev The fragments of the rows from `top` to before `bottom`.
+    function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
+        unchecked {
+            (uint256 origin, uint256 stride) = (load(DEPTH_ORIGIN), load(DEPTH_STRIDE));
+            drawRows(edges, slopes, attribute, origin - stride * top, origin - stride * bottom);
+        }
+    }
+
     function column(uint256 screenWord) private pure returns (int256) {
-        return int256((screenWord >> 64) & 0xfffff);
+        return int256((screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
     }
 
     function row(uint256 screenWord) private pure returns (int256) {
-        return int256(screenWord >> 128);
+        return int256(screenWord >> SCREEN_ROW_AT);
     }
 
     function min(uint256 a, uint256 b) private pure returns (uint256) {

@@ -15,8 +15,14 @@ import {
     ORTHOGRAPHIC,
     DIRECTIONAL,
     POINT,
-    SMOOTH
+    SMOOTH,
+    SCENE_LIGHTS,
+    SCENE_OBJECTS,
+    SCENE_EXTENSIONS,
+    LIGHT_WORDS,
+    OBJECT_WORDS
 } from "./Scene.sol";
+import {Extensions} from "./Extensions.sol";
 import {NORMALS, WIDE} from "./Mesh.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -51,6 +57,7 @@ function checkScene(Scene calldata scene, Rectangle memory tile) pure {
         if (lights > MAX_LIGHTS) revert SceneErrors.TooManyLights(lights);
         for (uint256 i; i != lights; ++i) checkLight(scene.lights[i], i);
         for (uint256 i; i != scene.objects.length; ++i) checkObject(scene.objects[i], i);
+        Extensions.check(scene);
     }
 }
 
@@ -61,14 +68,16 @@ function checkLayout(Scene calldata scene) pure {
         assembly ("memory-safe") {
             base := scene
         }
-        // words of a scene before its arrays, and of a light and an object
-        checkTail(base, base + 32 * 18, 32 * 5);
-        uint256 objects = checkTail(base, base + 32 * 19, 32);
+        checkTail(base, base + 32 * SCENE_LIGHTS, 32 * LIGHT_WORDS);
+        uint256 objects = checkTail(base, base + 32 * SCENE_OBJECTS, 32);
+        checkTail(base, base + 32 * SCENE_EXTENSIONS, 1);
         uint256 count = word(objects);
         objects += 32;
         for (uint256 i; i != count; ++i) {
             uint256 object = objects + word(objects + 32 * i);
-            if (word(objects + 32 * i) > msg.data.length || object + 32 * 15 > msg.data.length) revert SceneErrors.MalformedScene(objects + 32 * i);
+            if (word(objects + 32 * i) > msg.data.length || object + 32 * OBJECT_WORDS > msg.data.length) {
+                revert SceneErrors.MalformedScene(objects + 32 * i);
+            }
             checkTail(object, object, 1);
         }
     }
@@ -131,7 +140,9 @@ function checkObject(Object calldata object, uint256 index) pure {
         checkCoefficient(material.ambient, index);
         checkCoefficient(material.diffuse, index);
         checkCoefficient(material.specular, index);
-        if (material.shininess == 0 || material.shininess > MAX_SHININESS) revert SceneErrors.ShininessOutOfRange(index, material.shininess);
+        if (material.shininess == 0 || material.shininess > MAX_SHININESS) {
+            revert SceneErrors.ShininessOutOfRange(index, material.shininess);
+        }
         if (object.flags > 3) revert SceneErrors.UnknownFlags(index, object.flags);
         checkScale(object.scale.raw(), bits, index);
         Quaternion calldata q = object.rotation;

@@ -90,7 +90,8 @@ struct Object {
 /// @param invert 1 turns every byte v of the picture into 255 - v; else 0.
 /// @param ambientLight The colour of the light that comes from everywhere.
 /// @param lights At most 4.
-/// @param objects Drawn in this order; of fragments at equal depth the first stays.
+/// @param objects Drawn in this order, those that are not opaque after the others; of fragments at equal depth the first stays.
+/// @param extensions What is not in the structs, such as spot lights: see `Extensions.sol`. Empty for none.
 struct Scene {
     Canvas canvas;
     Camera camera;
@@ -99,4 +100,13 @@ struct Scene {
     uint256 ambientLight;
     Light[] lights;
     Object[] objects;
+    bytes extensions;
 }
+
+/// @dev Words of the encoding: of a scene before its arrays, and where in it the offsets of those are; of a light; of an object before
+/// its mesh.
+uint256 constant SCENE_LIGHTS = 18;
+uint256 constant SCENE_OBJECTS = 19;
+uint256 constant SCENE_EXTENSIONS = 20;
+uint256 constant LIGHT_WORDS = 5;
+uint256 constant OBJECT_WORDS = 15;

@@ -2,8 +2,8 @@
 pragma solidity 0.8.37;
 
 /// @title SceneErrors: what can be wrong with a scene.
-/// @notice Contracts that draw scenes for others inherit this, so that their ABIs have these errors, wherever they arise. Indices of lights,
-/// objects, faces count from 0; lengths are Q32. The bounds stand in `Checks.sol`.
+/// @notice Contracts that draw scenes for others inherit this, so that their ABIs have these errors, wherever they arise. Indices of
+/// lights, objects, faces count from 0; lengths are Q32. The bounds stand in `Checks.sol`.
 interface SceneErrors {
     /// @notice The number at this place of the call, an offset or a length, leads beyond the end of the call.
     error MalformedScene(uint256 position);
@@ -38,6 +38,22 @@ interface SceneErrors {
     error ScaleOutOfRange(uint256 object, int256 scale);
     error RotationOutOfRange(uint256 object, int256 x, int256 y, int256 z, int256 w);
     error RotationIsZero(uint256 object);
+    /// @notice The extensions end within the record that begins at this byte of them.
+    error ExtensionCutOff(uint256 position);
+    error UnknownExtension(uint256 kind, uint256 index);
+    /// @notice The record does not come after the one before it: kinds ascend, and the indices of a kind.
+    error ExtensionOrder(uint256 kind, uint256 index);
+    error ExtensionSize(uint256 kind, uint256 index, uint256 expected, uint256 actual);
+    /// @notice There are only `count` lights or objects.
+    error ExtensionIndex(uint256 kind, uint256 index, uint256 count);
+    /// @notice A light that is no point light has a cone.
+    error SpotIsNoPoint(uint256 light);
+    error SpotOutOfRange(uint256 light, int256 x, int256 y, int256 z);
+    error SpotWithoutDirection(uint256 light);
+    /// @notice The cosines are from -1 to 1, and the outer one is not the greater.
+    error SpotAngles(uint256 light, int256 cosInner, int256 cosOuter);
+    /// @notice Opacities are below 1, 2^24: what is opaque has none.
+    error OpacityOutOfRange(uint256 object, uint256 opacity);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();

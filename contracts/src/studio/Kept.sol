@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {SSTORE2} from "solady/src/utils/SSTORE2.sol";
+import {PARTS, kindOf} from "../mesh/Kinds.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 
 /// @notice Bytes kept for ever as the code of contracts that cannot run, at addresses made of the bytes themselves and of the contract that
@@ -12,15 +13,13 @@ library Kept {
     uint256 internal constant MAX_PART = 24575;
     /// @notice The most bytes that all parts of a list have together.
     uint256 internal constant MAX_SIZE = 1 << 20;
-    /// @notice The first byte of a list of parts.
-    uint256 internal constant PARTS = 0x13;
 
     /// @notice Keeps bytes, unless they are kept already.
     /// @return pointer Where they are.
     /// @return created Whether they were not.
     function keep(bytes memory data) internal returns (address pointer, bool created) {
         unchecked {
-            if (data.length == 0 || uint8(data[0]) == PARTS) revert StudioErrors.NotToBeKept();
+            if (data.length == 0 || kindOf(data) == PARTS) revert StudioErrors.NotToBeKept();
             if (data.length <= MAX_PART) return keepPart(data);
             uint256 count = (data.length + MAX_PART - 1) / MAX_PART;
             address[] memory parts = new address[](count);
@@ -63,7 +62,7 @@ library Kept {
     function read(address pointer) internal view returns (bytes memory data) {
         unchecked {
             data = readPart(pointer);
-            if (data.length == 0 || uint8(data[0]) != PARTS) return data;
+            if (kindOf(data) != PARTS) return data;
             bytes memory list = data;
             uint256 size = sizeOf(list);
             // all parts together are read to where they belong

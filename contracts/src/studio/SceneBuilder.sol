@@ -5,6 +5,8 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
+import {Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
+import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES
 } from "../scene/Scene.sol";
@@ -29,10 +31,6 @@ using {ModelMaker.vertex, ModelMaker.face, ModelMaker.quad, ModelMaker.box, Mode
 
 /// @notice Meshes of coloured triangles, made step by step on chain: without normals, coordinates of 16 bits.
 library ModelMaker {
-    uint256 private constant HEADER_SIZE = 5;
-    uint256 private constant VERTEX_SIZE = 9;
-    uint256 private constant FACE_SIZE = 6;
-
     /// @notice A contract counts vertices and faces in 16 bits.
     error ModelTooLarge(uint256 vertices, uint256 faces);
     error TooManyVertices(uint256 most);
@@ -66,7 +64,8 @@ library ModelMaker {
             if (index == m.maxVertices) revert TooManyVertices(index);
             if (int16(x) != x || int16(y) != y || int16(z) != z) revert PositionOutOfRange(x, y, z);
             if (color > 0xffffff) revert NotAColor(color);
-            uint256 packed = (uint256(uint16(int16(x))) << 56) | (uint256(uint16(int16(y))) << 40) | (uint256(uint16(int16(z))) << 24) | color;
+            uint256 packed = (uint256(uint16(int16(x))) << 56) | (uint256(uint16(int16(y))) << 40)
+                | (uint256(uint16(int16(z))) << 24) | color;
             uint256 target = m.vertices;
             assembly ("memory-safe") {
                 mstore(target, shl(184, packed))
@@ -146,7 +145,9 @@ struct Stage {
     uint256 maxObjects;
 }
 
-using {StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.add} for Stage global;
+using {
+    StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade
+} for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
 /// per cent. What is out of range is told by the renderer.
@@ -192,6 +193,25 @@ library StageMaker {
     /// @notice Adds light from a place.
     function lamp(Stage memory made, Vector memory place, uint256 color) internal pure {
         addLight(made.scene, Light(POINT, place, color));
+    }
+
+    /// @notice Adds light from a place that shines into a cone only, whole up to where the cosine of the angle to `toward` is `inner` per
+    /// cent, none from `outer` per cent on. The coordinates of `toward` are below 2^31 units.
+    function spot(Stage memory made, Vector memory place, Vector memory toward, int256 inner, int256 outer, uint256 color) internal pure {
+        uint256 index = made.scene.lights.length;
+        lamp(made, place, color);
+        bytes memory cone = abi.encodePacked(
+            int64(toward.x.raw()), int64(toward.y.raw()), int64(toward.z.raw()), int64(percent(inner).raw()), int64(percent(outer).raw())
+        );
+        made.scene.extensions = Extensions.added(made.scene.extensions, SPOT, index, cone);
+    }
+
+    /// @notice Has the object that was added last hide only so many per cent, 0..99, of what is behind it.
+    function fade(Stage memory made, int256 opacity) internal pure {
+        unchecked {
+            bytes memory content = abi.encodePacked(uint32(uint256(percent(opacity).raw()) >> 8));
+            made.scene.extensions = Extensions.added(made.scene.extensions, OPACITY_OF, made.scene.objects.length - 1, content);
+        }
     }
 
     /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away. What is

@@ -5,7 +5,8 @@ import {Fixed} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Quaternion, Matrix} from "../math/Quaternion.sol";
-import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {PackedMesh} from "../mesh/PackedMesh.sol";
+import {WIDE} from "../scene/Mesh.sol";
 import {Scene, Object, Background, Canvas} from "../scene/Scene.sol";
 import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
 import {StudioErrors} from "./StudioErrors.sol";
@@ -47,7 +48,7 @@ library SceneChanges {
         }
         if (fields & PAINT != 0) {
             if (changes.color > 0xffffff) revert StudioErrors.ColorOutOfRange(changes.color);
-            for (uint256 k; k < scene.objects.length; ++k) paint(scene.objects[k].mesh, changes.color);
+            for (uint256 k; k < scene.objects.length; ++k) PackedMesh.paint(scene.objects[k].mesh, changes.color);
         }
         if (fields & BACKGROUND != 0) scene.background = changes.background;
         if (fields & INVERT != 0) scene.invert = changes.invert;
@@ -101,59 +102,14 @@ library SceneChanges {
     /// @dev The ball around the box of an object's vertices.
     function ball(Object memory object) private pure returns (Vector memory place, Fixed radius) {
         unchecked {
-            (int256[3] memory low, int256[3] memory high) = box(object.mesh);
-            Vector memory twice = Vector(Fixed.wrap((low[0] + high[0]) << 32), Fixed.wrap((low[1] + high[1]) << 32), Fixed.wrap((low[2] + high[2]) << 32));
+            (int256[3] memory low, int256[3] memory high) = PackedMesh.box(object.mesh);
+            Vector memory twice = Vector(
+                Fixed.wrap((low[0] + high[0]) << 32), Fixed.wrap((low[1] + high[1]) << 32), Fixed.wrap((low[2] + high[2]) << 32)
+            );
             Fixed half = Fixed.wrap(object.scale.raw() >> 1);
             place = object.position.add(object.rotation.toMatrix().times(twice.scale(half)));
             (int256 x, int256 y, int256 z) = (high[0] - low[0], high[1] - low[1], high[2] - low[2]);
             radius = Fixed.wrap(int256(sqrt(uint256(x * x + y * y + z * z) << 64))) * half;
-        }
-    }
-
-    /// @dev The lowest and the highest coordinates of a packed mesh; zeros if it has no vertices or is not complete.
-    function box(bytes memory mesh) private pure returns (int256[3] memory low, int256[3] memory high) {
-        assembly ("memory-safe") {
-            let header := shr(216, mload(add(mesh, 32)))
-            let format := shr(32, header)
-            let size := add(2, shr(1, and(format, WIDE)))
-            let stride := add(add(mul(3, size), 3), mul(4, and(format, NORMALS)))
-            let begin := add(mesh, 37)
-            let end := add(begin, mul(stride, and(shr(16, header), 0xffff)))
-            if or(iszero(mload(mesh)), gt(end, add(add(mesh, 32), mload(mesh)))) { end := 0 }
-            let cut := sub(256, shl(3, size))
-            for { let axis := 0 } lt(axis, 3) { axis := add(axis, 1) } {
-                let place := add(begin, mul(axis, size))
-                let least := sar(cut, mload(place))
-                let most := least
-                if iszero(lt(begin, end)) {
-                    least := 0
-                    most := 0
-                }
-                for {} lt(place, end) { place := add(place, stride) } {
-                    let value := sar(cut, mload(place))
-                    if slt(value, least) { least := value }
-                    if sgt(value, most) { most := value }
-                }
-                mstore(add(low, shl(5, axis)), least)
-                mstore(add(high, shl(5, axis)), most)
-            }
-        }
-    }
-
-    /// @notice Gives all vertices of a packed mesh one colour.
-    function paint(bytes memory mesh, uint256 color) internal pure {
-        assembly ("memory-safe") {
-            let header := shr(216, mload(add(mesh, 32)))
-            let format := shr(32, header)
-            let place := add(6, mul(3, shr(1, and(format, WIDE))))
-            let stride := add(add(place, 3), mul(4, and(format, NORMALS)))
-            let end := add(add(mesh, 37), mul(stride, and(shr(16, header), 0xffff)))
-            // a mesh that is not complete is refused by the renderer: nothing outside of it is touched here
-            if gt(end, add(add(mesh, 32), mload(mesh))) { end := 0 }
-            color := shl(232, color)
-            for { place := add(add(mesh, 37), place) } lt(place, end) { place := add(place, stride) } {
-                mstore(place, or(color, shr(24, shl(24, mload(place)))))
-            }
         }
     }
 

@@ -2,13 +2,13 @@
 pragma solidity 0.8.37;
 
 import {LibZip} from "solady/src/utils/LibZip.sol";
-import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {PngEncoder} from "../encode/PngEncoder.sol";
+import {COMPACT, LAST_FORMAT, SCENE, kindOf} from "../mesh/Kinds.sol";
+import {Meshes} from "../mesh/Meshes.sol";
 import {Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
-import {COMPACT} from "./CompactMesh.sol";
+import {WithRenderer} from "../WithRenderer.sol";
 import {Kept} from "./Kept.sol";
-import {Meshes} from "./Meshes.sol";
-import {PngEncoder} from "./PngEncoder.sol";
 import {Changes, SceneChanges} from "./SceneChanges.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 
@@ -16,36 +16,29 @@ import {StudioErrors} from "./StudioErrors.sol";
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
 /// changed or removed, and the address is made of what is stored: the same mesh or scene has the same pointer, whoever stores it, and is
 /// stored once. What is wrong with a scene is told when it is drawn, and concerns no other.
-contract Studio is StudioErrors {
-    /// @notice What draws.
-    Renderer public immutable renderer;
+contract Studio is WithRenderer, StudioErrors {
     /// @notice What makes PNG files of the pictures.
     PngEncoder public immutable encoder;
 
-    /// @dev The first byte of a scene that is kept. After it the ABI encoding of the scene, in which zeros are compressed (solady's
-    /// LibZip.cdCompress).
-    uint256 private constant SCENE = 0x20;
-
-    /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart` and
-    /// `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
+    /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart`
+    /// and `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
     event MeshStored(address indexed pointer, address indexed by);
     /// @notice As for a mesh.
     event SceneStored(address indexed pointer, address indexed by);
 
-    error NoRenderer(address renderer);
+    /// @notice The address has no code.
     error NoEncoder(address encoder);
 
-    constructor(Renderer renderer_, PngEncoder encoder_) {
-        if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
+    constructor(Renderer renderer_, PngEncoder encoder_) WithRenderer(renderer_) {
         if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
-        (renderer, encoder) = (renderer_, encoder_);
+        encoder = encoder_;
     }
 
     /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
     /// @return pointer Where it is kept.
     function storeMesh(bytes memory data) external returns (address pointer) {
-        uint256 kind = Meshes.kindOf(data);
-        if (kind > NORMALS + WIDE && kind != COMPACT) revert NotAMesh(kind);
+        uint256 kind = kindOf(data);
+        if (kind > LAST_FORMAT && kind != COMPACT) revert NotAMesh(kind);
         bool created;
         (pointer, created) = Kept.keep(data);
         if (created) emit MeshStored(pointer, msg.sender);
@@ -84,7 +77,7 @@ contract Studio is StudioErrors {
     /// @notice A scene that is kept, its meshes in the format of `Mesh.sol`: what the renderer takes.
     function scene(address pointer) public view returns (Scene memory scene_) {
         bytes memory data = Kept.read(pointer);
-        if (Meshes.kindOf(data) != SCENE) revert NotAScene(pointer);
+        if (kindOf(data) != SCENE) revert NotAScene(pointer);
         scene_ = opened(abi.decode(LibZip.cdDecompress(Meshes.rest(data)), (Scene)));
     }
 
@@ -94,8 +87,9 @@ contract Studio is StudioErrors {
         SceneChanges.make(scene_, changes);
     }
 
-    /// @notice Reverts if the scene that is kept there cannot be drawn, with the error that drawing it would have: a part or a mesh is missing,
-    /// or a number is out of range. All is checked, one pixel is drawn. As nothing that is kept changes, it can be drawn ever after.
+    /// @notice Reverts if the scene that is kept there cannot be drawn, with the error that drawing it would have: a part or a mesh is
+    /// missing, or a number is out of range. All is checked, one pixel is drawn. As nothing that is kept changes, it can be drawn ever
+    /// after.
     function check(address pointer) external view {
         renderer.renderTile(scene(pointer), Rectangle(0, 0, 1, 1));
     }

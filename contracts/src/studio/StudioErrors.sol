@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {PngErrors} from "../encode/PngErrors.sol";
+import {MeshErrors} from "../mesh/MeshErrors.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 
 /// @title StudioErrors: what can be wrong with what the Studio keeps, with changes of it, and with its pictures.
-interface StudioErrors is SceneErrors {
+interface StudioErrors is SceneErrors, MeshErrors, PngErrors {
     /// @notice Nothing is kept there by this contract.
     error NothingKept(address pointer);
     /// @notice There is nothing to be kept, or its first byte is that of a list of parts.
@@ -17,21 +19,9 @@ interface StudioErrors is SceneErrors {
     error NotAMesh(uint256 kind);
     /// @notice What is kept there is no scene.
     error NotAScene(address pointer);
-    /// @notice The first byte of a mesh is none that is known.
-    error UnknownMesh(uint256 kind);
-    /// @notice The numbers of a mesh do not go together: it should have `expected` bytes.
-    error CompactMeshLength(uint256 expected, uint256 length);
-    /// @notice What the head of a mesh says is beyond what the format knows.
-    error CompactMeshHeader();
-    /// @notice The faces have more new vertices than there are, or do not take all bytes of vertices that are told.
-    error CompactMeshFaces();
     /// @notice A field is named that there is not.
     error UnknownChanges(uint256 fields);
     error ColorOutOfRange(uint256 color);
     /// @notice The rotation is zero, or a part of it is larger than 2^16.
     error TurnOutOfRange();
-    /// @notice The bytes are not a bitmap as the renderer makes them.
-    error NotABitmap();
-    /// @notice Each pixel of a picture can become a square of 1 x 1 to 8 x 8 of a PNG file.
-    error PixelScaleOutOfRange(uint256 scale, uint256 largest);
 }

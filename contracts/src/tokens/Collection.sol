@@ -55,15 +55,4 @@ abstract contract Collection is Sale, ERC2981 {
         if (royalty > HIGHEST_ROYALTY) revert Royalty(royalty, HIGHEST_ROYALTY);
         _setDefaultRoyalty(receiver, royalty);
     }
-
-    /// @dev Ends the call with what a contract answers, or why it refuses, as it is: the compiler would copy a long text twice.
-    function forward(address target, bytes memory data) internal view {
-        assembly ("memory-safe") {
-            let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
-            let place := mload(0x40)
-            returndatacopy(place, 0, returndatasize())
-            if iszero(done) { revert(place, returndatasize()) }
-            return(place, returndatasize())
-        }
-    }
 }

@@ -2,7 +2,9 @@
 pragma solidity 0.8.37;
 
 import {ERC721A} from "erc721a/contracts/ERC721A.sol";
-import {Genesis, Traits} from "../genesis/Genesis.sol";
+import {forward} from "../encode/Forward.sol";
+import {Genesis} from "../genesis/Genesis.sol";
+import {Traits} from "../genesis/Piece.sol";
 import {Collection, Terms} from "./Collection.sol";
 import {Allowance} from "./Sale.sol";
 import {GenesisMetadata} from "./GenesisMetadata.sol";
@@ -99,7 +101,8 @@ contract GenesisCollection is Collection, Rounds {
         return _ownershipOf(tokenId).extraData;
     }
 
-    /// @notice The rounds of tokens `first` to `last` that are not revealed, each once; such as `reveal` takes, once their blocks are there.
+    /// @notice The rounds of tokens `first` to `last` that are not revealed, each once; such as `reveal` takes, once their blocks are
+    /// there.
     function hiddenRounds(uint256 first, uint256 last) external view returns (uint256[] memory rounds) {
         rounds = new uint256[](last - first + 1);
         uint256 count;

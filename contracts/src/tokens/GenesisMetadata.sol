@@ -4,9 +4,10 @@ pragma solidity 0.8.37;
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Renderer} from "../Renderer.sol";
 import {Scene} from "../scene/Scene.sol";
-import {Genesis, Piece, Traits} from "../genesis/Genesis.sol";
+import {Genesis} from "../genesis/Genesis.sol";
+import {Piece, Traits} from "../genesis/Piece.sol";
 import {NoPrismToChoose} from "../genesis/Colors.sol";
-import {Png} from "../studio/Png.sol";
+import {Png} from "../encode/Png.sol";
 import {Json} from "./Json.sol";
 import {PieceScene} from "../genesis/PieceScene.sol";
 import {Placeholder} from "./Placeholder.sol";
@@ -38,8 +39,8 @@ contract GenesisMetadata {
         (genesis, renderer) = (genesis_, genesis_.renderer());
     }
 
-    /// @notice The seed that stands for what was drawn, and the traits of its piece. It is what was drawn, if that has a piece; very few seeds
-    /// (one in some 6,000) have none, and the hash of such a seed takes its place.
+    /// @notice The seed that stands for what was drawn, and the traits of its piece. It is what was drawn, if that has a piece; very few
+    /// seeds (one in some 6,000) have none, and the hash of such a seed takes its place.
     function settle(bytes32 drawn) external view returns (bytes32 seed, Traits memory traits) {
         Piece memory piece;
         (seed, piece) = pieceOf(drawn);

@@ -72,8 +72,8 @@ contract IconsCollection is Collection, StudioErrors {
 
     // ---- the set of icons ----
 
-    /// @notice Adds an icon, until the collection is sealed. What cannot be drawn is refused, with the error that drawing it has. Look at it
-    /// first: `studio().render(scene)`.
+    /// @notice Adds an icon, until the collection is sealed. What cannot be drawn is refused, with the error that drawing it has. Look at
+    /// it first: `studio().render(scene)`.
     /// @param name_ 1 to 64 bytes of text in UTF-8.
     /// @param scene Where the studio keeps the scene.
     /// @param scale How many pixels each pixel of the scene becomes in `tokenURI`: 1 to 8; 4 makes 512 of 128.

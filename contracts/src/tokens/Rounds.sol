@@ -18,8 +18,8 @@ abstract contract Rounds {
 
     /// @notice Blocks in a round.
     uint256 public constant ROUND = 32;
-    /// @notice Blocks from the end of a round to that of its randomness. More than two epochs of 32: while a round lasts, nobody can know who
-    /// will propose the blocks that its randomness is made of.
+    /// @notice Blocks from the end of a round to that of its randomness. More than two epochs of 32: while a round lasts, nobody can know
+    /// who will propose the blocks that its randomness is made of.
     uint256 public constant DELAY = 128;
 
     /// @notice The first block of round 0.
@@ -62,8 +62,8 @@ abstract contract Rounds {
         if (hash == 0) hash = Blockhash.blockHash(blockNumber);
     }
 
-    /// @notice Writes down the randomness of rounds. Anyone may; it is the same whoever does, whenever. Rounds that are revealed already are
-    /// passed over.
+    /// @notice Writes down the randomness of rounds. Anyone may; it is the same whoever does, whenever. Rounds that are revealed already
+    /// are passed over.
     /// @param headers Of each round the header of its block, in RLP as it is hashed.
     function reveal(uint256[] calldata rounds, bytes[] calldata headers) external {
         if (headers.length != rounds.length) revert AsManyHeadersAsRounds(headers.length, rounds.length);

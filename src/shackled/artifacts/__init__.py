@@ -10,6 +10,9 @@ from typing import Any
 
 from Crypto.Hash import keccak
 
+#: What draws: the others are for those who want them.
+RENDERER = ("Engine", "FragmentEngine", "Renderer")
+
 
 @dataclass(frozen=True)
 class Artifact:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from ..artifacts import artifact
+from ..artifacts import RENDERER, artifact
 from ..chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain, intrinsic_gas
 from ..deploy.contract import STANDARD
 from .lab import Lab
@@ -16,9 +16,6 @@ from .table import millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-#: What a renderer needs; the others are for those who want them.
-RENDERER = ("Engine", "Renderer")
 
 #: Gas of a transaction that creates a contract, beyond that of any.
 CREATION = 32000
@@ -46,9 +43,10 @@ def run(lab: Lab) -> Report:
     core = sum(gas[name] for name in RENDERER)
     price = PAPER_DEPLOYMENT_ETHER * 1e9 / DEPLOYMENT_GAS
     text = (
-        f"The renderer is {' and '.join(RENDERER)}: {millions(core)} gas; with all {len(names)} contracts of the"
-        f" package {millions(sum(gas.values()))}. The seven contracts of the original, its token and its generator"
-        f" among them, take {millions(DEPLOYMENT_GAS, 1)}. The paper paid {PAPER_DEPLOYMENT_ETHER} ether for 13"
+        f"The renderer is {', '.join(RENDERER[:-1])} and {RENDERER[-1]}: {millions(core)} gas; with all"
+        f" {len(names)} contracts of the package {millions(sum(gas.values()))}. The seven contracts of the"
+        f" original, its token and its generator among them, take {millions(DEPLOYMENT_GAS, 1)}."
+        f" The paper paid {PAPER_DEPLOYMENT_ETHER} ether for 13"
         " contracts and libraries; for the"
         f" {millions(DEPLOYMENT_GAS, 1)} of the seven that would be {price:.1f} gwei for each gas."
         f" At that price the renderer would take {core * price / 1e9:.3f} ether.\n\n"

@@ -71,23 +71,20 @@ class ContractChain(ABC):
         """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
         any of them covers.
         """
-        contract, data = count_call(scene, tile)
-        return returned_counts(self.call(contract, data).output, tile)
+        return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
 
-def count_call(scene: Scene, tile: Rectangle | None = None) -> tuple[str, bytes]:
-    """The contract, and the data of the call, that count: the renderer a whole picture, its engine a tile."""
-    if tile is None:
-        return "Renderer", encode(artifact("Renderer").selectors["renderCounted"], scene)
-    return "Engine", encode(artifact("Engine").selectors["drawTile"], scene, tile, 1)
+def count_call(scene: Scene, tile: Rectangle | None = None) -> bytes:
+    """The data of the call of the Renderer that draws a scene, or a part of its canvas, and counts."""
+    selector = artifact("Renderer").selectors["renderCounted" if tile is None else "renderTileCounted"]
+    return encode(selector, scene, tile)
 
 
-def returned_counts(output: bytes, tile: Rectangle | None = None) -> tuple[int, int]:
-    """Triangles and pixels from what the call of `count_call` returned."""
-    start = 32 if tile is None else 0
-    if len(output) < start + 64:
+def returned_counts(output: bytes) -> tuple[int, int]:
+    """Triangles and pixels from what the call of `count_call` returned, which begins with an offset."""
+    if len(output) < 96:
         raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
-    return int.from_bytes(output[start : start + 32], "big"), int.from_bytes(output[start + 32 : start + 64], "big")
+    return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 
-from ..artifacts import artifact
+from ..artifacts import RENDERER, artifact
 from ..errors import (
     NodeBusyError,
     NodeError,
@@ -101,8 +101,7 @@ class NodeChain:
         """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
         any of them covers.
         """
-        contract, data = count_call(scene, tile)
-        return returned_counts(self.call(contract, data).output, tile)
+        return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
@@ -154,9 +153,9 @@ class NodeChain:
             return self._places[contract]
 
     def _named(self, contract: str) -> bytes | None:
-        """The renderer that was named, or its engine."""
+        """The renderer that was named, or one of its engines."""
         assert self._address is not None
-        if contract not in ("Renderer", "Engine"):
+        if contract not in RENDERER:
             return None
         where = f"{show_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
         code = self._code(self._address)
@@ -165,12 +164,12 @@ class NodeChain:
                 f"there is no contract at {where}: put one there with shackled deploy, or leave out --address"
             )
         parts = self._parts("Renderer", code)
-        if parts is None or self._code(parts["Engine"]) != self._local.code("Engine"):
+        if parts is None or any(self._code(place) != self._local.code(part) for part, place in parts.items()):
             raise RenderError(
                 f"the contract at {where} is not the renderer of this version of shackled: "
                 "name another one, or leave out --address"
             )
-        return self._address if contract == "Renderer" else parts["Engine"]
+        return parts.get(contract, self._address)
 
     def _find(self, contract: str) -> bytes | None:
         known = self._book.find(self.connection.chain_id, contract)
@@ -302,7 +301,7 @@ class NodeChain:
         """Above what it costs to bring the contracts along beside the render: unpacking, and each byte of code."""
         if self._probed.overrides or self.place("Renderer") is not None:
             return 0
-        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in ("Engine", "Renderer")]
+        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in RENDERER]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
 
 

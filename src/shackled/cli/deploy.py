@@ -38,8 +38,8 @@ def deploy(
         str | None,
         option(
             "--contracts",
-            "Which, with commas, of Engine, Renderer, Original, Genesis, PngEncoder, Studio and GenesisMetadata; else "
-            "the first four. Those that they call are added.",
+            "Which, with commas, of Engine, FragmentEngine, Renderer, Original, Genesis, PngEncoder, Studio and "
+            "GenesisMetadata; else the first five. Those that they call are added.",
             "NAMES",
         ),
     ] = None,

@@ -71,7 +71,7 @@ def _figures(report: Report, gas_price: float, eth_price: float | None) -> dict[
         f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
         "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: "
         + (
-            f"a 64th of the gas is not handed on to the Engine, which needs {exact.engine_gas:,}, "
+            f"a 64th of the gas is not handed on to an engine, which needs {exact.dearest_call:,}, "
             f"so {margin.kept:,} must be left over; the Renderer uses {margin.after:,} of that after it"
         ),
         "intrinsic": f"{exact.intrinsic_gas:,} to send the scene: not in the figures above",

@@ -56,6 +56,7 @@ class Changes:
     background: Background | None = None
     cull: bool | None = None
     wireframe: bool | None = None
+    opacity: float | None = None
     invert: bool | None = None
 
 
@@ -104,7 +105,7 @@ def _change_object(o: Object, changes: Changes) -> Object:
     mesh = o.mesh
     if changes.color is not None:
         mesh = replace(mesh, colors=np.tile(changes.color, (len(np.asarray(mesh.positions)), 1)))
-    return replace(o, mesh=mesh, material=material, **_given(changes, "cull", "wireframe"))
+    return replace(o, mesh=mesh, material=material, **_given(changes, "cull", "wireframe", "opacity"))
 
 
 def _change_camera(scene: Scene, changes: Changes) -> Camera:

@@ -60,7 +60,8 @@ def chosen_look(
         list[str] | None,
         option(
             "--light",
-            "In place of the scene's, up to four: directional:x,y,z or point:x,y,z, then :#rrggbb if wanted.",
+            "In place of the scene's, up to four: directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, then "
+            ":#rrggbb if wanted.",
             "LIGHT",
             "Look",
         ),
@@ -79,6 +80,9 @@ def chosen_look(
     cull: Annotated[bool | None, option("--cull/--no-cull", "Leave out faces that turn away.", None, "Look")] = None,
     wireframe: Annotated[
         bool | None, option("--wireframe/--filled", "Draw the edges only, or whole faces.", None, "Look")
+    ] = None,
+    opacity: Annotated[
+        float | None, option("--opacity", "What objects hide of what is behind them, 0..1.", "K", "Look")
     ] = None,
     invert: Annotated[
         bool | None, option("--invert/--no-invert", "Turn each value v into 255 - v.", None, "Look")
@@ -106,5 +110,6 @@ def chosen_look(
         background=None if background is None else parse_background(background),
         cull=cull,
         wireframe=wireframe,
+        opacity=opacity,
         invert=invert,
     )

@@ -7,7 +7,7 @@ import re
 from ..checks import choice
 from ..errors import InputError
 from ..scene.background import Background
-from ..scene.light import Light
+from ..scene.light import INNER_ANGLE, LIGHT_KINDS, Light
 from ..scene.material import Shading
 from ..scene.scene import MAX_SIDE
 
@@ -59,12 +59,29 @@ def parse_background(text: str) -> Background:
 
 
 def parse_light(text: str) -> Light:
-    """A light, of "directional:x,y,z" or "point:x,y,z", either with ":#rrggbb" after it."""
+    """A light, of "directional:x,y,z", "point:x,y,z" or "spot:x,y,z:x,y,z:outer" or "...:inner,outer"; any of them with
+    ":#rrggbb" after it.
+    """
     kind, *rest = text.split(":")
-    if kind not in ("directional", "point") or not 1 <= len(rest) <= 2:
-        raise InputError(f"--light must be directional:x,y,z or point:x,y,z, with :#rrggbb if wanted, not {text!r}")
-    color = parse_color(rest[1], "--light") if len(rest) == 2 else (255, 255, 255)
-    return Light("point" if kind == "point" else "directional", parse_vector(rest[0], "--light"), color)
+    needed = 3 if kind == "spot" else 1
+    if kind not in LIGHT_KINDS or not needed <= len(rest) <= needed + 1:
+        raise InputError(
+            "--light must be directional:x,y,z, point:x,y,z or spot:position:direction:angle, with :#rrggbb if wanted, "
+            f"not {text!r}"
+        )
+    color = parse_color(rest[needed], "--light") if len(rest) > needed else (255, 255, 255)
+    vector = parse_vector(rest[0], "--light")
+    if kind != "spot":
+        return Light(kind, vector, color)
+    angles = rest[2].split(",")
+    try:
+        inner, outer = [*([INNER_ANGLE] if len(angles) == 1 else []), *map(float, angles)]
+    except ValueError:
+        raise InputError(
+            "--light spot needs the angle in degrees at which its light ends, or inner,outer, between which it fades, "
+            f"not {rest[2]!r}"
+        ) from None
+    return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
 
 
 def parse_shading(shading: str | None, smooth: bool, unlit: bool) -> Shading | None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..image import Image
-from ..scene.codec import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME
+from ..scene.codec import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME, extensions
 from ..scene.fit import fit
 from ..scene.packed_mesh import pack
 from ..scene.scene import Scene
@@ -185,6 +185,9 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) 
             f"    flags: {CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe}",
             "});",
         ]
+    more = extensions(scene)
+    if more:
+        lines += ["", "// cones of spot lights, opacities: see Extensions.sol", f's.extensions = hex"{more.hex()}";']
     return lines
 
 

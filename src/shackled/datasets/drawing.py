@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
-from ..artifacts import artifact
+from ..artifacts import RENDERER, artifact
 from ..chain import open_chain
 from ..image import decode_bmp
 from ..render import resize
@@ -86,7 +86,7 @@ def _key(scene: Scene) -> str:
 
 @cache
 def _contracts() -> bytes:
-    codes = b"".join(artifact(name).runtime for name in ("Engine", "Renderer"))
+    codes = b"".join(artifact(name).runtime for name in RENDERER)
     return open_chain().name.encode() + hashlib.sha256(codes).digest()
 
 

@@ -12,7 +12,7 @@ from ..chain.opening import open_chain
 from ..errors import InputError, RenderError
 
 #: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
-STANDARD = ("Engine", "Renderer", "Original", "Genesis")
+STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")
 #: All that can be named.
 CONTRACTS = (*STANDARD, "PngEncoder", "Studio", "GenesisMetadata")
 

@@ -23,8 +23,8 @@ def write_verification(folder: Path, chain_id: int, standing: Sequence[Deploymen
     artifacts = files("shackled.artifacts")
     for each in standing:
         built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
-        group = built.get("group", "core")
-        name = "standard-input.json" if group == "core" else f"standard-input-{group}.json"
+        # of its group, whose settings are those of the contract
+        name = f"standard-input-{built['group']}.json"
         inputs[name] = artifacts.joinpath(name).read_bytes()
         contracts.append(
             {

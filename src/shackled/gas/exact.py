@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from ..artifacts import artifact
 from ..chain import Chain, ContractChain
 from ..errors import InputError
-from ..scene.codec import Rectangle, encode
+from ..scene.codec import encode
 from ..scene.scene import Scene
+from .runs import engine_calls
 
 #: EIP-150: of the gas left, a call is handed all but one 64th.
 KEPT = 64
@@ -19,12 +20,14 @@ class Exact:
     """What a render costs.
 
     gas: of the execution. intrinsic_gas: what a transaction costs before it. engine_gas: the part of `gas` that the
-    Renderer's call of the Engine uses. floor_gas: the least that a transaction with this data costs, by EIP-7623.
+    Renderer's calls of its engines use; dearest_call: that of the one that uses most. floor_gas: the least that a
+    transaction with this data costs, by EIP-7623.
     """
 
     gas: int
     intrinsic_gas: int
     engine_gas: int
+    dearest_call: int
     floor_gas: int
 
     @property
@@ -49,20 +52,12 @@ def render_call(scene: Scene) -> bytes:
     return encode(artifact("Renderer").selectors["render"], scene)
 
 
-def engine_call(scene: Scene) -> bytes:
-    """The data of the call that the Renderer makes of the Engine to render the scene."""
-    canvas = Rectangle(0, 0, scene.width, scene.height)
-    words = [6 * 32, canvas.x, canvas.y, canvas.width, canvas.height, 0]
-    head = b"".join(word.to_bytes(32, "big") for word in words)
-    return artifact("Engine").selectors["drawTile"] + head + render_call(scene)[36:]
-
-
 def measure(scene: Scene, chain: ContractChain) -> Exact:
-    """Renders the scene and its part in the Engine."""
+    """Renders the scene, and its part in the engines."""
     data = render_call(scene)
     result = chain.call("Renderer", data)
-    engine = chain.call("Engine", engine_call(scene))
-    return Exact(result.gas, result.intrinsic_gas, engine.gas, floor_gas(data))
+    gas = [call.result.gas for call in engine_calls(scene, chain)]
+    return Exact(result.gas, result.intrinsic_gas, sum(gas), max(gas), floor_gas(data))
 
 
 def floor_gas(data: bytes) -> int:
@@ -79,7 +74,8 @@ def needed_for(gas: int) -> int:
 class Margin:
     """Why a limit of exactly the gas that is used does not suffice.
 
-    kept: gas that must be left when the Engine is called, because a 64th of what is there is not handed on.
+    kept: gas that must be left when an engine is called for the dearest run of objects, because a 64th of what is there
+        is not handed on.
     after: gas that the Renderer uses behind that call, which comes out of what was kept.
     """
 
@@ -94,5 +90,5 @@ class Margin:
 
 def margin(exact: Exact, searched: int) -> Margin:
     """The account of the difference between what a call uses and the least limit that it needs."""
-    kept = needed_for(exact.engine_gas) - exact.engine_gas
+    kept = needed_for(exact.dearest_call) - exact.dearest_call
     return Margin(kept, kept - (searched - exact.gas))

@@ -130,10 +130,14 @@ def _data() -> dict[str, Any]:
 @cache
 def _sources() -> dict[int, Source]:
     """The sources that the compiler was given, by its numbers for them."""
-    request = json.loads(files("shackled.artifacts").joinpath("standard-input.json").read_text("utf-8"))
+    texts: dict[str, dict[str, str]] = {}
+    for group in {artifact(contract).group for contract in _data()["contracts"]}:
+        request = json.loads(files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8"))
+        texts |= request["sources"]
     sources = {}
     for number, source in _data()["sources"].items():
-        text = request["sources"][source["name"]]["content"].encode()
+        # what others wrote is not kept here
+        text = texts[source["name"]].get("content", "").encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
         sources[int(number)] = Source(source["name"], text, functions, begins)

@@ -5,36 +5,54 @@ from __future__ import annotations
 from .source_map import SourceMap
 
 SETUP, ROWS = "triangle set-up", "rows of plain triangles"
-SHADING, LIGHTING = "shading set-up", "lighting set-up"
+UNIFORMS, SHADING, FRAGMENTS = "uniforms", "shading set-up", "fragment shader"
 REST = "calls, bands, memory"
 
 #: In the order in which a picture is made.
 STAGES = (
     "checks",
+    UNIFORMS,
     "vertex shader",
     "primitive assembly",
-    LIGHTING,
     SHADING,
     SETUP,
     ROWS,
-    "fragment shader",
+    FRAGMENTS,
     "compositor",
     "encoding",
     REST,
 )
 
-#: The stage of each source; of the two that belong to two stages, that of most functions. Others serve all stages.
+#: The stage of each source; of one that belongs to two stages, that of most functions. Others serve all stages.
 _SOURCES = {
     "scene/Checks.sol": "checks",
-    "pipeline/View.sol": "vertex shader",
+    "scene/Extensions.sol": "checks",
+    "uniforms/Uniforms.sol": UNIFORMS,
+    "uniforms/Runs.sol": REST,
+    "uniforms/View.sol": UNIFORMS,
+    "uniforms/Transform.sol": UNIFORMS,
+    "uniforms/Lights.sol": UNIFORMS,
+    "uniforms/MeshSpace.sol": UNIFORMS,
+    "uniforms/Materials.sol": UNIFORMS,
+    "uniforms/Specular.sol": UNIFORMS,
     "pipeline/VertexShader.sol": "vertex shader",
     "pipeline/PrimitiveAssembly.sol": "primitive assembly",
     "pipeline/Clipper.sol": "primitive assembly",
     "pipeline/Shading.sol": SHADING,
-    "pipeline/Lighting.sol": LIGHTING,
+    "pipeline/FlatShading.sol": SHADING,
+    "pipeline/SmoothShading.sol": SHADING,
+    "pipeline/VertexHighlights.sol": SHADING,
+    "pipeline/Quadratic.sol": SHADING,
+    "pipeline/Lighting.sol": SHADING,
     "pipeline/Rasterizer.sol": SETUP,
+    "pipeline/Triangles.sol": SETUP,
+    "pipeline/LinearSpans.sol": ROWS,
     "pipeline/Wireframe.sol": ROWS,
-    "pipeline/FragmentShader.sol": "fragment shader",
+    "pipeline/Patches.sol": FRAGMENTS,
+    "pipeline/ExactSpans.sol": FRAGMENTS,
+    "pipeline/BlendedSpans.sol": FRAGMENTS,
+    "pipeline/SmoothLight.sol": FRAGMENTS,
+    "pipeline/FragmentLight.sol": FRAGMENTS,
     "pipeline/Compositor.sol": "compositor",
     "encode/Bmp.sol": "encoding",
     "encode/Base64.sol": "encoding",
@@ -42,13 +60,8 @@ _SOURCES = {
     "encode/Text.sol": "encoding",
     "pipeline/Pipeline.sol": REST,
     "Engine.sol": REST,
+    "FragmentEngine.sol": REST,
     "Renderer.sol": REST,
-}
-_FUNCTIONS = {
-    "Rasterizer.rows": ROWS,
-    "Lighting.setFace": SHADING,
-    "Lighting.setFaceNormal": SHADING,
-    "Lighting.facePointLight": SHADING,
 }
 
 
@@ -57,7 +70,7 @@ def stages_of(source_map: SourceMap) -> dict[int, str]:
     stages = {}
     for at, place in source_map.places.items():
         if place.function is not None:
-            stage = _FUNCTIONS.get(place.function) or _SOURCES.get(place.file)
+            stage = _SOURCES.get(place.file)
             if stage is not None:
                 stages[at] = stage
     return stages

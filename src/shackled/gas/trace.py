@@ -117,7 +117,8 @@ class _Tracer(PyEvmChain):
         frame = Frame(contract, 0, None) if caller is None else caller.call(contract, 0)
         if self.root is None:
             self.root = frame
-        returns: list[tuple[Frame, str]] = []
+        #: Frame and stage of each call that is open, and where it should return to.
+        returns: list[tuple[Frame, str, int]] = []
         costs = frame.costs[stage]
         code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
         start = before = meter.gas_remaining
@@ -145,11 +146,17 @@ class _Tracer(PyEvmChain):
             if halted:
                 break
             if opcode in _JUMPS and at in jumps and code.program_counter != at + 1:
+                target = code.program_counter
                 if jumps[at] == "i":
-                    returns.append((frame, stage))
-                    frame = frame.call(contract, code.program_counter)
-                elif returns:
-                    frame, stage = returns.pop()
+                    returns.append((frame, stage, at + 1))
+                    frame = frame.call(contract, target)
+                elif any(target == back for _, _, back in returns):
+                    back = -1
+                    while back != target:
+                        frame, stage, back = returns.pop()
+                elif returns and mapped.places[target].function not in (None, mapped.entries.get(frame.entry)):
+                    frame, stage, _ = returns.pop()
+                # else the common end of several functions, of the compiler's making, from where it goes on
                 costs = frame.costs[stage]
             countdown -= 1
             if not countdown:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from ..artifacts import artifact
+from ..artifacts import RENDERER, artifact
 from ..chain import Drawing
 from ..errors import RenderError
 from ..scene.codec import Rectangle, encode_scene
@@ -43,7 +43,7 @@ def remove_parts(folder: Path) -> None:
 
 def contracts_digest() -> bytes:
     """A hash of the contracts that draw."""
-    return hashlib.sha256(artifact("Renderer").creation + artifact("Engine").creation).digest()
+    return hashlib.sha256(b"".join(artifact(name).creation for name in RENDERER)).digest()
 
 
 class Store:

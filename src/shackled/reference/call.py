@@ -10,7 +10,7 @@ from .vector import Vector
 from .words import signed
 
 #: Bytes of the struct of a scene before its arrays.
-SCENE_SIZE = 32 * 20
+SCENE_SIZE = 32 * 21
 
 
 class Reader:
@@ -46,8 +46,9 @@ class Reader:
 
 
 def read_call(data: bytes) -> tuple[Scene, Rectangle]:
-    """What the data of a call of `render`, `renderTile` or `renderCounted` ask for: a scene and the part to draw."""
-    is_tile = data[:4] == artifact("Renderer").selectors["renderTile"]
+    """What the data of a call of the Renderer that draws a scene ask for: a scene and the part to draw."""
+    selectors = artifact("Renderer").selectors
+    is_tile = data[:4] in (selectors["renderTile"], selectors["renderTileCounted"])
     reader = Reader(data, 4)
     base = 4 + reader.unsigned()
     if len(data) < (4 + 32 * 5 if is_tile else 4 + 32) or base + SCENE_SIZE > len(data):
@@ -76,7 +77,9 @@ def read_scene(reader: Reader) -> Scene:
     lights = tuple(Light(elements.unsigned(), elements.vector(), elements.unsigned()) for _ in range(count))
     count, elements = reader.elements()
     objects = tuple(read_object(elements.jump()) for _ in range(count))
-    return Scene(canvas, camera, top, bottom, invert, ambient_light, lights, objects)
+    length, content = reader.elements()
+    extensions = reader.data[content.begin : content.begin + length]
+    return Scene(canvas, camera, top, bottom, invert, ambient_light, lights, objects, extensions)
 
 
 def read_object(reader: Reader) -> Object:

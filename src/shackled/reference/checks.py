@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..errors import RenderError
+from .extensions import HEADER, OPAQUE, SIZES, SPOT, spot_numbers
 from .mesh import NORMALS, WIDE
 from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
 
@@ -12,6 +13,14 @@ MAX_SHININESS = 128
 MAX_COORDINATE = 1 << 58
 MAX_EXTENT = 1 << 59
 MAX_COEFFICIENT = 4 << 32
+
+#: Words of the encoding: of a scene before its arrays, and where in it the offsets of those are; of a light; of an
+#: object before its mesh.
+SCENE_LIGHTS = 18
+SCENE_OBJECTS = 19
+SCENE_EXTENSIONS = 20
+LIGHT_WORDS = 5
+OBJECT_WORDS = 15
 
 
 class Reverted(RenderError):
@@ -25,14 +34,14 @@ class Reverted(RenderError):
 
 def check_layout(data: bytes, base: int) -> None:
     """Follows the offsets and lengths of the call before anything is read through them; the scene begins at `base`."""
-    # words of a scene before its arrays, and of a light and an object
-    check_tail(data, base, base + 32 * 18, 32 * 5)
-    objects = check_tail(data, base, base + 32 * 19, 32)
+    check_tail(data, base, base + 32 * SCENE_LIGHTS, 32 * LIGHT_WORDS)
+    objects = check_tail(data, base, base + 32 * SCENE_OBJECTS, 32)
+    check_tail(data, base, base + 32 * SCENE_EXTENSIONS, 1)
     count = word(data, objects)
     objects += 32
     for position in range(objects, objects + 32 * count, 32):
         obj = objects + word(data, position)
-        if obj + 32 * 15 > len(data):
+        if obj + 32 * OBJECT_WORDS > len(data):
             raise Reverted("MalformedScene", position=position)
         check_tail(data, obj, obj, 1)
 
@@ -78,6 +87,7 @@ def check_scene(scene: Scene, tile: Rectangle) -> None:
         check_light(light, index)
     for index, obj in enumerate(scene.objects):
         check_object(obj, index)
+    check_extensions(scene)
 
 
 def check_camera(camera: Camera) -> None:
@@ -131,6 +141,49 @@ def check_object(obj: Object, index: int) -> None:
         raise Reverted("RotationOutOfRange", object=index, x=x, y=y, z=z, w=w)
     if not any(obj.rotation):
         raise Reverted("RotationIsZero", object=index)
+
+
+def check_extensions(scene: Scene) -> None:
+    """Every record, of which lights and objects are checked."""
+    data = scene.extensions
+    place, least = 0, 0
+    while place != len(data):
+        header, content = data[place : place + HEADER], data[place + HEADER :]
+        size = int.from_bytes(header[3:], "big")
+        if len(header) < HEADER or size > len(content):
+            raise Reverted("ExtensionCutOff", position=place)
+        key = int.from_bytes(header[:3], "big")
+        kind, index = key >> 16, key & 0xFFFF
+        if key < least:
+            raise Reverted("ExtensionOrder", kind=kind, index=index)
+        least = key + 1
+        if kind not in SIZES:
+            raise Reverted("UnknownExtension", kind=kind, index=index)
+        if size != SIZES[kind]:
+            raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
+        count = len(scene.lights if kind == SPOT else scene.objects)
+        if index >= count:
+            raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
+        if kind == SPOT:
+            if scene.lights[index].kind != POINT:
+                raise Reverted("SpotIsNoPoint", light=index)
+            check_spot(content[:size], index)
+        else:
+            opacity = int.from_bytes(content[:size], "big")
+            if opacity >= OPAQUE:
+                raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
+        place += HEADER + size
+
+
+def check_spot(content: bytes, index: int) -> None:
+    """All numbers of a spot light."""
+    x, y, z, inner, outer = spot_numbers(content)
+    if not all(map(in_range, (x, y, z))):
+        raise Reverted("SpotOutOfRange", light=index, x=x, y=y, z=z)
+    if not (x or y or z):
+        raise Reverted("SpotWithoutDirection", light=index)
+    if inner > 1 << 32 or outer < -(1 << 32) or inner < outer:
+        raise Reverted("SpotAngles", light=index, cosInner=inner, cosOuter=outer)
 
 
 def check_mesh(header: int, length: int, index: int) -> tuple[int, bool]:

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from .layout import GUARD_BITS, LANES_24
 from .mesh import Mesh
-from .registers import GUARD_BITS, Registers
+from .registers import Registers
 from .vertex_shader import Vertex, clip_coordinates, screen_vertex
-from .words import LANES_24, MASK, divide_signed
+from .words import MASK, divide_signed
 
 #: Near, left, right, top, bottom.
 PLANES = 5

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .layout import ONES
 from .structs import Rectangle
-from .words import MASK, ONES, color_lanes, divide_signed
+from .words import MASK, color_lanes, divide_signed
 
 
 def background(top: int, bottom: int, height: int, tile: Rectangle) -> NDArray[np.uint8]:

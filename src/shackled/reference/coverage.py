@@ -6,11 +6,12 @@ import numpy as np
 
 from . import rasterizer, wireframe
 from .fragment_shader import Fragments, Span
+from .layout import COLOR_BIAS, IS_CROSSING
 from .pipeline import assemble
 from .primitive_assembly import Triangle
-from .registers import IS_CROSSING, Registers
-from .shading import COLOR_BIAS
+from .registers import Registers
 from .structs import WIREFRAME, Rectangle, Scene
+from .uniforms import opacity_of
 
 #: Spans whose fragments are worked out at once.
 AT_ONCE = 4096
@@ -20,7 +21,9 @@ def count(scene: Scene, tile: Rectangle) -> tuple[int, int]:
     """How many triangles of a scene are drawn, and how many pixels of a part of the canvas they cover."""
     registers, _, geometry, drawn = assemble(scene, tile)
     spans: list[Span] = []
-    for part in geometry:
+    for index, part in enumerate(geometry):
+        if opacity_of(scene, index) == 0:
+            continue
         stage = wireframe if part.object.flags & WIREFRAME else rasterizer
         for triangle in part.triangles:
             set_depths(triangle, registers)

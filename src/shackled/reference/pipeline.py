@@ -7,16 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import lighting, primitive_assembly, rasterizer, vertex_shader, wireframe
+from . import primitive_assembly, rasterizer, uniforms, vertex_shader, wireframe
 from .checks import check_scene
 from .compositor import background
+from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
 from .mesh import Mesh, open_mesh
 from .primitive_assembly import Triangle
-from .registers import PIXEL_BIAS, Registers
-from .structs import CULL_BACKFACES, SMOOTH, WIREFRAME, Object, Rectangle, Scene
-from .vector import to_matrix
+from .registers import Registers
+from .structs import CULL_BACKFACES, WIREFRAME, Object, Rectangle, Scene
 from .vertex_shader import Vertex
-from .view import View, look_at
+from .view import View
 
 
 @dataclass(frozen=True)
@@ -48,10 +48,19 @@ class Geometry:
 def draw(scene: Scene, tile: Rectangle) -> Picture:
     """Draws a part of the canvas. Raises Reverted where the contract refuses."""
     registers, view, geometry, triangles = assemble(scene, tile)
-    for part in geometry:
-        lighting.set_object(view, scene, part.object, to_matrix(part.object.rotation), registers)
-        stage = wireframe if part.object.flags & WIREFRAME else rasterizer
-        stage.run(part.triangles, part.mesh, registers)
+    for blended in (False, True):
+        for index, part in enumerate(geometry):
+            uniforms.set_object(view, scene, index, registers)
+            mode = registers.object_mode
+            if (mode & IS_BLENDED != 0) != blended or registers.opacity == 0:
+                continue
+            stage = wireframe if part.object.flags & WIREFRAME else rasterizer
+            if blended:
+                # first which of its surfaces is the nearest, then its colour
+                registers.object_mode = (mode & IS_ORTHOGRAPHIC) | IS_DEPTH_PASS
+                stage.run(part.triangles, part.mesh, registers)
+                registers.object_mode = mode
+            stage.run(part.triangles, part.mesh, registers)
     pixels = registers.image[:, :, ::-1]
     return Picture(~pixels if scene.invert else pixels, triangles, int(np.count_nonzero(registers.depth)))
 
@@ -63,36 +72,19 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
         tile=tile,
         depth=np.zeros((tile.height, tile.width), np.uint64),
         image=background(scene.background_top, scene.background_bottom, scene.canvas.height, tile),
-        column_begin=tile.x + PIXEL_BIAS,
-        column_end=tile.x + tile.width + PIXEL_BIAS,
         band_top=tile.y + PIXEL_BIAS,
         band_bottom=tile.y + tile.height + PIXEL_BIAS,
     )
-    view = look_at(scene.camera, scene.canvas.width, scene.canvas.height, registers)
-    lighting.set_lights(view, scene.lights, registers)
+    view = uniforms.set_frame(scene, registers)
     drawn = 0
     geometry = []
     for index, obj in enumerate(scene.objects):
         mesh = open_mesh(obj.mesh)
-        rotation = to_matrix(obj.rotation)
-        vertex_shader.set_matrix(view, obj, rotation, registers)
-        vertex_shader.set_normal_matrix(view, rotation, registers)
-        set_rounding(tile, bool(obj.flags & WIREFRAME), registers)
-        vertices = vertex_shader.run(mesh, obj.material.shading == SMOOTH, registers)
+        uniforms.set_object(view, scene, index, registers)
+        vertices = vertex_shader.run(mesh, registers)
         cull = bool(obj.flags & CULL_BACKFACES)
         triangles, count = primitive_assembly.run(mesh, vertices, cull, index, registers)
-        drawn += count
+        # what is not seen at all is checked only
+        drawn += count if registers.opacity else 0
         geometry.append(Geometry(obj, mesh, vertices, triangles))
     return registers, view, geometry, drawn
-
-
-def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None:
-    """Which rows and columns a vertex touches.
-
-    For a face these are the pixel centres from it on, for a line the pixels nearest to it.
-    """
-    left, right = (tile.x + PIXEL_BIAS) << 8, (tile.x + tile.width + PIXEL_BIAS) << 8
-    registers.tile_left = left - 128 if wireframe else left - 255
-    registers.tile_span = right - left - 1 if wireframe else right - left + 255
-    registers.round_top = (128 if wireframe else 255) << 128
-    registers.round_bottom = (128 + 256 if wireframe else 255) << 128

@@ -1,4 +1,4 @@
-"""PNG files as contracts/src/studio/Png.sol makes them.
+"""PNG files as contracts/src/encode/Png.sol makes them.
 
 Each pixel becomes a square of `scale` pixels, so that it stays crisp where pictures are enlarged smoothly. The first
 row of each square holds the pixels themselves (filter None), the others are like the row above (filter Up): zeros. A

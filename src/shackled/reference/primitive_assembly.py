@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 from . import clipper
 from .checks import Reverted
+from .layout import SCREEN_PIXEL_ROW_AT
 from .mesh import Mesh
 from .registers import Registers
-from .vertex_shader import Vertex
+from .vertex_shader import BESIDE, Vertex
 
 ALL_EDGES = 7
 
@@ -36,7 +37,11 @@ class Triangle(NamedTuple):
 
 
 def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: Registers) -> tuple[list[Triangle], int]:
-    """The triangles to draw; and of how many faces, which face the viewer, something is inside the guard band."""
+    """The triangles to draw; and how many faces are to be drawn.
+
+    A face is to be drawn if a triangle that clipping leaves of it faces the viewer, or both sides are drawn, and does
+    not lie beyond one border of the tile.
+    """
     triangles: list[Triangle] = []
     clipped = []
     drawn = 0
@@ -47,11 +52,7 @@ def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: R
         if a.must_clip or b.must_clip or c.must_clip:
             clipped.append(face)
             continue
-        area = area_of(a, b, c)
-        if area == 0 or (cull and area < 0):
-            continue
-        drawn += 1
-        append(triangles, a, b, c, ALL_EDGES, face, cull, registers)
+        drawn += append(triangles, a, b, c, ALL_EDGES, face, cull, registers)
     for face in clipped:
         corners, is_outside = clipper.read_face(mesh, vertices, face, registers)
         if is_outside:
@@ -61,25 +62,25 @@ def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: R
             continue
         # numbers only order vertices at the same place, so those of later polygons may go on from here
         fan = [clipper.project(corner, len(vertices) + i, registers) for i, corner in enumerate(corners)]
-        count = len(triangles)
+        is_drawn = False
         for i in range(1, len(fan) - 1):
             edges = corners[i].is_edge << 1
             if i == 1:
                 edges |= corners[0].is_edge
             if i == len(fan) - 2:
                 edges |= corners[i + 1].is_edge << 2
-            append(triangles, fan[0], fan[i], fan[i + 1], edges, face, cull, registers)
-        drawn += len(triangles) > count
+            is_drawn |= append(triangles, fan[0], fan[i], fan[i + 1], edges, face, cull, registers)
+        drawn += is_drawn
     return triangles, drawn
 
 
 def append(
     triangles: list[Triangle], a: Vertex, b: Vertex, c: Vertex, edges: int, face: int, cull: bool, registers: Registers
-) -> None:
-    """Appends a triangle to the list, if it is to be drawn."""
+) -> bool:
+    """Appends a triangle to the list, if it is to be drawn and there is a row that it may cover; returns the former."""
     area = area_of(a, b, c)
-    if area == 0 or (cull and area < 0):
-        return
+    if area == 0 or (cull and area < 0) or a.outside & b.outside & c.outside:
+        return False
     if area < 0:
         b, c = c, b
         edges = (edges >> 2) | (edges & 2) | ((edges & 1) << 2)
@@ -87,10 +88,12 @@ def append(
     while a.word > b.word or a.word > c.word:
         a, b, c = b, c, a
         edges = (edges >> 1) | ((edges & 1) << 2)
-    top = (a.word + registers.round_top) >> 136
-    bottom = (max(b.word, c.word) + registers.round_bottom) >> 136
+    top = (a.word + registers.round_top) >> SCREEN_PIXEL_ROW_AT
+    bottom = (max(b.word, c.word) + registers.round_bottom) >> SCREEN_PIXEL_ROW_AT
     if top < bottom:
-        triangles.append(Triangle(a, b, c, top, bottom, face, edges, a.outside or b.outside or c.outside))
+        beside = (a.outside | b.outside | c.outside) & BESIDE != 0
+        triangles.append(Triangle(a, b, c, top, bottom, face, edges, beside))
+    return True
 
 
 def area_of(a: Vertex, b: Vertex, c: Vertex) -> int:

@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from . import fragment_shader, shading
+from . import blended_spans, fragment_shader, patches, shading
+from .layout import (
+    ACCUMULATOR_FRACTION,
+    ATTRIBUTE_DEPTH_AT,
+    ATTRIBUTE_S,
+    CEIL_48,
+    EDGE_FRACTION,
+    EDGE_SUBPIXEL_SHIFT,
+    GRADIENT_SHIFT,
+    IS_DEEP,
+    IS_PATCHED,
+    LANE_128,
+    RIGHT_EDGE_AT,
+)
 from .mesh import Mesh
 from .primitive_assembly import Triangle
-from .registers import IS_DEEP, Registers
+from .registers import IS_IN_PASSES, Registers
 from .vertex_shader import Vertex
 from .words import MASK, divide_signed
-
-LANE_128 = (1 << 128) - 1
 
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
@@ -19,28 +30,44 @@ def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
     for triangle in triangles:
         if max(triangle.top, registers.band_top) < min(triangle.bottom, registers.band_bottom):
             shading.prepare(triangle, mesh, registers)
+            if registers.mode & IS_IN_PASSES:
+                for spans in spans_of(triangle, registers):
+                    blended_spans.draw(spans, registers)
+                continue
+            if registers.mode & IS_PATCHED:
+                for half in halves_of(triangle, registers):
+                    patches.fill(*half, registers)
+                continue
             for spans in spans_of(triangle, registers):
                 fragment_shader.draw(spans, registers)
 
 
 def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
     """The fragments of a triangle that is prepared."""
+    spans = []
+    for half in halves_of(triangle, registers):
+        spans += fragment_shader.spans_between(*half, registers)
+    yield spans
+
+
+def halves_of(triangle: Triangle, registers: Registers) -> Iterator[tuple[int, int, int, int, int]]:
+    """The parts of a triangle above and below its middle vertex.
+
+    As their edges and slopes (see `set_up`), the accumulator, the first row, and the one after the last.
+    """
     r = registers
     top, bottom = max(triangle.top, r.band_top), min(triangle.bottom, r.band_bottom)
     if top >= bottom:
         return
     edges, slopes, middle = set_up(triangle.a, triangle.b, triangle.c, top, r)
     middle = min(middle, bottom)
-    spans = []
     if top < middle:
-        spans = fragment_shader.spans_between(edges, slopes, r.start, top, middle, r)
+        yield edges, slopes, r.start, top, middle
     else:
         middle = top
     if middle < bottom:
         edges, slopes = lower_edges(edges, slopes, triangle.b, triangle.c, top, middle)
-        start = r.start + r.dy * (middle - top)
-        spans += fragment_shader.spans_between(edges, slopes, start, middle, bottom, r)
-    yield spans
+        yield edges, slopes, r.start + r.dy * (middle - top), middle, bottom
 
 
 def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:
@@ -57,31 +84,31 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
     # from the first vertex to the centres of the row
     y = (top << 8) - a.y
 
-    left, right = divide_signed(xb << 48, yb), divide_signed(xc << 48, yc)
-    column = (x << 40) + 0xFFFFFFFFC000
-    edges = column + (y * left >> 8) + ((column + (y * right >> 8)) << 128)
-    slopes = left + (right << 128)
+    left, right = divide_signed(xb << EDGE_FRACTION, yb), divide_signed(xc << EDGE_FRACTION, yc)
+    column = (x << EDGE_SUBPIXEL_SHIFT) + CEIL_48
+    edges = column + (y * left >> 8) + ((column + (y * right >> 8)) << RIGHT_EDGE_AT)
+    slopes = left + (right << RIGHT_EDGE_AT)
 
-    # change of the barycentric coordinates per pixel, Q32
     area = xc * yb - xb * yc
     start, dx, dy = r.lane_bias, 0, 0
     if r.mode & IS_DEEP:
         # depths by themselves, Q32, for which barycentric coordinates are too coarse
-        z = r.attribute_0 >> 168
-        zb, zc = (r.attribute_1 >> 168) - z, (r.attribute_2 >> 168) - z
+        z = r.attribute_0 >> ATTRIBUTE_DEPTH_AT
+        zb, zc = (r.attribute_1 >> ATTRIBUTE_DEPTH_AT) - z, (r.attribute_2 >> ATTRIBUTE_DEPTH_AT) - z
         dx = divide_signed((zc * yb - zb * yc) << 40, area)
         dy = divide_signed((zb * xc - zc * xb) << 40, area)
-        start += ((z << 32) + ((y * dy - x * dx) >> 8)) << 168
-        r.attribute_0, r.attribute_1, r.attribute_2 = 0, 1 << 56, 1
-    xb, xc = divide_signed(xb << 40, area), divide_signed(xc << 40, area)
-    yb, yc = divide_signed(yb << 40, area), divide_signed(yc << 40, area)
+        start += ((z << 32) + ((y * dy - x * dx) >> 8)) << ATTRIBUTE_DEPTH_AT
+        r.attribute_0, r.attribute_1, r.attribute_2 = 0, ATTRIBUTE_S, 1
+    # change of the barycentric coordinates per pixel, Q29
+    xb, xc = divide_signed(xb << GRADIENT_SHIFT, area), divide_signed(xc << GRADIENT_SHIFT, area)
+    yb, yc = divide_signed(yb << GRADIENT_SHIFT, area), divide_signed(yc << GRADIENT_SHIFT, area)
     delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
     # from the first vertex to the centre of pixel 0 in row `top`
-    start += r.attribute_0 << 32
-    start += delta_b * ((y * xc + x * yc) >> 8) - delta_c * ((x * yb + y * xb) >> 8)
+    start += r.attribute_0 << ACCUMULATOR_FRACTION
+    start += delta_b * ((y * xc + x * yc) >> 5) - delta_c * ((x * yb + y * xb) >> 5)
     r.start = start & MASK
-    r.dx = (delta_c * yb - delta_b * yc + (dx << 168)) & MASK
-    r.dy = (delta_b * xc - delta_c * xb + (dy << 168)) & MASK
+    r.dx = (8 * (delta_c * yb - delta_b * yc) + (dx << ATTRIBUTE_DEPTH_AT)) & MASK
+    r.dy = (8 * (delta_b * xc - delta_c * xb) + (dy << ATTRIBUTE_DEPTH_AT)) & MASK
     return edges & MASK, slopes & MASK, middle
 
 
@@ -91,15 +118,15 @@ def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, m
     is_right = c.word < b.word
     if is_right:
         b, c = c, b
-    slope = divide_signed((c.x - b.x) << 48, c.y - b.y)
-    column = ((b.x << 40) + 0xFFFFFFFFC000 + (((middle << 8) - b.y) * slope >> 8)) & MASK
+    slope = divide_signed((c.x - b.x) << EDGE_FRACTION, c.y - b.y)
+    column = ((b.x << EDGE_SUBPIXEL_SHIFT) + CEIL_48 + (((middle << 8) - b.y) * slope >> 8)) & MASK
     left_slope = upper_slopes & LANE_128
-    left_slope -= left_slope >> 127 << 128
+    left_slope -= left_slope >> 127 << RIGHT_EDGE_AT
     # keep the lane of the other edge
     if is_right:
-        edges = (edges & LANE_128) | (column << 128)
-        slopes = left_slope + (slope << 128)
+        edges = (edges & LANE_128) | (column << RIGHT_EDGE_AT)
+        slopes = left_slope + (slope << RIGHT_EDGE_AT)
     else:
-        edges = (edges >> 128 << 128) | column
+        edges = (edges >> RIGHT_EDGE_AT << RIGHT_EDGE_AT) | column
         slopes = upper_slopes - left_slope + slope
     return edges & MASK, slopes & MASK

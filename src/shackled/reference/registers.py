@@ -11,28 +11,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from .layout import IS_BLENDED, IS_DEPTH_PASS
+from .quadratic import Differences
 from .structs import Rectangle
 
-#: Pixel columns and rows are counted from here, so that everything inside the guard band is positive.
-PIXEL_BIAS = 1536
-#: Bits of a sub-pixel coordinate inside the guard band.
-GUARD_BITS = 20
-
-#: Bits of the mode: how fragments are shaded.
-IS_LINEAR = 1
-IS_LIT = 2
-IS_DIFFUSE = 4
-HAS_SPECULAR = 8
-IS_SMOOTH = 16
-IS_ORTHOGRAPHIC = 32
-IS_BARYCENTRIC = 64
-IS_FLAT = 128
-IS_CROSSING = 256
-IS_BLOCKED = 0x200
-IS_VARYING = 0x400
-IS_STEEP = 0x800
-IS_GREY = 0x1000
-IS_DEEP = 0x2000
+#: Either of the last two, and any of the last three.
+IS_IN_PASSES = IS_BLENDED | IS_DEPTH_PASS
 
 
 @dataclass(slots=True)
@@ -43,17 +27,24 @@ class LightRecord:
     x: int = 0
     y: int = 0
     z: int = 0
+    #: the direction, or the position (below), in the space of the mesh
+    mesh_lanes: int = 0
     mesh_x: int = 0
     mesh_y: int = 0
     mesh_z: int = 0
     color: int = 0
     diffuse: int = 0
-    facing: int = 0
+    n_dot_l: int = 0
+    axis_x: int = 0
+    axis_y: int = 0
+    axis_z: int = 0
+    cos_outer: int = 0
+    cone: int = 0
 
 
 @dataclass(slots=True)
-class Varying:
-    """A vector interpolated by smooth triangles: at the first vertex, Q36, and what it changes to the others, Q20."""
+class Normals:
+    """The normals of a smooth triangle: at the first vertex, Q36, and what they change to the others, Q20."""
 
     at_0: int
     to_1: int
@@ -74,6 +65,8 @@ class Registers:
     depth_scale: int = 0
     tile_left: int = 0
     tile_span: int = 0
+    tile_top: int = 0
+    tile_rows: int = 0
     round_top: int = 0
     round_bottom: int = 0
     band_top: int = 0
@@ -107,8 +100,9 @@ class Registers:
     specular_root: int = 0
     specular_table: list[int] = field(default_factory=list)
     object_mode: int = 0
+    opacity: int = 0
     reach: int = 0
-    varying_reach: int = 0
+    smooth_reach: int = 0
     half_reach: int = 0
 
     # triangle
@@ -118,10 +112,13 @@ class Registers:
     color_2: int = 0
     depth_1: int = 0
     depth_2: int = 0
+    nearest: int = 0
     face_light: int = 0
     face_light_40: int = 0
-    face_facing: int = 0
-    face_facing_slope: int = 0
+    face_n_dot_ray: int = 0
+    face_n_dot_ray_slope: int = 0
+    face_normal: int = 0
+    face_square: int = 0
     face_normal_x: int = 0
     face_normal_y: int = 0
     face_normal_z: int = 0
@@ -132,15 +129,16 @@ class Registers:
     attribute_1: int = 0
     attribute_2: int = 0
     lane_bias: int = 0
-    block: int = 0
+    patch_size: int = 0
+    patch: Differences = field(default_factory=lambda: Differences(0, 0, 0, 0, 0, 0))
+    patch_weight: int = 0
+    #: The row at which the differences of the patch begin.
+    patch_row: int = 0
     start: int = 0
     dx: int = 0
     dy: int = 0
-    normals: Varying = field(default_factory=lambda: Varying(0, 0, 0))
-    reversed: Varying = field(default_factory=lambda: Varying(0, 0, 0))
-    to_light: Varying = field(default_factory=lambda: Varying(0, 0, 0))
-    half: Varying = field(default_factory=lambda: Varying(0, 0, 0))
-    half_reversed: Varying = field(default_factory=lambda: Varying(0, 0, 0))
+    normals: Normals = field(default_factory=lambda: Normals(0, 0, 0))
+    quadratic: Differences = field(default_factory=lambda: Differences(0, 0, 0, 0, 0, 0))
 
     # fragment
     fragment_place_x: int = 0

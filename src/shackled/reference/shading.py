@@ -2,76 +2,163 @@
 
 from __future__ import annotations
 
-from . import lighting
-from .fragment_shader import WEIGHTED_BIAS, product, set_varyings, vertex_highlights
-from .mesh import Mesh
-from .primitive_assembly import Triangle
-from .registers import (
-    IS_BARYCENTRIC,
-    IS_BLOCKED,
+from . import lighting, patches
+from .fragment_light import WEIGHTED_BIAS
+from .fragment_shader import vertex_highlights
+from .layout import (
+    COLOR_BIAS,
     IS_CROSSING,
     IS_DEEP,
     IS_DIFFUSE,
     IS_FLAT,
+    IS_LINEAR,
     IS_LIT,
     IS_ORTHOGRAPHIC,
+    IS_PATCHED,
+    IS_QUADRATIC,
     IS_SMOOTH,
+    IS_SPOT_LIT,
     IS_STEEP,
-    IS_VARYING,
-    Registers,
-    Varying,
+    LANES_24,
+    ONES,
+    OVERFLOW,
+    WEIGHT_BIAS,
 )
-from .roots import sqrt
+from .mesh import Mesh
+from .primitive_assembly import Triangle
+from .registers import IS_IN_PASSES, Normals, Registers
+from .smooth_light import STEEP_LIGHT, UNBOUNDED_LIGHT, set_light
 from .vertex_shader import Vertex
-from .words import LANES_24, ONES, divide
+from .words import divide
 
-#: Biases of the lanes: half a level for colours.
-COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
-WEIGHT_BIAS = 0x100000000000000000000000000000000400000000000004000
-#: Keeps colours between interpolated vectors (Q26) from being rounded below zero: 1/32 of a level.
-VARYING_BIAS = ONES << 21
+#: Keeps colours (Q42) from being rounded below zero: 1/32 of a level.
+SMOOTH_BIAS = (1 << 200) + (ONES << 37)
 #: A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 GUARDS = 0x00400000000000004000000000000040000000000000
 LIMITS = 0x00000003000000000000030000000000000300000000
-#: Bits of a lane that only a colour above 255 has.
-ABOVE_255 = 0xFC000000000000FC000000000000FC0000
 #: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
 #: rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 NEARLY_ABOVE = 0x208 * ONES
+#: Twice the area, in sub-pixels, of 10 pixels.
+SMALL = 20 << 16
 
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     """Chooses the way to shade a triangle, and sets what that way needs."""
+    if registers.object_mode & (IS_SPOT_LIT | IS_IN_PASSES):
+        prepare_exact(triangle, mesh, registers)
+    elif registers.object_mode & IS_SMOOTH:
+        prepare_smooth(triangle, mesh, registers)
+    else:
+        prepare_flat(triangle, mesh, registers)
+
+
+def prepare_flat(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
+    """A flat or unlit triangle."""
     r = registers
     a, b, c = triangle.a, triangle.b, triangle.c
-    attributes_a, attributes_b, attributes_c = a.attributes, b.attributes, c.attributes
-    mode = r.object_mode
-    crossing = IS_CROSSING if triangle.outside else 0
-    if mode & IS_FLAT:
-        mode = lighting.set_face(mesh, triangle.face, r)
-        if mode & IS_DIFFUSE == 0 and r.face_light != ONES << 16:
-            attributes_a = lit(attributes_a, r.face_light)
-            attributes_b = lit(attributes_b, r.face_light)
-            attributes_c = lit(attributes_c, r.face_light)
+    mode, attributes = set_face(triangle, mesh, r)
     if (
         mode & IS_DIFFUSE == 0
-        and is_affine(attributes_a, attributes_b, attributes_c, triangle)
+        and is_affine(attributes, triangle)
         and (mode & IS_LIT == 0 or square_size(a, b, c) < r.reach)
     ):
-        r.lane_bias = COLOR_BIAS
         if mode & IS_LIT:
-            attributes_a = vertex_highlights(attributes_a, a, r)
-            attributes_b = vertex_highlights(attributes_b, b, r)
-            attributes_c = vertex_highlights(attributes_c, c, r)
+            attributes = [
+                vertex_highlights(word, vertex, r) for word, vertex in zip(attributes, (a, b, c), strict=True)
+            ]
         # colours above 255 need a loop that keeps them there
-        saturates = any((word + NEARLY_ABOVE) & ABOVE_255 for word in (attributes_a, attributes_b, attributes_c))
-        r.mode = saturates | crossing
-    else:
-        barycentric(a, b, c, attributes_a, attributes_b, attributes_c, mode | crossing, r)
-        attributes_a = attributes_a >> 168 << 168
-        attributes_b = (attributes_b >> 168 << 168) | (1 << 56)
-        attributes_c = (attributes_c >> 168 << 168) | 1
-    r.attribute_0, r.attribute_1, r.attribute_2 = attributes_a, attributes_b, attributes_c
+        saturates = any((word + NEARLY_ABOVE) & OVERFLOW for word in attributes)
+        set_linear(attributes, saturates | crossing_of(triangle), r)
+        return
+    set_exact(triangle, attributes, mode | crossing_of(triangle), r)
+    r.patch_weight = 0
+    r.patch_size = patch_size(triangle, attributes, r)
+    if r.patch_size == 0:
+        patches.fit_whole(a, b, c, max(triangle.top, r.band_top), r)
+
+
+def prepare_smooth(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
+    """A smooth triangle."""
+    r = registers
+    a, b, c = triangle.a, triangle.b, triangle.c
+    mode = r.object_mode
+    light = set_light(triangle, square_size(a, b, c), r) if mode & IS_QUADRATIC else UNBOUNDED_LIGHT
+    if light == UNBOUNDED_LIGHT:
+        prepare_exact(triangle, mesh, r)
+        return
+    attributes = [vertex.attributes for vertex in (a, b, c)]
+    if light == STEEP_LIGHT and not is_affine(attributes, triangle):
+        mode |= IS_STEEP
+        nearest = max(attributes) >> 168
+        r.nearest = nearest << 24
+        attributes = [weighted(word, nearest) for word in attributes]
+    r.mode = mode | crossing_of(triangle)
+    r.lane_bias = SMOOTH_BIAS
+    r.attribute_0, r.attribute_1, r.attribute_2 = attributes
+
+
+def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
+    """Every fragment is lit for itself, but where nothing but colour changes, and that linearly."""
+    r = registers
+    mode, attributes = set_face(triangle, mesh, r)
+    mode &= ~IS_QUADRATIC
+    if mode & IS_SMOOTH:
+        a, b, c = triangle.a, triangle.b, triangle.c
+        r.normals = Normals(a.normal << 16, b.normal - a.normal, c.normal - a.normal)
+    elif mode & (IS_LIT | IS_IN_PASSES) == 0 and is_affine(attributes, triangle):
+        set_linear(attributes, IS_LINEAR | crossing_of(triangle), r)
+        return
+    set_exact(triangle, attributes, mode | crossing_of(triangle), r)
+
+
+def crossing_of(triangle: Triangle) -> int:
+    """What reaching beyond the borders of the tile means for the mode."""
+    return IS_CROSSING if triangle.outside else 0
+
+
+def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int, list[int]]:
+    """How the fragments of a triangle are lit, and the attribute words.
+
+    Those of a flat face that is lit by highlights only have the rest of the light on them.
+    """
+    attributes = [vertex.attributes for vertex in (triangle.a, triangle.b, triangle.c)]
+    if registers.object_mode & IS_FLAT == 0:
+        return registers.object_mode, attributes
+    mode = lighting.set_face(mesh, triangle.face, registers)
+    if mode & IS_DIFFUSE == 0 and registers.face_light != ONES << 16:
+        attributes = [lit(word, registers.face_light) for word in attributes]
+    return mode, attributes
+
+
+def set_linear(attributes: list[int], mode: int, registers: Registers) -> None:
+    """The registers of a triangle whose colours change linearly."""
+    r = registers
+    r.mode, r.lane_bias = mode, COLOR_BIAS
+    r.attribute_0, r.attribute_1, r.attribute_2 = attributes
+
+
+def set_exact(triangle: Triangle, attributes: list[int], mode: int, registers: Registers) -> None:
+    """The registers of a triangle of which each fragment is lit for itself."""
+    r = registers
+    nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
+    mode |= IS_PATCHED
+    if nearest >= 64 * farthest:
+        mode |= IS_STEEP
+    if nearest >= farthest << 12:
+        mode |= IS_DEEP
+    r.mode, r.lane_bias, r.patch_size = mode, WEIGHT_BIAS, 1
+    color, color_b, color_c = (word & LANES_24 for word in attributes)
+    r.color_0 = (color << 24) + WEIGHTED_BIAS
+    r.color_1, r.color_2 = color_b - color, color_c - color
+    depth_a, depth_b, depth_c = (word >> 168 for word in attributes)
+    r.depth_1, r.depth_2 = depth_b << 8, depth_c << 8
+    r.attribute_0, r.attribute_1, r.attribute_2 = depth_a << 168, depth_b << 168 | 1 << 56, depth_c << 168 | 1
+
+
+def weighted(word: int, nearest: int) -> int:
+    """The attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest."""
+    return (word >> 168 << 168) | ((word & LANES_24) * divide(word >> 168 << 10, nearest) >> 10 & LANES_24)
 
 
 def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
@@ -84,101 +171,60 @@ def double_area(a: Vertex, b: Vertex, c: Vertex) -> int:
     return (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)
 
 
-def square_height(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """The square of about the least height of a triangle, in sub-pixels.
+def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) -> int:
+    """Over how much of a triangle colours are taken as quadratic functions: 0 for all, 1 if each is exact.
 
-    The square of twice its area by that of a longest edge, for which the sum of the squares of two edges stands.
-    """
-    return divide(double_area(a, b, c) ** 2, square_size(a, b, c))
+    Where third derivatives are D at most, such a function is off by D * d^3 / 125 at most in a triangle of longest edge
+    d with exact colours at vertices and middles of edges, and by D * d^3 / 96 in a square of side d with nine of them.
 
+    Perspective: along an edge with depths that differ by k of their mean, the error is
+    k^2/2 * (u - u^3) / (1 + ku) * dc for u from -1 to 1 and colours dc apart: 1.5 levels of 255 for k = 1/6. With
+    greater k, colours times depths are quadratic, which without highlights are even linear, and eight pixels at a time
+    are divided by depths (`patch_weight` is set). There k may be 1/5: 2.2 levels.
 
-def barycentric(
-    a: Vertex,
-    b: Vertex,
-    c: Vertex,
-    attributes_a: int,
-    attributes_b: int,
-    attributes_c: int,
-    mode: int,
-    registers: Registers,
-) -> None:
-    """The registers of a triangle whose fragments are shaded from their barycentric coordinates."""
-    r = registers
-    color = attributes_a & LANES_24
-    nearest = max(attributes_a, attributes_b, attributes_c) >> 168
-    farthest = min(attributes_a, attributes_b, attributes_c) >> 168
-    if mode & IS_SMOOTH:
-        r.normals = spread(a.normal, b.normal, c.normal)
-    # weights of 16 bits bear a division by depths that differ by a factor of two
-    if mode & IS_SMOOTH and nearest < 2 * farthest and set_vectors(a, b, c, r):
-        mode |= IS_VARYING
-        # else the weights of linear interpolation are right to 1/128
-        if 32 * (nearest - farthest) >= farthest and mode & IS_ORTHOGRAPHIC == 0:
-            mode |= IS_STEEP
-        r.color_0 = (color << 16) + VARYING_BIAS
-    else:
-        mode |= IS_BARYCENTRIC
-        if nearest >= 64 * farthest:
-            mode |= IS_STEEP
-        if nearest >= farthest << 12:
-            mode |= IS_DEEP
-        r.color_0 = (color << 24) + WEIGHTED_BIAS
-        if mode & IS_SMOOTH == 0:
-            r.block = block_size(square_height(a, b, c), mode, nearest, farthest, r)
-            if r.block > 1:
-                mode |= IS_BLOCKED
-    r.mode = mode
-    r.lane_bias = WEIGHT_BIAS
-    r.color_1 = (attributes_b & LANES_24) - color
-    r.color_2 = (attributes_c & LANES_24) - color
-    r.depth_1 = attributes_b >> 168 << 8
-    r.depth_2 = attributes_c >> 168 << 8
-
-
-def set_vectors(a: Vertex, b: Vertex, c: Vertex, registers: Registers) -> bool:
-    """Prepares the vectors of a smooth triangle, of which the normals are there.
-
-    Returns whether they turn so little that light and half vectors may be interpolated as well.
+    Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m by the angle of H, which
+    turns by d / 2f over d pixels. Where linear functions are off by 1.5 levels, d^2 = REACH, it is
+    0.03 / sqrt(m) * (d^2 / REACH)^1.5 levels: with d^2 = 16 * REACH it is 2 / sqrt(m), in squares of 11 * REACH as
+    much; and for m below 1/4 it is far from that, since m is 64 levels then.
     """
     r = registers
-    # with several lights most of the work would be done for each of them all the same
-    if len(r.lights) != 1 or square_size(a, b, c) >= r.varying_reach:
-        return False
-    for vertex in (a, b, c):
-        if not vertex.has_varyings:
-            set_varyings(vertex, r)
-    r.reversed = spread(a.reversed, b.reversed, c.reversed)
-    r.half = spread(a.half, b.half, c.half)
-    r.half_reversed = spread(a.half_reversed, b.half_reversed, c.half_reversed)
-    # at most 60 degrees between normals: the square of a change is 1, Q40
-    if changes(r.normals, r.reversed) > 1 << 40 or changes(r.half, r.half_reversed) > r.half_reach:
-        return False
-    r.to_light = spread(a.to_light, b.to_light, c.to_light)
-    return True
+    a, b, c = triangle.a, triangle.b, triangle.c
+    area = double_area(a, b, c)
+    # where a few pixels are covered, these are the fewest colours
+    if area < SMALL or r.mode & IS_STEEP:
+        return 1
+    nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
+    reach = 1 << 60
+    if r.mode & IS_LIT:
+        reach = lighting.point_reach(farthest, r) if r.mode & IS_DIFFUSE else r.reach
+    if r.mode & IS_ORTHOGRAPHIC == 0:
+        bright = brightness(attributes[0] | attributes[1] | attributes[2], r)
+        if 6 * (nearest - farthest) * bright > nearest + farthest:
+            # so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
+            if bright > 8 or 5120 * depth_slope(a, b, c) > farthest * area:
+                return 1
+            r.patch_weight = nearest << 8
+    if max((p.x - q.x) ** 2 + (p.y - q.y) ** 2 for p, q in ((a, b), (a, c), (b, c))) < 16 * reach:
+        return 0
+    for size in (64, 32, 16, 8):
+        if size * size << 16 < 11 * reach:
+            return size
+    return 1
 
 
-def changes(vectors: Varying, reversed_vectors: Varying) -> int:
-    """At least the larger of the squares of the changes of a vector to the second and to the third vertex, Q40."""
-    return product(vectors.to_1, reversed_vectors.to_1) | product(vectors.to_2, reversed_vectors.to_2)
+def depth_slope(a: Vertex, b: Vertex, c: Vertex) -> int:
+    """How much the depth changes along a row, times twice the area."""
+    za, zb, zc = (vertex.attributes >> 168 for vertex in (a, b, c))
+    change = (zc - za) * (b.y - a.y) - (zb - za) * (c.y - a.y)
+    return change if change >= 0 else ~change
 
 
-def spread(a: int, b: int, c: int) -> Varying:
-    """A value of the three vertices as the value at the first, Q36, and the differences to the others, Q20."""
-    return Varying(a << 16, b - a, c - a)
-
-
-def block_size(square: int, mode: int, nearest: int, farthest: int, registers: Registers) -> int:
-    """Pixels over which interpolation between exact colours does little harm.
-
-    Over n pixels of a triangle of height h perspective bends them by dc * dz / 4z * (n / h)^2, times the factor by
-    which colours change faster where it is far: by 6 levels of 255, or 4.5 without light, where black and white, the
-    least height and the farthest end come together. `reach` is the square of the n for one and a half levels of light.
-    """
-    bend = (10 if mode & IS_LIT else 14) * (nearest - farthest) + 1
-    reach = square * farthest // bend * farthest // (nearest + 1)
-    if mode & IS_LIT:
-        reach = min(reach, 2 * (lighting.point_reach(farthest, registers) if mode & IS_DIFFUSE else registers.reach))
-    return min(max(sqrt(reach) >> 8, 1), 16)
+def brightness(colors: int, registers: Registers) -> int:
+    """How many times 255 colours may be at most."""
+    if registers.mode & IS_DIFFUSE == 0:
+        return 1 + ((colors >> 18 | colors >> 74 | colors >> 130) & 63)
+    light = registers.ambient + sum(record.diffuse for record in registers.lights)
+    return 1 + ((light >> 16 | light >> 72 | light >> 128) & 0xFFFF)
 
 
 def lit(word: int, factor: int) -> int:
@@ -194,16 +240,17 @@ def lit(word: int, factor: int) -> int:
     return lanes | (word ^ color)
 
 
-def is_affine(a: int, b: int, c: int, triangle: Triangle) -> bool:
+def is_affine(attributes: list[int], triangle: Triangle) -> bool:
     """Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones.
 
     Or within two in triangles that are large, on which the mean error of a picture depends. With weights w, depths z
     and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where
     w_i w_j is 1/4 at most, and their sum 1/3: three levels, or one and a half, are allowed to each pair alone.
     """
-    least, most = min(a, b, c) >> 168, max(a, b, c) >> 168
+    a, b, c = attributes
+    least, most = min(attributes) >> 168, max(attributes) >> 168
     # colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
-    bright = (a | b | c) & ABOVE_255
+    bright = (a | b | c) & OVERFLOW
     if 33 * (most - least) <= least and not bright:
         return True
     large = is_large(triangle)

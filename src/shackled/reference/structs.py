@@ -90,3 +90,4 @@ class Scene:
     ambient_light: int
     lights: tuple[Light, ...]
     objects: tuple[Object, ...]
+    extensions: bytes

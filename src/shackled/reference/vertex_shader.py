@@ -4,19 +4,43 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .layout import (
+    ATTRIBUTE_DEPTH_AT,
+    CLIP_HALF,
+    CLIP_W_AT,
+    CLIP_X_MASK,
+    CLIP_Y_AT,
+    CLIP_Y_MASK,
+    GUARD_BITS,
+    IS_BESIDE,
+    IS_SMOOTH,
+    MUST_CLIP,
+    SCREEN_COLUMN_AT,
+    SCREEN_ROW_AT,
+)
 from .mesh import Mesh
-from .registers import GUARD_BITS, Registers
-from .structs import Object
-from .vector import Matrix, Vector, scale, subtract
-from .view import View
-from .words import MASK, divide, divide_signed, signed
+from .registers import Registers
+from .words import MASK, divide, signed
 
-#: Bit of a screen word: the triangle must be clipped. The next one: the vertex lies left or right of the tile.
-MUST_CLIP = 1 << 40
+#: Bit of a screen word: the triangle must be clipped. The next ones: the vertex lies left of the tile, right of it,
+#: above it, below it.
+OUTSIDE_SHIFT = 41
+#: Of those, shifted down: left or right.
+BESIDE = IS_BESIDE >> OUTSIDE_SHIFT
 
-#: Biases of the lanes of clip coordinates: x * distance and y * distance.
-CLIP_BIAS = (1 << 95) | (1 << 191)
-LANE_96 = (1 << 96) - 1
+
+@dataclass(frozen=True, slots=True)
+class SmoothVertex:
+    """What smooth shading with one light keeps of a vertex: see `smooth_light`.
+
+    Normal and direction to the light, their lanes the other way round, the half vector, and that the other way round.
+    """
+
+    is_bounded: bool
+    reversed: int
+    light: int
+    half: int
+    half_reversed: int
 
 
 @dataclass(slots=True)
@@ -24,8 +48,8 @@ class Vertex:
     """The record of a vertex.
 
     word: the screen word, by which vertices are ordered: sub-pixel row in bits 128.., sub-pixel column in bits 64..83,
-        flags in bits 40 and 41, number of the record.
-    x, y: column and row. outside: whether the column is left or right of the tile.
+        flags in bits 40 to 44, number of the record.
+    x, y: column and row. outside: whether it is left (1), right (2) of, above (4), below (8) the tile.
     attributes: depth in bits 168.., red at 112, green at 56, blue at 0 (Q10); the outcode where `must_clip`.
     normal: in camera space, signed lanes of Q20 at bits 0, 85 and 170.
     The rest keeps what does not depend on the face.
@@ -35,55 +59,18 @@ class Vertex:
     x: int
     y: int
     must_clip: bool
-    outside: bool
+    outside: int
     attributes: int
     normal: int = 0
-    #: flat highlights: the length of the ray, Q24, and a denominator for each light
-    ray_length: int = 0
-    places: list[int] = field(default_factory=list)
-    #: smooth shading with one light: normal and direction to the light, their lanes the other way round, the half
-    #: vector, and that the other way round
-    has_varyings: bool = False
-    reversed: int = 0
-    to_light: int = 0
-    half: int = 0
-    half_reversed: int = 0
+    #: flat highlights: half vector in the space of the mesh, Q32, and its square, Q40, for each light
+    halves: list[tuple[int, int]] = field(default_factory=list)
+    smooth: SmoothVertex | None = None
 
 
-def set_matrix(view: View, obj: Object, rotation: Matrix, registers: Registers) -> None:
-    """Combines rotation, scale, position, camera and viewport into one affine map from the mesh to clip coordinates."""
-    registers.matrix_x = clip_lanes(view, scale(view.to_camera(rotation[0]), obj.scale), 0)
-    registers.matrix_y = clip_lanes(view, scale(view.to_camera(rotation[1]), obj.scale), 0)
-    registers.matrix_z = clip_lanes(view, scale(view.to_camera(rotation[2]), obj.scale), 0)
-    registers.matrix_t = clip_lanes(view, view.to_camera(subtract(obj.position, view.eye)), 1 << 32) + CLIP_BIAS
-
-
-def clip_lanes(view: View, v: Vector, w: int) -> int:
-    """One column of the map; `w` is its last coordinate."""
-    if not view.orthographic:
-        w = v[2]
-    x = ((view.focal * v[0]) >> 32) + ((view.center_x * w) >> 1)
-    y = ((view.focal * v[1]) >> 32) + ((view.center_y * w) >> 1)
-    return x + (y << 96) + (v[2] << 192)
-
-
-def set_normal_matrix(view: View, rotation: Matrix, registers: Registers) -> None:
-    """The rotation of normals into camera space, divided by the 511 of the mesh format."""
-    registers.normal_x = normal_lanes(view.to_camera(rotation[0]))
-    registers.normal_y = normal_lanes(view.to_camera(rotation[1]))
-    registers.normal_z = normal_lanes(view.to_camera(rotation[2]))
-
-
-def normal_lanes(v: Vector) -> int:
-    """A vector as lanes of Q20."""
-    x, y, z = (divide_signed(component, 4096 * 511) for component in v)
-    return x + (y << 85) + (z << 170)
-
-
-def run(mesh: Mesh, smooth: bool, registers: Registers) -> list[Vertex]:
+def run(mesh: Mesh, registers: Registers) -> list[Vertex]:
     """The records of all vertices of a mesh."""
     vertices = project(mesh, registers)
-    if smooth and mesh.normals is not None:
+    if registers.object_mode & IS_SMOOTH and mesh.normals is not None:
         for vertex, (x, y, z) in zip(vertices, mesh.normals, strict=True):
             vertex.normal = (x * registers.normal_x + y * registers.normal_y + z * registers.normal_z) & MASK
     return vertices
@@ -95,19 +82,19 @@ def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
     near, orthographic, depth_scale = registers.near, registers.frame_is_orthographic, registers.depth_scale
     for number, (position, (red, green, blue)) in enumerate(zip(mesh.positions, mesh.colors, strict=True)):
         clip = clip_of(position, registers)
-        distance = signed(clip) >> 192
+        distance = signed(clip) >> CLIP_W_AT
         if orthographic:
             divisor = 1 << 32
             depth = depth_scale - (distance >> 8)
         else:
             divisor = distance
             depth = divide(depth_scale, distance)
-        clip_x = (clip & LANE_96) - (1 << 95)
-        clip_y = ((clip >> 96) & LANE_96) - (1 << 95)
+        clip_x = (clip & CLIP_X_MASK) - CLIP_HALF
+        clip_y = ((clip >> CLIP_Y_AT) & CLIP_Y_MASK) - CLIP_HALF
         x, y = divide(clip_x, divisor), divide(clip_y, divisor)
         if distance >= near and (x | y) >> GUARD_BITS == 0:
             color = (red << 122) | (green << 66) | (blue << 10)
-            vertices.append(screen_vertex(x, y, number, (depth << 168) | color, registers))
+            vertices.append(screen_vertex(x, y, number, (depth << ATTRIBUTE_DEPTH_AT) | color, registers))
         else:
             # outcode: nearer than the near plane, left, right, above, below the guard band
             divisor <<= GUARD_BITS
@@ -118,22 +105,31 @@ def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
                 | (clip_y < 0) << 3
                 | (clip_y >= divisor) << 4
             )
-            vertices.append(Vertex(MUST_CLIP | number, 0, 0, True, False, outcode))
+            vertices.append(Vertex(MUST_CLIP | number, 0, 0, True, 0, outcode))
     return vertices
 
 
 def screen_vertex(x: int, y: int, number: int, attributes: int, registers: Registers) -> Vertex:
     """The record of a vertex inside the guard band."""
-    outside = (x - registers.tile_left) & MASK > registers.tile_span
-    return Vertex((y << 128) | (x << 64) | (outside << 41) | number, x, y, False, outside, attributes)
+    left, top = registers.tile_left, registers.tile_top
+    outside = (x < left) | (x > left + registers.tile_span) << 1
+    outside |= (y < top) << 2 | (y > top + registers.tile_rows) << 3
+    return Vertex(
+        (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT) | (outside << OUTSIDE_SHIFT) | number,
+        x,
+        y,
+        False,
+        outside,
+        attributes,
+    )
 
 
 def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int, int, int, int]:
     """The clip coordinates and the colour of a vertex."""
     clip = clip_of(mesh.positions[number], registers)
     red, green, blue = mesh.colors[number]
-    x, y = (clip & LANE_96) - (1 << 95), ((clip >> 96) & LANE_96) - (1 << 95)
-    return x, y, signed(clip) >> 192, (red << 122) | (green << 66) | (blue << 10)
+    x, y = (clip & CLIP_X_MASK) - CLIP_HALF, ((clip >> CLIP_Y_AT) & CLIP_Y_MASK) - CLIP_HALF
+    return x, y, signed(clip) >> CLIP_W_AT, (red << 122) | (green << 66) | (blue << 10)
 
 
 def clip_of(position: list[int], registers: Registers) -> int:

@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .checks import Reverted
-from .registers import PIXEL_BIAS, Registers
+from .layout import PIXEL_BIAS
+from .registers import Registers
 from .roots import sqrt
 from .structs import ORTHOGRAPHIC, Camera
 from .vector import Vector, cross, dot, normalize, subtract
@@ -56,7 +57,7 @@ def look_at(camera: Camera, width: int, height: int, registers: Registers) -> Vi
     )
     registers.frame_is_orthographic = orthographic
     registers.near = camera.near
-    registers.depth_scale = 1 << 54 if orthographic else camera.near << 55
+    registers.depth_scale = 1 << 54 if orthographic else camera.near << 54
     set_rays(view, width, height, registers)
     return view
 

@@ -8,24 +8,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from . import fragment_shader, shading
+from . import blended_spans, fragment_shader, patches, shading
+from .layout import CEIL_48, EDGE_FRACTION, IS_PATCHED, RIGHT_EDGE_AT
 from .mesh import Mesh
 from .primitive_assembly import Triangle
-from .registers import Registers
+from .registers import IS_IN_PASSES, Registers
 from .vertex_shader import Vertex
 from .words import divide_signed
-
-#: Makes the integer part of a Q48 number the next integer, as far as such numbers are exact.
-CEIL = 0xFFFFFFFFC000
 
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
     """Draws the edges of the triangles of a list."""
     for triangle in triangles:
         if triangle.bottom > registers.band_top and triangle.top < registers.band_bottom:
-            shading.prepare(triangle, mesh, registers)
+            shading.prepare_exact(triangle, mesh, registers)
             for spans in spans_of(triangle, registers):
-                fragment_shader.draw(spans, registers)
+                if registers.mode & IS_IN_PASSES:
+                    blended_spans.draw(spans, registers)
+                elif registers.mode & IS_PATCHED:
+                    patches.draw_exact(spans, registers)
+                else:
+                    fragment_shader.draw(spans, registers)
 
 
 def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
@@ -71,14 +74,14 @@ def steep_line(
     if top >= bottom:
         return []
     below = (top << 8) - p.y
-    slope = divide_signed(dx << 48, dy)
+    slope = divide_signed(dx << EDGE_FRACTION, dy)
     step = (1 << 40) // dy
     # the pixel whose middle is nearest
     left = (p.x << 40) + ((below * slope) >> 8) + (1 << 47)
     r.dx = 0
     r.dy = change * step
     attribute += change * ((below * step) >> 8)
-    edges, slopes = left + ((left + (1 << 48)) << 128), slope + (slope << 128)
+    edges, slopes = left + ((left + (1 << EDGE_FRACTION)) << RIGHT_EDGE_AT), slope + (slope << RIGHT_EDGE_AT)
     return fragment_shader.spans_between(edges, slopes, attribute, top, bottom, r)
 
 
@@ -96,19 +99,19 @@ def flat_line(
     r.dx = change * step
     r.dy = 0
     attribute += change * ((-p.x * step) >> 8)
-    slope = divide_signed(dx << 48, dy)
+    slope = divide_signed(dx << EDGE_FRACTION, dy)
     spans: list[fragment_shader.Span] = []
     for row in range(top, bottom):
         left, right = begin, end
         if dy != 0:
             # where the line enters and leaves the row
-            enter = (p.x << 40) + ((((row << 8) - 128 - p.y) * slope) >> 8) + CEIL
-            leave = (enter + slope) >> 48
+            enter = (p.x << 40) + ((((row << 8) - 128 - p.y) * slope) >> 8) + CEIL_48
+            leave = (enter + slope) >> EDGE_FRACTION
             enter >>= 48
             if dy < 0:
                 enter, leave = leave, enter
             left, right = max(left, enter), min(right, leave)
         if left < right:
-            edges = (left << 48) | (right << 176)
+            edges = (left << EDGE_FRACTION) | (right << 176)
             spans += fragment_shader.spans_between(edges, 0, attribute, row, row + 1, r)
     return spans

@@ -8,11 +8,6 @@ from __future__ import annotations
 
 MASK = (1 << 256) - 1
 
-#: Three lanes of 56 bits: blue at bit 0, green at 56, red at 112.
-ONES = 0x10000000000000100000000000001
-LANES_24 = 0xFFFFFF * ONES
-LANES_32 = 0xFFFFFFFF * ONES
-
 
 def signed(word: int) -> int:
     """The word (any integer, taken modulo 2^256) as a two's complement number."""

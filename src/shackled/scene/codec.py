@@ -5,6 +5,7 @@ Every field of the structs is a word of 32 bytes; lengths and coefficients are Q
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -21,8 +22,14 @@ from .scene import Scene
 ONE = 1 << 32
 
 PROJECTIONS = {"perspective": 0, "orthographic": 1}
-LIGHTS = {"directional": 0, "point": 1}
+LIGHTS = {"directional": 0, "point": 1, "spot": 1}
 SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
+#: Kinds of records in contracts/src/scene/Extensions.sol.
+SPOT = 1
+OPACITY = 2
+#: Opacities are multiples of this.
+OPACITY_STEP = 2.0**-24
+
 CULL_BACKFACES = 1
 WIREFRAME = 2
 
@@ -69,8 +76,31 @@ def encode_scene(scene: Scene) -> bytes:
     )
     lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
     objects = _array_of_dynamic([_object(o) for o in scene.objects])
-    first = len(head) + 2 * 32
-    return head + _words([first, first + len(lights)]) + lights + objects
+    more = extensions(scene)
+    first = len(head) + 3 * 32
+    offsets = [first, first + len(lights), first + len(lights) + len(objects)]
+    return head + _words([*offsets]) + lights + objects + _bytes(more)
+
+
+def extensions(scene: Scene) -> bytes:
+    """What is not in the structs: records that ascend by kind and index."""
+    records = []
+    for index, light in enumerate(scene.lights):
+        if light.direction is not None:
+            cosines = [math.cos(math.radians(angle)) for angle in (light.inner_angle, light.outer_angle)]
+            numbers = [*_q32(light.direction), *_q32(cosines)]
+            records.append(_record(SPOT, index, b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)))
+    for index, thing in enumerate(scene.objects):
+        opacity = round(thing.opacity / OPACITY_STEP)
+        if opacity < 1 / OPACITY_STEP:
+            records.append(_record(OPACITY, index, opacity.to_bytes(4, "big")))
+    return b"".join(records)
+
+
+def _record(kind: int, index: int, content: bytes) -> bytes:
+    if index >> 16:
+        raise InputError(f"objects that are not opaque must be among the first 65,536 of a scene, not number {index:,}")
+    return bytes([kind]) + index.to_bytes(2, "big") + len(content).to_bytes(2, "big") + content
 
 
 def _light(light: Light) -> bytes:
@@ -89,7 +119,11 @@ def _object(o: Object) -> bytes:
         CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe,
     ]
     mesh = pack(o.mesh, smooth=material.shading == "smooth")
-    return _words([32 * (1 + len(fields)), *fields, len(mesh)]) + mesh + bytes(-len(mesh) % 32)
+    return _words([32 * (1 + len(fields)), *fields]) + _bytes(mesh)
+
+
+def _bytes(content: bytes) -> bytes:
+    return _words([len(content)]) + content + bytes(-len(content) % 32)
 
 
 def _array_of_dynamic(items: list[bytes]) -> bytes:

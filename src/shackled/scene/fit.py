@@ -65,8 +65,14 @@ def fit(scene: Scene) -> Scene:
         objects = [_move_object(o, scene, factor) for o in scene.objects]
     camera = replace(camera, up=_direction(camera.up))
     objects = [replace(o, rotation=_direction(o.rotation)) for o in objects]
-    lights = [replace(w, vector=_direction(w.vector)) if w.kind == "directional" else w for w in lights]
+    lights = [_pointed(light) for light in lights]
     return replace(scene, objects=objects, camera=camera, lights=lights)
+
+
+def _pointed(light: Light) -> Light:
+    if light.kind == "directional":
+        return replace(light, vector=_direction(light.vector))
+    return light if light.direction is None else replace(light, direction=_direction(light.direction))
 
 
 def _check_view(camera: Camera) -> None:
@@ -106,7 +112,7 @@ def _is_exact(scene: Scene) -> bool:
     if camera.projection == "orthographic":
         lengths.append(camera.half_height)
     for light in scene.lights:
-        if light.kind == "point":
+        if light.kind != "directional":
             lengths += list(_floats(light.vector))
     reach = max(map(abs, lengths))
     for o in scene.objects:
@@ -130,7 +136,7 @@ def _factor(scene: Scene) -> float:
     if scene.camera.projection == "orthographic":
         reach = max(reach, scene.camera.half_height)
     for light in scene.lights:
-        if light.kind == "point":
+        if light.kind != "directional":
             # what is a thousand times as far as all that is seen may come nearer: its direction hardly changes
             distance = float(np.abs(_floats(light.vector) - _floats(scene.camera.eye)).max())
             reach = max(reach, min(distance, 1024 * reach))

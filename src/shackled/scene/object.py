@@ -19,6 +19,8 @@ class Object(Value):
 
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1).
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
+    opacity: what it hides of what is behind it, 0..1. Objects of less than 1 are drawn after the others, in the order
+        of the scene, each over what is there; the farthest should come first.
     """
 
     mesh: Mesh
@@ -28,6 +30,7 @@ class Object(Value):
     material: Material = field(default_factory=Material)
     cull: bool = True
     wireframe: bool = False
+    opacity: float = 1.0
 
     def __post_init__(self) -> None:
         instance(self.mesh, "the mesh of an object", Mesh)
@@ -37,3 +40,4 @@ class Object(Value):
         if not self.rotation.any():  # type: ignore[union-attr]
             raise InputError("the rotation of an object must not be the zero quaternion; the identity is (0, 0, 0, 1)")
         object.__setattr__(self, "scale", number(self.scale, "the scale of an object", 0))
+        object.__setattr__(self, "opacity", number(self.opacity, "the opacity of an object", 0, 1))

@@ -1,4 +1,4 @@
-"""Meshes as they are kept on chain, in half of the bytes or less; contracts/src/studio/CompactMesh.sol has the format.
+"""Meshes as they are kept on chain, in half of the bytes or less; contracts/src/mesh/CompactMesh.sol has the format.
 
 Faces are told in an order in which each mostly shares an edge with one of the last few, and vertices in the order in
 which faces first name them: so a face takes one byte, and a vertex as many bits as its numbers need. A mesh comes back

@@ -24,7 +24,7 @@ STUDIO = "Studio"
 
 #: What one contract can hold: 24,576 bytes, less the instruction in front that stops all calls.
 MAX_PART = 24575
-#: The first bytes of what is kept (contracts/src/studio/Kept.sol, Meshes.sol, Studio.sol).
+#: The first bytes of what is kept (contracts/src/mesh/Kinds.sol).
 PARTS = 0x13
 POINTED = 0x12
 SCENE = 0x20
@@ -35,7 +35,7 @@ MATERIAL = "(uint256,int256,int256,int256,uint256)"
 OBJECT = f"(bytes,{VECTOR},(int256,int256,int256,int256),int256,{MATERIAL},uint256)"
 SCENE_STRUCT = (
     f"((uint256,uint256),({VECTOR},{VECTOR},{VECTOR},uint256,int256,int256),(uint256,uint256),uint256,uint256,"
-    f"(uint256,{VECTOR},uint256)[],{OBJECT}[])"
+    f"(uint256,{VECTOR},uint256)[],{OBJECT}[],bytes)"
 )
 
 
@@ -156,9 +156,9 @@ def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
     from eth_abi.abi import decode, encode
 
     (struct,) = decode([SCENE_STRUCT], (32).to_bytes(32, "big") + encode_scene(scene))
-    *others, objects = struct
+    *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
-    return encode([SCENE_STRUCT], [(*others, pointed)])[32:]
+    return encode([SCENE_STRUCT], [(*others, pointed, extensions)])[32:]
 
 
 def compress_zeros(data: bytes) -> bytes:

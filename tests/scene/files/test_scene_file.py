@@ -44,6 +44,12 @@ color = "#ffcc00"
 kind = "point"
 position = [4, 5, 6]
 
+[[lights]]
+kind = "spot"
+position = [7, 8, 9]
+direction = [0, -1, 0]
+outer_angle = 30
+
 [[objects]]
 mesh = "parts/one.obj"
 position = [1, 2, 3]
@@ -52,6 +58,7 @@ scale = 2.5
 color = [9, 8, 7]
 cull = false
 wireframe = true
+opacity = 0.25
 material = { shading = "smooth", ambient = 0.1, diffuse = 0.2, specular = 0.3, shininess = 44 }
 
 [[objects]]
@@ -93,7 +100,9 @@ def test_every_key_in_toml(folder: Path) -> None:
     assert [(light.kind, np.asarray(light.vector).tolist(), light.color) for light in scene.lights] == [
         ("directional", [-1, 2, 3], (255, 204, 0)),
         ("point", [4, 5, 6], (255, 255, 255)),
+        ("spot", [7, 8, 9], (255, 255, 255)),
     ]
+    assert scene.lights[2] == Light("spot", (7, 8, 9), (255, 255, 255), (0, -1, 0), 0, 30)
     first, second = scene.objects
     assert np.asarray(first.position).tolist() == [1, 2, 3]
     np.testing.assert_allclose(rotate(first.rotation, [0, 1, 0]), [0, 0, 1], atol=1e-12)
@@ -101,6 +110,7 @@ def test_every_key_in_toml(folder: Path) -> None:
     assert np.asarray(first.mesh.colors).tolist() == [[9, 8, 7]] * 3
     assert (first.scale, first.cull, first.wireframe) == (2.5, False, True)
     assert first.material == Material("smooth", 0.1, 0.2, 0.3, 44)
+    assert (first.opacity, second.opacity) == (0.25, 1)
     assert (second.scale, second.cull, second.wireframe, second.material) == (1, True, False, Look().material)
 
 
@@ -116,11 +126,15 @@ def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
     smooth = Mesh(mesh.positions, mesh.faces, mesh.colors, [[0, 0, 1], [0, 1, 0], [1, 0, 0]])
     scene = Scene(
         [
-            Object(mesh, (1, 2, 3), (0.1, 0.2, 0.3, 0.4), 0.7, Material("unlit"), False, True),
+            Object(mesh, (1, 2, 3), (0.1, 0.2, 0.3, 0.4), 0.7, Material("unlit"), False, True, 0.125),
             Object(smooth, material=Material("smooth", 1, 2, 3, 4)),
         ],
         Camera((1, 2, 3), (4, 5, 6), (0, 0, 1), "orthographic", 12.5, -3),
-        [Light("point", (1, 2, 3), (4, 5, 6)), Light("directional", (1, 0, 0))],
+        [
+            Light("point", (1, 2, 3), (4, 5, 6)),
+            Light("directional", (1, 0, 0)),
+            Light("spot", (1, 2, 3), (4, 5, 6), (0, 0, 1), 7, 8),
+        ],
         Background((1, 2, 3), (4, 5, 6)),
         (10, 20, 30),
         True,
@@ -189,11 +203,11 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
          "objects[0] must be a table with keys of mesh, position, rotation, scale, color, material, cull, "
-         "wireframe, not 3"),
+         "wireframe, opacity, not 3"),
         ({"objects": [{}]}, "objects[0] needs a mesh: the path of a file, relative to the scene file"),
         ({"objects": [thing(colour="#fff")]},
          "unknown key 'colour' in objects[0]; known are mesh, position, rotation, scale, "
-         "color, material, cull, wireframe"),
+         "color, material, cull, wireframe, opacity"),
         ({"objects": [thing(color="#fff")]},
          "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, not '#fff'"),
         ({"objects": [thing(color=[1, 2, 256])]},
@@ -222,7 +236,17 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"size": 0}, "size: the width of a picture must be from 1 to 2048 pixels, not 0"),
         ({"size": [10, 3000]}, "size: the height of a picture must be from 1 to 2048 pixels, not 3000"),
         ({"size": "big"}, "size must be a number of pixels, or width and height, not 'big'"),
-        ({"lights": [{"kind": "spot"}]}, "lights[0].kind must be one of directional, point, not 'spot'"),
+        ({"lights": [{"kind": "area"}]}, "lights[0].kind must be one of directional, point, spot, not 'area'"),
+        ({"lights": [{"kind": "spot"}]}, "lights[0] must have a position, as its kind is spot"),
+        ({"lights": [{"kind": "spot", "position": [0, 0, 0]}]}, "lights[0] must have a direction, as its kind is spot"),
+        (
+            {"lights": [{"kind": "point", "position": [0, 0, 0], "outer_angle": 3}]},
+            "lights[0] must have no outer_angle, as its kind is point",
+        ),
+        (
+            {"lights": [{"kind": "spot", "position": [0, 0, 0], "direction": [0, 1, 0], "inner_angle": 50}]},
+            "lights[0]: the inner_angle of a spot light, 50, must not be above its outer_angle, 45",
+        ),
         ({"lights": [{"kind": "point", "direction": [1, 0, 0]}]},
          "lights[0] must have a position, and no direction, as its kind is point"),
         ({"lights": [{"kind": "directional", "direction": [0, 0, 0]}]},

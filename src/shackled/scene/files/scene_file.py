@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ...errors import InputError
 from ..background import Background
 from ..camera import DEFAULT_HALF_HEIGHT, Camera, half_height_of
-from ..light import Light
+from ..light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, Light, LightKind
 from ..material import Material, Shading
 from ..mesh import Mesh
 from ..object import Object
@@ -27,8 +27,8 @@ from .table import Table, about
 _SCENE = ("size", "invert", "ambient_light", "background", "camera", "lights", "objects")
 _BACKGROUND = ("top", "bottom")
 _CAMERA = ("eye", "target", "up", "azimuth", "elevation", "margin", "projection", "fov", "half_height", "near")
-_LIGHT = ("kind", "direction", "position", "color")
-_OBJECT = ("mesh", "position", "rotation", "scale", "color", "material", "cull", "wireframe")
+_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle")
+_OBJECT = ("mesh", "position", "rotation", "scale", "color", "material", "cull", "wireframe", "opacity")
 _MESH = ("positions", "faces", "colors", "normals")
 _MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -82,14 +82,7 @@ def write_scene(scene: Scene, path: str | Path) -> None:
             "half_height": camera.half_height,
             **({} if camera.near is None else {"near": camera.near}),
         },
-        "lights": [
-            {
-                "kind": light.kind,
-                "direction" if light.kind == "directional" else "position": light.vector,
-                "color": light.color,
-            }
-            for light in scene.lights
-        ],
+        "lights": [_lamp(light) for light in scene.lights],
         "objects": [
             {
                 "mesh": {
@@ -104,12 +97,22 @@ def write_scene(scene: Scene, path: str | Path) -> None:
                 "material": {key: getattr(thing.material, key) for key in _MATERIAL},
                 "cull": thing.cull,
                 "wireframe": thing.wireframe,
+                "opacity": thing.opacity,
             }
             for thing in scene.objects
         ],
     }
     text = json.dumps(document, default=lambda array: array.tolist())
     Path(path).write_text(text + "\n", encoding="ascii")
+
+
+def _lamp(light: Light) -> dict[str, Any]:
+    """The keys of a light."""
+    place = "direction" if light.kind == "directional" else "position"
+    keys = {"kind": light.kind, place: light.vector, "color": light.color}
+    if light.kind == "spot":
+        keys |= {name: getattr(light, name) for name in ("direction", "inner_angle", "outer_angle")}
+    return keys
 
 
 def _size(table: Table) -> tuple[int, int]:
@@ -186,13 +189,24 @@ def _camera(keys: Table, look: Look, objects: list[Object]) -> Camera:
 
 def _light(value: object, where: str) -> Light:
     keys = Table(value, where, _LIGHT)
-    directional = keys.choice("kind", "", ("directional", "point")) == "directional"
-    needed, other = ("direction", "position") if directional else ("position", "direction")
+    kind = cast(LightKind, keys.choice("kind", "", LIGHT_KINDS))
+    color = keys.color("color", _WHITE)
+    if kind == "spot":
+        for needed in ("position", "direction"):
+            if needed not in keys:
+                raise InputError(f"{where} must have a {needed}, as its kind is spot")
+        place, direction = keys.numbers("position", (0, 0, 0)), keys.numbers("direction", (0, 0, 0))
+        inner, outer = keys.number("inner_angle", INNER_ANGLE), keys.number("outer_angle", OUTER_ANGLE)
+        with about(where):
+            return Light(kind, place, color, direction, inner, outer)
+    needed, other = ("direction", "position") if kind == "directional" else ("position", "direction")
     if needed not in keys or other in keys:
-        raise InputError(f"{where} must have a {needed}, and no {other}, as its kind is {keys.get('kind')}")
-    vector, color = keys.numbers(needed, (0, 0, 0)), keys.color("color", _WHITE)
+        raise InputError(f"{where} must have a {needed}, and no {other}, as its kind is {kind}")
+    for name in ("inner_angle", "outer_angle"):
+        if name in keys:
+            raise InputError(f"{where} must have no {name}, as its kind is {kind}")
     with about(where):
-        return Light("directional", vector, color) if directional else Light("point", vector, color)
+        return Light(kind, keys.numbers(needed, (0, 0, 0)), color)
 
 
 def _object(value: object, where: str, folder: Path) -> Object:
@@ -203,8 +217,9 @@ def _object(value: object, where: str, folder: Path) -> Object:
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
     material = _material(keys)
     cull, wireframe = keys.flag("cull", True), keys.flag("wireframe", False)
+    opacity = keys.number("opacity", 1)
     with about(where):
-        return Object(mesh, position, rotation, scale, material, cull, wireframe)
+        return Object(mesh, position, rotation, scale, material, cull, wireframe, opacity)
 
 
 def _mesh(keys: Table, where: str, folder: Path) -> Mesh:

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {COMPACT, CompactMesh} from "./CompactMesh.sol";
-import {Kept} from "./Kept.sol";
-import {StudioErrors} from "./StudioErrors.sol";
-
-// The first byte of a mesh says what it is: 0 to 3, packed as in `Mesh.sol`; COMPACT; or POINTED.
-
-/// @dev 20 bytes: the address at which a mesh is kept.
-uint256 constant POINTED = 0x12;
+import {Kept} from "../studio/Kept.sol";
+import {CompactMesh} from "./CompactMesh.sol";
+import {COMPACT, LAST_FORMAT, POINTED, kindOf} from "./Kinds.sol";
+import {MeshErrors} from "./MeshErrors.sol";
 
 /// @notice Meshes in any of their forms.
 library Meshes {
@@ -20,9 +15,9 @@ library Meshes {
             data = Kept.read(pointerIn(data));
             kind = kindOf(data);
         }
-        if (kind <= NORMALS + WIDE) return data;
+        if (kind <= LAST_FORMAT) return data;
         if (kind == COMPACT) return CompactMesh.expand(data);
-        revert StudioErrors.UnknownMesh(kind);
+        revert MeshErrors.UnknownMesh(kind);
     }
 
     /// @notice What stands for a mesh that is kept.
@@ -30,13 +25,8 @@ library Meshes {
         return abi.encodePacked(uint8(POINTED), pointer);
     }
 
-    /// @notice The first byte; 256 if there is none.
-    function kindOf(bytes memory data) internal pure returns (uint256) {
-        return data.length == 0 ? 256 : uint8(data[0]);
-    }
-
     function pointerIn(bytes memory data) private pure returns (address pointer) {
-        if (data.length != 21) revert StudioErrors.UnknownMesh(POINTED);
+        if (data.length != 21) revert MeshErrors.UnknownMesh(POINTED);
         assembly ("memory-safe") {
             pointer := shr(96, mload(add(data, 33)))
         }

@@ -4,9 +4,9 @@ pragma solidity 0.8.37;
 import {Fixed} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
-import {Scene, Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
+import {Camera, ORTHOGRAPHIC} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import "./Registers.sol";
+import "../pipeline/Registers.sol";
 
 /// @notice Where the camera stands and how it projects. Camera space is x to the right, y down, z forward, as the rows of a picture
 /// run; the distance of a point is its z.
@@ -42,7 +42,7 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
 
         store(FRAME_IS_ORTHOGRAPHIC, view_.orthographic ? 1 : 0);
         storeSigned(NEAR, camera.near.raw());
-        storeSigned(DEPTH_SCALE, view_.orthographic ? int256(1 << 54) : camera.near.raw() << 55);
+        storeSigned(DEPTH_SCALE, view_.orthographic ? int256(1 << 54) : camera.near.raw() << 54);
         setRays(view_, width, height);
     }
 }

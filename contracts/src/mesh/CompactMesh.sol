@@ -2,7 +2,8 @@
 pragma solidity 0.8.37;
 
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
-import {StudioErrors} from "./StudioErrors.sol";
+import {LAST_FORMAT} from "./Kinds.sol";
+import {MeshErrors} from "./MeshErrors.sol";
 
 // A mesh in half of the bytes of `Mesh.sol` or less, all numbers big-endian:
 //
@@ -24,8 +25,6 @@ import {StudioErrors} from "./StudioErrors.sol";
 // vertex v it adds, so that it is (q, v, p): 0 the next new one, 1 to 14 one of the last that were new or told, 1 being the latest, 15
 // one that is told: a byte says how far it lies behind the newest vertex, or is 255 and two bytes have its number. If the upper half is
 // 15, the face takes no edge, and the three lowest bits say of each corner whether it is told (1) or new (0), the first corner lowest.
-
-uint256 constant COMPACT = 0x10;
 
 /// @notice Meshes as they are kept, back to the format of `Mesh.sol`.
 library CompactMesh {
@@ -64,7 +63,7 @@ library CompactMesh {
     /// @notice The mesh in the format of `Mesh.sol`. Whether its faces name vertices that are there is left to the renderer.
     function expand(bytes memory data) internal pure returns (bytes memory mesh) {
         unchecked {
-            if (data.length < HEADER) revert StudioErrors.CompactMeshLength(HEADER, data.length);
+            if (data.length < HEADER) revert MeshErrors.CompactMeshLength(HEADER, data.length);
             Plan memory plan;
             (uint256 n, uint256 m, uint256 e) = (number(data, 2, 2), number(data, 4, 2), number(data, 6, 2));
             uint256 colors = number(data, 20, 2);
@@ -72,7 +71,7 @@ library CompactMesh {
             open(plan, data, format, colors);
             uint256 codes = HEADER + 3 * colors;
             uint256 expected = codes + m + e + (n * plan.bits + 7) / 8;
-            if (data.length != expected) revert StudioErrors.CompactMeshLength(expected, data.length);
+            if (data.length != expected) revert MeshErrors.CompactMeshLength(expected, data.length);
             uint256 target;
             assembly ("memory-safe") {
                 let begin := add(data, 32)
@@ -108,9 +107,9 @@ library CompactMesh {
             (uint256 x, uint256 y, uint256 z) = (number(data, 8, 1), number(data, 9, 1), number(data, 10, 1));
             uint256 color = number(data, 22, 1);
             uint256 normal = number(data, 23, 1);
-            bool known = format <= NORMALS + WIDE && x <= lane && y <= lane && z <= lane && color <= 24 && normal <= 10
+            bool known = format <= LAST_FORMAT && x <= lane && y <= lane && z <= lane && color <= 24 && normal <= 10
                 && (normal == 0) == (format & NORMALS == 0) && (colors == 0 || 1 << color < 2 * colors);
-            if (!known) revert StudioErrors.CompactMeshHeader();
+            if (!known) revert MeshErrors.CompactMeshHeader();
             plan.bits = x + y + z + color + 3 * normal;
             (plan.maskX, plan.maskY, plan.maskZ) = ((1 << x) - 1, (1 << y) - 1, (1 << z) - 1);
             (plan.maskColor, plan.maskNormal) = ((1 << color) - 1, (1 << normal) - 1);
@@ -212,7 +211,10 @@ library CompactMesh {
                     continue
                 }
                 // the two corners (q, p) of the face that left the edge
-                let edge := shr(224, mload(sub(target, byte(shr(4, code), 0x04060a0c101216181c1e2224282a2e0000000000000000000000000000000000))))
+                let edge := shr(
+                    224,
+                    mload(sub(target, byte(shr(4, code), 0x04060a0c101216181c1e2224282a2e0000000000000000000000000000000000)))
+                )
                 code := and(code, 15)
                 switch code
                 case 0 {
@@ -236,7 +238,7 @@ library CompactMesh {
             }
             wrong := or(gt(met, n), iszero(eq(told, add(end, e))))
         }
-        if (wrong) revert StudioErrors.CompactMeshFaces();
+        if (wrong) revert MeshErrors.CompactMeshFaces();
         return target;
     }
 }

@@ -13,8 +13,8 @@ library Crc32 {
     uint256 private constant TERMS = 0x0000000000010000010100000000000100000001010100010100010100010101;
     /// @dev P, its bits in the order in which bytes are sent.
     uint256 private constant P = 0xedb88320;
-    /// @dev What the terms of the sparse multiple span, and room for a word at either end.
-    uint256 private constant SPAN = 332;
+    /// @dev What the terms of the sparse multiple span, and room for two words at the beginning and one at the end.
+    uint256 private constant SPAN = 364;
 
     /// @notice The checksum of `size` bytes at `data`, at least 4. Memory from the free memory pointer on is used and left as it is.
     function sum(uint256 data, uint256 size) internal pure returns (uint256 crc) {
@@ -24,7 +24,8 @@ library Crc32 {
             mcopy(begin, data, size)
             // the checksum begins with ones, and the message is followed by four bytes of zeros
             mstore(begin, xor(mload(begin), shl(224, 0xffffffff)))
-            for {} gt(sub(end, begin), SPAN) { begin := add(begin, 32) } {
+            // two words in each turn
+            for {} gt(sub(end, begin), SPAN) { begin := add(begin, 64) } {
                 let word := mload(begin)
                 let place := add(begin, 145)
                 mstore(place, xor(mload(place), word))
@@ -33,6 +34,15 @@ library Crc32 {
                 place := add(begin, 211)
                 mstore(place, xor(mload(place), word))
                 place := add(begin, 300)
+                mstore(place, xor(mload(place), word))
+                word := mload(add(begin, 32))
+                place := add(begin, 177)
+                mstore(place, xor(mload(place), word))
+                place := add(begin, 215)
+                mstore(place, xor(mload(place), word))
+                place := add(begin, 243)
+                mstore(place, xor(mload(place), word))
+                place := add(begin, 332)
                 mstore(place, xor(mload(place), word))
             }
             // byte by byte, until one word is left

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {BlendedSpans} from "./pipeline/BlendedSpans.sol";
+import {ExactSpans} from "./pipeline/ExactSpans.sol";
+import {LinearSpans} from "./pipeline/LinearSpans.sol";
+import {Pipeline} from "./pipeline/Pipeline.sol";
+import {SmoothLight} from "./pipeline/SmoothLight.sol";
+import {SmoothShading} from "./pipeline/SmoothShading.sol";
+import {Wireframe} from "./pipeline/Wireframe.sol";
+import "./pipeline/Registers.sol";
+
+/// @title FragmentEngine: from vertices to pixels, for what is lit fragment by fragment.
+/// @notice Smooth surfaces, wires, everything that is not opaque or lit by spot lights; else as `Engine`.
+contract FragmentEngine is Pipeline, Wireframe {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        SmoothShading.prepare(a, b, c, crossing);
+    }
+
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
+        if (load(MODE) & IS_QUADRATIC != 0) SmoothLight.drawParts(edges, rows, row);
+        else drawBothParts(edges, rows, row);
+    }
+
+    function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
+        uint256 mode = load(MODE);
+        if (mode & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, rowAt(row), rowAt(end));
+        else if (mode & IS_PATCHED != 0) ExactSpans.rows(edges, slopes, start, rowAt(row), rowAt(end));
+        else LinearSpans.general(edges, slopes, start, row, end);
+    }
+
+    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {
+        Wireframe.drawWires(list, end);
+    }
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Renderer} from "./Renderer.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
+
+/// @title WithRenderer: a contract that has pictures drawn.
+abstract contract WithRenderer is SceneErrors {
+    /// @notice What draws.
+    Renderer public immutable renderer;
+
+    /// @notice The address has no code.
+    error NoRenderer(address renderer);
+
+    constructor(Renderer renderer_) {
+        if (address(renderer_).code.length == 0) revert NoRenderer(address(renderer_));
+        renderer = renderer_;
+    }
+}

@@ -1,0 +1,536 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Base64} from "./Base64.sol";
+import {Bmp} from "./Bmp.sol";
+import {Crc32} from "./Crc32.sol";
+import {LITERALS, PngCode} from "./PngCode.sol";
+import {PngErrors} from "./PngErrors.sol";
+import {Text} from "./Text.sol";
+
+/// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
+/// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
+///
+/// The first row of each square holds the pixels themselves (filter None), the others are like the row above (filter Up): zeros. A pixel
+/// is written as its three bytes and a match that repeats them until another one comes. All bytes have codes of nine bits, so that eight
+/// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
+library Png {
+    uint256 internal constant MAX_SCALE = 8;
+    /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
+    /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
+    uint256 private constant DATA = 75;
+    /// @dev The filter of rows that are as the row above.
+    uint256 private constant UP = 2;
+    /// @dev The largest prime below 2^16, for the checksum Adler-32.
+    uint256 private constant ADLER = 65521;
+    /// @dev Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
+    uint256 private constant PART = 256;
+    /// @dev Bits of the codes of a byte and of a pixel.
+    uint256 private constant LITERAL_SIZE = 9;
+    uint256 private constant PIXEL_SIZE = 27;
+    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, eight pixels of which so many are
+    /// not like those at their left are all written.
+    uint256 private constant SHORT_MATCH = 5;
+    uint256 private constant MANY = 4;
+    /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
+    uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
+
+    // Checksums take 30 bytes, ten pixels, at a time, as lanes of 16 bits of which the lowest is not used.
+    uint256 private constant WORD = 30;
+    /// @dev As many bytes of a row are summed in lanes of 16 bits: 14 words, and 510 * (1 + 2 + .. + 14) < 2^16.
+    uint256 private constant SUMMED = 420;
+    uint256 private constant LANES = 0x00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff00ff0000;
+    /// @dev The lower half of each byte; of each four bits; of each two.
+    uint256 private constant LOW_4 = 0x0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f;
+    uint256 private constant LOW_2 = 0x3333333333333333333333333333333333333333333333333333333333333333;
+    uint256 private constant LOW_1 = 0x5555555555555555555555555555555555555555555555555555555555555555;
+    uint256 private constant HALF_LANES = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
+    uint256 private constant ALL_LANES = 0xffffffff;
+
+    /// @dev What has been written so far.
+    /// @param target Where the next byte belongs.
+    /// @param count How many of its bits are there already, 0..7. The others are zeros.
+    struct Stream {
+        uint256 target;
+        uint256 count;
+    }
+
+    /// @dev The rows of a picture.
+    /// @param source The row that is read last, in the bitmap.
+    /// @param row Where one is copied to, with a word before it and four behind it.
+    /// @param size Bytes of its pixels.
+    /// @param height How many there are.
+    /// @param gaps See `gapsOf`.
+    /// @param between Bits that stand between two rows.
+    /// @param betweenSize How many.
+    /// @param lanes Where sums of each 30th byte stand, see `sumRow`.
+    struct Rows {
+        uint256 source;
+        uint256 row;
+        uint256 size;
+        uint256 height;
+        uint256 gaps;
+        uint256 between;
+        uint256 betweenSize;
+        uint256 lanes;
+    }
+
+    /// @notice A PNG file of a bitmap.
+    /// @param bmp 24 bits a pixel, as the renderer makes it.
+    /// @param scale How many pixels each becomes in both directions, 1..8.
+    function encode(bytes memory bmp, uint256 scale) internal pure returns (bytes memory png) {
+        unchecked {
+            (uint256 width, uint256 height) = sizeOf(bmp);
+            if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
+            Rows memory rows;
+            (rows.size, rows.height) = (3 * width, height);
+            Stream memory stream;
+            {
+                bytes memory tables = PngCode.tables();
+                rows.gaps = gapsOf(tables, width < PART ? width : PART, scale);
+                (rows.between, rows.betweenSize) = betweenRows(stream, tables, rows.size, scale);
+            }
+            bytes memory header = PngCode.header();
+            rows.lanes = room(128);
+            // a word before it, and what is added behind it
+            rows.row = room(rows.size + 192) + 32;
+            assembly ("memory-safe") {
+                // behind the length and the header, the row that is lowest
+                mstore(rows, add(bmp, 86))
+                png := mload(0x40)
+                // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
+                let sides := or(shl(32, mul(width, scale)), mul(height, scale))
+                mstore(add(png, 32), or(or(shl(128, 0x89504e470d0a1a0a0000000d49484452), shl(64, sides)), shl(24, 0x0802000000)))
+                mstore(add(png, 64), shl(168, 0x0000000000494441547801))
+                let target := add(png, DATA)
+                mcopy(target, add(header, 32), mload(header))
+                target := add(target, mload(header))
+                mstore(target, 0)
+                mstore(stream, target)
+                mstore(add(stream, 0x20), 0)
+            }
+            (uint256 rest, uint256 restSize) = PngCode.headerRest();
+            put(stream, rest << (256 - restSize), restSize);
+            (uint256 second, uint256 first) = writeRows(stream, rows, scale);
+            finish(png, stream, second, first);
+            writeSums(png);
+        }
+    }
+
+    /// @notice A PNG file of a bitmap as a `data:` URI.
+    function dataURI(bytes memory bmp, uint256 scale) internal pure returns (string memory uri) {
+        unchecked {
+            // this stands before the file, since zeros are written behind that
+            string memory prefix = "data:image/png;base64,";
+            bytes memory png = encode(bmp, scale);
+            uint256 file;
+            uint256 begin;
+            assembly ("memory-safe") {
+                file := add(png, 32)
+                // the encoder needs zeros behind the file
+                mstore(add(file, mload(png)), 0)
+                uri := add(mload(0x40), 32)
+                begin := add(uri, 32)
+            }
+            uint256 end = Base64.encode(file, png.length, Text.write(begin, prefix));
+            assembly ("memory-safe") {
+                mstore(uri, sub(end, begin))
+                mstore(end, 0)
+                mstore(0x40, and(add(end, 63), not(31)))
+            }
+        }
+    }
+
+    /// @dev The sides of a bitmap in pixels, each 1..65535.
+    function sizeOf(bytes memory bmp) private pure returns (uint256 width, uint256 height) {
+        unchecked {
+            if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
+            uint256 kind;
+            uint256 planesAndBits;
+            assembly ("memory-safe") {
+                kind := shr(240, mload(add(bmp, 32)))
+                // bytes 18 to 21 and 22 to 25 are the sides, the lowest byte first
+                let sides := mload(add(bmp, 50))
+                width := or(byte(0, sides), shl(8, byte(1, sides)))
+                height := or(byte(4, sides), shl(8, byte(5, sides)))
+                planesAndBits := and(shr(160, sides), 0xffffffff)
+            }
+            bool known = kind == 0x424d && planesAndBits == 0x01001800 && width != 0 && height != 0;
+            if (!known || bmp.length != Bmp.HEADER + Bmp.stride(width) * height) revert PngErrors.NotABitmap();
+        }
+    }
+
+    /// @dev Memory of its own, up to a whole word, with zeros.
+    function room(uint256 size) private pure returns (uint256 place) {
+        assembly ("memory-safe") {
+            place := mload(0x40)
+            mstore(0x40, and(add(add(place, size), 31), not(31)))
+            calldatacopy(place, calldatasize(), size)
+        }
+    }
+
+    /// @dev The codes of matches that repeat a pixel to the end of its square, and 0, 1, 2, ... pixels farther, 48 bytes apart. In the
+    /// lowest byte the number of bits, of which the first is uppermost; that of no match is before them.
+    function gapsOf(bytes memory tables, uint256 width, uint256 scale) private pure returns (uint256 gaps) {
+        unchecked {
+            gaps = room(48 * width + 48);
+            uint256 length = 3 * scale - 3;
+            for (uint256 place = gaps; width != 0; --width) {
+                (uint256 text, uint256 size) = matchCode(tables, length);
+                length += 3 * scale;
+                assembly ("memory-safe") {
+                    place := add(place, 48)
+                    mstore(place, or(shl(sub(256, size), text), size))
+                }
+            }
+        }
+    }
+
+    /// @dev The code of a match of up to 32 times the longest length at the distance of a pixel, and its bits.
+    function matchCode(bytes memory tables, uint256 length) private pure returns (uint256 text, uint256 size) {
+        unchecked {
+            if (length == 0) return (0, 0);
+            uint256 longest = PngCode.LONGEST_SIZE * ((length - 3) / 258);
+            assembly ("memory-safe") {
+                text := shr(232, mload(add(add(tables, 32), mul(3, mod(sub(length, 3), 258)))))
+            }
+            size = text & 31;
+            text = (text >> 5) | ((PngCode.LONGEST & ((1 << longest) - 1)) << size);
+            size += longest;
+        }
+    }
+
+    /// @dev What stands between the pixels of two rows: rows that are like the row above, the filter of the next one.
+    /// @param stream Writes it.
+    /// @param rowSize Bytes of the pixels of a row that is not enlarged.
+    /// @return begin Where its bits are.
+    /// @return size How many.
+    function betweenRows(Stream memory stream, bytes memory tables, uint256 rowSize, uint256 scale)
+        private
+        pure
+        returns (uint256 begin, uint256 size)
+    {
+        unchecked {
+            // after the filter and the first zero, matches at the distance of a byte; none where pixels are not enlarged
+            uint256 zeros = scale == 1 ? 3 : rowSize * scale - 1;
+            uint256 longest = (zeros - 3) / 258;
+            uint256 last = 3 + (zeros - 3) % 258;
+            (uint256 text, uint256 textSize) = matchCode(tables, last);
+            text ^= last > 258 ? PngCode.OTHER_DISTANCES : 1;
+            // the bits of a row, and room for the word in which the last ones are written
+            begin = room((scale * (2 * LITERAL_SIZE + longest * PngCode.LONGEST_SIZE + textSize)) / 8 + 64);
+            stream.target = begin;
+            for (uint256 copies = scale - 1; copies != 0; --copies) {
+                put(stream, ((((PngCode.LITERAL + UP) << LITERAL_SIZE) | PngCode.LITERAL)) << (256 - 2 * LITERAL_SIZE), 2 * LITERAL_SIZE);
+                for (uint256 k = longest; k != 0; --k) {
+                    put(stream, PngCode.LONGEST_ZEROS << (256 - PngCode.LONGEST_SIZE), PngCode.LONGEST_SIZE);
+                }
+                put(stream, text << (256 - textSize), textSize);
+            }
+            put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
+            size = 8 * (stream.target - begin) + stream.count;
+        }
+    }
+
+    /// @return second What the bytes before compression add to Adler-32: its second sum.
+    /// @return first Its first sum.
+    function writeRows(Stream memory stream, Rows memory rows, uint256 scale) private pure returns (uint256 second, uint256 first) {
+        unchecked {
+            uint256 rowSize = 1 + rows.size * scale;
+            // bytes that are not written yet
+            uint256 rest = rowSize * rows.height * scale;
+            uint256 stride = Bmp.stride(rows.size / 3);
+            uint256 source = rows.source + stride * rows.height;
+            (uint256 size, uint256 row) = (rows.size, rows.row);
+            second = rest;
+            first = 1;
+            put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
+            for (uint256 y = rows.height; y != 0; --y) {
+                source -= stride;
+                assembly ("memory-safe") {
+                    mcopy(row, source, size)
+                    // zeros, for the sums
+                    calldatacopy(add(row, size), calldatasize(), 96)
+                }
+                {
+                    (uint256 sum, uint256 places) = sumRow(row, size, rows.lanes);
+                    second += scale * ((rest - 1) * sum - 3 * scale * places) - 3 * (scale * (scale - 1) / 2) * sum;
+                    first += scale * sum;
+                }
+                assembly ("memory-safe") {
+                    // 32 more pixels like the last one
+                    let end := add(row, size)
+                    let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), 0x000001000001000001000001000001000001000001000001))
+                    mstore(end, pixels)
+                    mstore(add(end, 24), pixels)
+                    mstore(add(end, 48), pixels)
+                    mstore(add(end, 72), pixels)
+                }
+                for (uint256 begin; begin < size; begin += 3 * PART) {
+                    writePart(stream, rows.gaps, row + begin, row + (size - begin < 3 * PART ? size : begin + 3 * PART));
+                }
+                putBits(stream, rows.between, y == 1 ? rows.betweenSize - LITERAL_SIZE : rows.betweenSize);
+                second += UP * ((scale - 1) * rest - rowSize * (scale * (scale - 1) / 2));
+                rest -= rowSize * scale;
+            }
+            first += UP * (scale - 1) * rows.height;
+            second -= scale * withinWords(rows.lanes, scale);
+        }
+    }
+
+    /// @dev Sums over a row, behind which 90 bytes are zeros.
+    /// @param lanes Where four words are added to: sums of each 30th byte, counted from the upper end. The bytes with an odd number, then
+    /// those with an even one, in lanes of 32 bits: first every other one from the second on, then every other one from the first on.
+    /// @return sum Of its bytes.
+    /// @return places Of its bytes, each times the number of the first of the ten pixels in its word.
+    function sumRow(uint256 row, uint256 size, uint256 lanes) private pure returns (uint256 sum, uint256 places) {
+        assembly ("memory-safe") {
+            let last := add(row, size)
+            for { let pixel := 0 } lt(row, last) { pixel := add(pixel, 140) } {
+                let odd := 0
+                let even := 0
+                // after each word, what was summed before it, too: the first of n words counts n times
+                let sums := 0
+                let first := row
+                let end := add(row, SUMMED)
+                if gt(end, last) { end := last }
+                for {} lt(row, end) { row := add(row, 60) } {
+                    odd := add(odd, and(mload(row), LANES))
+                    even := add(even, and(shr(8, mload(row)), LANES))
+                    sums := add(sums, add(odd, even))
+                    odd := add(odd, and(mload(add(row, WORD)), LANES))
+                    even := add(even, and(shr(8, mload(add(row, WORD))), LANES))
+                    sums := add(sums, add(odd, even))
+                }
+                let count := div(sub(row, first), 3)
+                mstore(lanes, add(mload(lanes), and(odd, HALF_LANES)))
+                let place := add(lanes, 0x20)
+                mstore(place, add(mload(place), and(shr(16, odd), HALF_LANES)))
+                place := add(lanes, 0x40)
+                mstore(place, add(mload(place), and(even, HALF_LANES)))
+                place := add(lanes, 0x60)
+                mstore(place, add(mload(place), and(shr(16, even), HALF_LANES)))
+                even := add(odd, even)
+                even := mod(add(and(even, HALF_LANES), and(shr(16, even), HALF_LANES)), ALL_LANES)
+                sums := mod(add(and(sums, HALF_LANES), and(shr(16, sums), HALF_LANES)), ALL_LANES)
+                sum := add(sum, even)
+                places := add(places, sub(mul(add(pixel, count), even), mul(10, sums)))
+            }
+        }
+    }
+
+    /// @dev Of all bytes the sum, each times the first of its places in a row as it is written, counted from the ten pixels in its word.
+    function withinWords(uint256 lanes, uint256 scale) private pure returns (uint256 sum) {
+        unchecked {
+            for (uint256 i; i != WORD; ++i) {
+                uint256 word;
+                assembly ("memory-safe") {
+                    // odd or even; the first, third, ... of them or the second, fourth, ...
+                    word := mload(add(lanes, sub(sub(0x60, mul(0x40, and(i, 1))), mul(0x20, and(shr(1, i), 1)))))
+                }
+                // blue comes first in a bitmap, red in a PNG file
+                sum += (3 * scale * (i / 3) + 2 - i % 3) * ((word >> (224 - 32 * (i / 4))) & ALL_LANES);
+            }
+        }
+    }
+
+    /// @dev Writes the pixels of a part of a row, with the match of each.
+    /// @param first Its first pixel. What is before it may change.
+    /// @param end Behind its last one; up to seven pixels more must be like that.
+    function writePart(Stream memory stream, uint256 gaps, uint256 first, uint256 end) private pure {
+        assembly ("memory-safe") {
+            // the match of the pixel before, of this code, and a pixel
+            function write(target, count, code, pixel) -> newTarget, newCount {
+                // blue, green and red, of eight bits each, to red, green and blue of nine
+                let text := shr(232, mload(pixel))
+                text := or(
+                    or(shl(247, and(text, 0xff)), and(shl(230, text), 0x003fc00000000000000000000000000000000000000000000000000000000000)),
+                    shl(229, shr(16, text))
+                )
+                text := add(text, shl(229, LITERALS))
+                let size := and(code, 0xff)
+                mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, or(code, shr(size, text)))))
+                newCount := add(add(count, size), PIXEL_SIZE)
+                newTarget := add(target, shr(3, newCount))
+                newCount := and(newCount, 7)
+            }
+
+            let target := mload(stream)
+            let count := mload(add(stream, 0x20))
+            // the pixel that was written last: its match comes when it is known how far it goes
+            let last := first
+            target, count := write(target, count, 0, first)
+            mcopy(sub(first, 3), first, 3)
+            // eight pixels that begin before this one may all be written
+            let full := mul(sub(end, 23), eq(byte(31, mload(add(gaps, 48))), SHORT_MATCH))
+            for {} lt(first, end) {} {
+                // most pixels are like those at their left, often 32 together
+                let left := sub(first, 3)
+                if iszero(
+                    or(
+                        or(xor(mload(first), mload(left)), xor(mload(add(first, 32)), mload(add(left, 32)))),
+                        xor(mload(add(first, 64)), mload(add(left, 64)))
+                    )
+                ) {
+                    first := add(first, 96)
+                    continue
+                }
+                for { let behind := add(first, 96) } lt(first, behind) { first := add(first, 24) } {
+                    let change := shr(64, xor(mload(first), mload(sub(first, 3))))
+                    if iszero(change) { continue }
+                    // how many are not
+                    let changed := or(change, or(shr(8, change), shr(16, change)))
+                    changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
+                    changed := mod(and(shr(8, changed), 0x0000000000000000000001000001000001000001000001000001000001000001), 0xffffff)
+                    if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
+                        // red, green and blue, from 24 bits to 32 bits
+                        let pixels := shr(64, mload(first))
+                        pixels := or(
+                            or(shl(16, and(pixels, BYTE_OF_PIXEL)), and(pixels, shl(8, BYTE_OF_PIXEL))),
+                            and(shr(16, pixels), BYTE_OF_PIXEL)
+                        )
+                        pixels := or(
+                            and(pixels, 0x0000000000000000000000000000000000000000ffffffffffffffffffffffff),
+                            shl(32, and(pixels, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000))
+                        )
+                        pixels := or(
+                            and(pixels, 0x00000000000000000000ffffffffffff00000000000000000000ffffffffffff),
+                            shl(16, and(pixels, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000))
+                        )
+                        pixels := or(
+                            and(pixels, 0x0000000000ffffff0000000000ffffff0000000000ffffff0000000000ffffff),
+                            shl(8, and(pixels, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000))
+                        )
+                        // the match of the pixel before, then 9 bits for each channel
+                        pixels := add(pixels, and(pixels, 0x00ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff00))
+                        pixels := add(pixels, and(pixels, 0x01fe000001fe000001fe000001fe000001fe000001fe000001fe000001fe0000))
+                        pixels := add(
+                            pixels,
+                            mul(
+                                or(shr(224, mload(add(gaps, 48))), LITERALS),
+                                0x0000000100000001000000010000000100000001000000010000000100000001
+                            )
+                        )
+                        switch sub(first, last)
+                        case 3 {
+                            // all of them: a word and what is pushed out of it
+                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, pixels)))
+                            target := add(target, 32)
+                            mstore(target, shl(sub(256, count), pixels))
+                        }
+                        default {
+                            if xor(first, last) { target, count := write(target, count, mload(add(gaps, shl(4, sub(first, last)))), first) }
+                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, shl(32, pixels))))
+                            target := add(target, 28)
+                        }
+                        last := add(first, 21)
+                        continue
+                    }
+                    let place := first
+                    switch shr(96, change)
+                    case 0 {
+                        change := shl(160, change)
+                        place := add(place, 12)
+                    }
+                    default { change := shl(64, change) }
+                    for {} change {
+                        change := shl(24, change)
+                        place := add(place, 3)
+                    } {
+                        if shr(232, change) {
+                            target, count := write(target, count, mload(add(gaps, shl(4, sub(place, last)))), place)
+                            last := place
+                        }
+                    }
+                }
+            }
+            // the last match
+            let code := mload(add(gaps, shl(4, sub(end, last))))
+            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, xor(code, and(code, 0xff)))))
+            count := add(count, and(code, 0xff))
+            mstore(stream, add(target, shr(3, count)))
+            mstore(add(stream, 0x20), and(count, 7))
+        }
+    }
+
+    /// @dev Writes as many bits as there are at an address, the first of which is uppermost.
+    function putBits(Stream memory stream, uint256 begin, uint256 size) private pure {
+        unchecked {
+            for (; size > 248; size -= 248) {
+                uint256 word;
+                assembly ("memory-safe") {
+                    word := shl(8, shr(8, mload(begin)))
+                    begin := add(begin, 31)
+                }
+                put(stream, word, 248);
+            }
+            uint256 last;
+            assembly ("memory-safe") {
+                last := and(mload(begin), not(shr(size, not(0))))
+            }
+            put(stream, last, size);
+        }
+    }
+
+    /// @dev Writes up to 248 bits, the first of which is uppermost.
+    function put(Stream memory stream, uint256 text, uint256 size) private pure {
+        assembly ("memory-safe") {
+            let target := mload(stream)
+            let count := mload(add(stream, 0x20))
+            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, text)))
+            count := add(count, size)
+            mstore(stream, add(target, shr(3, count)))
+            mstore(add(stream, 0x20), and(count, 7))
+        }
+    }
+
+    /// @dev Ends the block, turns the bits of each byte to the order of deflate, and adds the checksum Adler-32. After that the
+    /// length of the file is right, and its last twelve bytes are free.
+    function finish(bytes memory png, Stream memory stream, uint256 second, uint256 first) private pure {
+        unchecked {
+            (uint256 end, uint256 endSize) = PngCode.end();
+            put(stream, end << (256 - endSize), endSize);
+            second %= ADLER;
+            first %= ADLER;
+            assembly ("memory-safe") {
+                let target := add(mload(stream), iszero(iszero(mload(add(stream, 0x20)))))
+                for { let place := add(png, DATA) } lt(place, target) { place := add(place, 32) } {
+                    let word := mload(place)
+                    word := or(and(shr(4, word), LOW_4), shl(4, and(word, LOW_4)))
+                    word := or(and(shr(2, word), LOW_2), shl(2, and(word, LOW_2)))
+                    word := or(and(shr(1, word), LOW_1), shl(1, and(word, LOW_1)))
+                    mstore(place, word)
+                }
+                mstore(target, shl(224, or(shl(16, second), first)))
+                // the sum of this chunk (4 bytes), and the chunk IEND (12 bytes)
+                target := add(target, 20)
+                mstore(png, sub(target, add(png, 32)))
+                mstore(0x40, and(add(target, 31), not(31)))
+            }
+        }
+    }
+
+    /// @dev Fills in the size of the data and the sums of the chunks, and adds the chunk IEND.
+    function writeSums(bytes memory png) private pure {
+        unchecked {
+            uint256 file;
+            uint256 end;
+            assembly ("memory-safe") {
+                file := add(png, 32)
+                end := add(file, mload(png))
+            }
+            write32(file + 29, Crc32.sum(file + 12, 17));
+            write32(file + 33, end - file - 57);
+            write32(end - 16, Crc32.sum(file + 37, end - file - 53));
+            write32(end - 12, 0);
+            write32(end - 8, 0x49454e44);
+            write32(end - 4, 0xae426082);
+        }
+    }
+
+    function write32(uint256 target, uint256 value) private pure {
+        assembly ("memory-safe") {
+            mstore(target, or(shr(32, shl(32, mload(target))), shl(224, value)))
+        }
+    }
+}

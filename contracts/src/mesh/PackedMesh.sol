@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {NORMALS, WIDE} from "../scene/Mesh.sol";
+
+// Bytes of the parts of a mesh; a vertex without a normal, its coordinates of 16 bits.
+uint256 constant HEADER_SIZE = 5;
+uint256 constant VERTEX_SIZE = 9;
+uint256 constant FACE_SIZE = 6;
+
+/// @notice Meshes in the format of `Mesh.sol`, in memory.
+library PackedMesh {
+    /// @notice Gives all vertices one colour. Of a mesh that is not complete, which the renderer refuses, nothing changes.
+    function paint(bytes memory mesh, uint256 color) internal pure {
+        (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
+        assembly ("memory-safe") {
+            color := shl(232, color)
+            for { let place := add(begin, mul(3, size)) } lt(place, end) { place := add(place, stride) } {
+                mstore(place, or(color, shr(24, shl(24, mload(place)))))
+            }
+        }
+    }
+
+    /// @notice The lowest and the highest coordinates; zeros if there are no vertices, or not all of them.
+    function box(bytes memory mesh) internal pure returns (int256[3] memory low, int256[3] memory high) {
+        (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
+        if (begin >= end) return (low, high);
+        assembly ("memory-safe") {
+            // a coordinate stands uppermost in the word that begins with it
+            let cut := sub(256, shl(3, size))
+            for { let axis := 0 } lt(axis, 3) { axis := add(axis, 1) } {
+                let place := add(begin, mul(axis, size))
+                let least := sar(cut, mload(place))
+                let most := least
+                for {} lt(place, end) { place := add(place, stride) } {
+                    let value := sar(cut, mload(place))
+                    if slt(value, least) { least := value }
+                    if sgt(value, most) { most := value }
+                }
+                mstore(add(low, shl(5, axis)), least)
+                mstore(add(high, shl(5, axis)), most)
+            }
+        }
+    }
+
+    /// @dev Where the vertices are.
+    /// @return begin The first one.
+    /// @return end Behind the last one; 0 if the bytes end before.
+    /// @return size Bytes of a coordinate.
+    /// @return stride Bytes of a vertex.
+    function vertices(bytes memory mesh) private pure returns (uint256 begin, uint256 end, uint256 size, uint256 stride) {
+        unchecked {
+            uint256 header;
+            assembly ("memory-safe") {
+                header := shr(216, mload(add(mesh, 32)))
+                begin := add(mesh, 37)
+            }
+            uint256 format = header >> 32;
+            size = format & WIDE == 0 ? 2 : 3;
+            stride = 3 * size + (format & NORMALS == 0 ? 3 : 7);
+            uint256 used = HEADER_SIZE + stride * ((header >> 16) & 0xffff);
+            if (used <= mesh.length) end = begin + used - HEADER_SIZE;
+        }
+    }
+}

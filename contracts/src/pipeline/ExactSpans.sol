@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {FragmentLight} from "./FragmentLight.sol";
+import "./Registers.sol";
+
+// Every fragment for itself, from depth and barycentric coordinates.
+
+/// @dev Half a level in lanes of 85 bits, Q58.
+uint256 constant HALF_85 = 0x800000000000000000000400000000000000000000200000000000000;
+
+library ExactSpans {
+    /// @notice Draws the rows from `row` to before `last`, between two edges.
+    /// @param start The accumulator at column 0 of the first row.
+    function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
+        unchecked {
+            for (; row != last; ++row) {
+                uint256 column = max(max((edges >> 48) & 0xffff, load(PATCH_BEGIN)), load(COLUMN_BEGIN));
+                span(row, column, min(min(edges >> 176, load(PATCH_END)), load(COLUMN_END)), start + column * load(DX));
+                edges += slopes;
+                start += load(DY);
+            }
+        }
+    }
+
+    function span(uint256 row, uint256 column, uint256 end, uint256 attribute) private pure {
+        unchecked {
+            uint256 p = load(DEPTH_ORIGIN) - load(DEPTH_STRIDE) * row + 8 * column;
+            row = load(RAY_TOP) + row * load(RAY_STEP);
+            for (; column < end; ++column) {
+                if (passes(p, attribute)) {
+                    write(p, (colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row) << 48) + HALF_85);
+                }
+                p += 8;
+                attribute += load(DX);
+            }
+        }
+    }
+
+    /// @dev The depth test.
+    function passes(uint256 p, uint256 attribute) private pure returns (bool nearer) {
+        assembly ("memory-safe") {
+            let old := mload(p)
+            nearer := gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff))
+            if nearer {
+                mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
+            }
+        }
+    }
+
+    /// @notice The pixel with its depth at p: blue, green and red at the top of a word.
+    function pixelAt(uint256 p) internal pure returns (uint256) {
+        unchecked {
+            return load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
+        }
+    }
+
+    /// @notice Writes a pixel of lanes of 85 bits, Q58, which are kept between 0 and 255.
+    function write(uint256 p, uint256 f) internal pure {
+        assembly ("memory-safe") {
+            let color := and(f, 0xff00000000000000000007f80000000000000000003fc00000000000000)
+            let high := and(f, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
+            if high {
+                // above 255, or below 0: a carry into the next lane tells
+                high := add(high, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
+                high := and(high, 0x8000000000000000000004000000000000000000002000000000000000000000)
+                color := or(color, mul(shr(85, high), 0x3fc00000000000000))
+                high := and(f, 0x4000000000000000000002000000000000000000001000000000000000000000)
+                color := and(color, not(mul(shr(84, high), 0x3fc00000000000000)))
+            }
+            let packed := or(shl(190, color), and(shl(97, color), 0xff000000000000000000000000000000000000000000000000000000000000))
+            packed := or(packed, and(shl(4, color), 0xff0000000000000000000000000000000000000000000000000000000000))
+            p := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+            mstore(p, or(packed, and(mload(p), 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff)))
+        }
+    }
+
+    /// @dev The colour where the accumulator and the ray are these.
+    function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
+        uint256 s;
+        uint256 t;
+        assembly ("memory-safe") {
+            s := sar(64, signextend(20, attribute))
+            t := sar(8, signextend(6, attribute))
+            attribute := shr(192, attribute)
+        }
+        return FragmentLight.colorAt(attribute, s, t, x, y);
+    }
+
+    function min(uint256 a, uint256 b) private pure returns (uint256) {
+        return a < b ? a : b;
+    }
+
+    function max(uint256 a, uint256 b) private pure returns (uint256) {
+        return a > b ? a : b;
+    }
+}

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {sqrt} from "../math/Roots.sol";
+import {Lighting} from "./Lighting.sol";
+import {Patches} from "./Patches.sol";
+import {COLOR_BIAS, COLOR_LANES, Shading} from "./Shading.sol";
+import {VertexHighlights} from "./VertexHighlights.sol";
+import "./Registers.sol";
+
+// How finely flat and unlit triangles have to be shaded.
+
+/// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
+/// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
+uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
+/// @dev Twice the area, in sub-pixels, of 10 pixels.
+uint256 constant SMALL = 20 << 16;
+
+library FlatShading {
+    /// @notice Chooses the way to shade a triangle, and sets what that way needs: see Rasterizer.shade.
+    function prepare(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
+        unchecked {
+            uint256 attributesA;
+            uint256 attributesB;
+            uint256 attributesC;
+            uint256 mode = load(OBJECT_MODE);
+            assembly ("memory-safe") {
+                attributesA := mload(add(and(a, 0xffffffff), 32))
+                attributesB := mload(add(and(b, 0xffffffff), 32))
+                attributesC := mload(add(and(c, 0xffffffff), 32))
+            }
+            if (mode & IS_FLAT == 0) {
+                bool isNearlyFlat;
+                assembly ("memory-safe") {
+                    // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8
+                    // rows: `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth.
+                    let depth := shr(168, attributesA)
+                    let second := mul(24, sub(shr(168, attributesB), depth))
+                    let third := mul(24, sub(shr(168, attributesC), depth))
+                    let limit := shl(1, depth)
+                    isNearlyFlat := or(
+                        or(gt(add(second, depth), limit), gt(add(third, depth), limit)),
+                        gt(add(sub(second, third), depth), limit)
+                    )
+                    limit := add(shr(128, a), 2048)
+                    isNearlyFlat := iszero(or(isNearlyFlat, or(gt(shr(128, b), limit), gt(shr(128, c), limit))))
+                }
+                if (isNearlyFlat) {
+                    assembly ("memory-safe") {
+                        mstore(MODE, crossing)
+                        mstore(ATTRIBUTE_0, add(shl(32, attributesA), COLOR_BIAS))
+                        mstore(DELTA_1, sub(attributesB, attributesA))
+                        mstore(DELTA_2, sub(attributesC, attributesA))
+                    }
+                    return;
+                }
+                if (Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
+                    return Shading.setLinear(attributesA, attributesB, attributesC, crossing);
+                }
+            } else {
+                if (prepareFlat(a, b, c, crossing)) return;
+                Lighting.setFacing();
+                mode = load(MODE);
+                (attributesA, attributesB, attributesC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
+            }
+            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+            setPatch(a, b, c, attributesA, attributesB, attributesC);
+        }
+    }
+
+    /// @dev A flat triangle: its light, and whether its colours are linear on the screen. If not, the mode and the attribute words, with
+    /// light that does not depend on the fragment, are in MODE, ATTRIBUTE_0, DELTA_1 and DELTA_2.
+    function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool linear) {
+        uint256 mode = Lighting.setFace();
+        uint256 bad;
+        assembly ("memory-safe") {
+            // the attribute word of a vertex with coloured light on its colour
+            function lit(attributes, factor) -> product {
+                let color := and(attributes, COLOR_LANES)
+                product := shr(16, mul(and(factor, 0xffffffff), and(color, 0xffffff)))
+                product := or(product, shl(56, shr(16, mul(and(shr(56, factor), 0xffffffff), and(shr(56, color), 0xffffff)))))
+                product := or(product, shl(112, shr(16, mul(shr(112, factor), shr(112, color)))))
+                product := or(product, xor(attributes, color))
+            }
+
+            let p := mload(add(and(a, 0xffffffff), 32))
+            let q := mload(add(and(b, 0xffffffff), 32))
+            let r := mload(add(and(c, 0xffffffff), 32))
+            if iszero(and(mode, IS_DIFFUSE)) {
+                let factor := and(mload(FACE_LIGHT), 0xffffffff)
+                switch eq(mload(FACE_LIGHT), mul(factor, ONES))
+                case 1 {
+                    let color := and(p, COLOR_LANES)
+                    p := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(p, color))
+                    color := and(q, COLOR_LANES)
+                    q := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(q, color))
+                    color := and(r, COLOR_LANES)
+                    r := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(r, color))
+                }
+                default {
+                    factor := mload(FACE_LIGHT)
+                    p := lit(p, factor)
+                    q := lit(q, factor)
+                    r := lit(r, factor)
+                }
+            }
+            mstore(MODE, mode)
+            mstore(ATTRIBUTE_0, p)
+            mstore(DELTA_1, q)
+            mstore(DELTA_2, r)
+            linear := iszero(and(mode, IS_DIFFUSE))
+            bad := and(or(or(p, q), r), OVERFLOW)
+            // as in `prepare`
+            p := shr(168, p)
+            q := mul(24, sub(shr(168, q), p))
+            r := mul(24, sub(shr(168, r), p))
+            bad := or(bad, gt(add(sub(q, r), p), shl(1, p)))
+            bad := or(bad, or(gt(add(q, p), shl(1, p)), gt(add(r, p), shl(1, p))))
+            p := add(shr(128, a), 2048)
+            bad := or(bad, or(gt(shr(128, b), p), gt(shr(128, c), p)))
+        }
+        if (linear && bad != 0) {
+            linear = Shading.isAffine(load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2), a, b, c);
+        }
+        if (linear && mode & IS_LIT != 0) {
+            linear = Shading.squareSize(a, b, c) < load(REACH);
+            if (linear) VertexHighlights.addAll(a, b, c);
+        }
+        if (!linear) return false;
+        assembly ("memory-safe") {
+            let p := mload(ATTRIBUTE_0)
+            let q := mload(DELTA_1)
+            let r := mload(DELTA_2)
+            // colours above 255 need a loop that keeps them there
+            mode := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
+            mstore(MODE, or(crossing, iszero(iszero(and(mode, OVERFLOW)))))
+            mstore(ATTRIBUTE_0, add(shl(32, p), COLOR_BIAS))
+            mstore(DELTA_1, sub(q, p))
+            mstore(DELTA_2, sub(r, p))
+        }
+    }
+
+    /// @dev Sets over how much of the triangle colours are quadratic functions.
+    function setPatch(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure {
+        unchecked {
+            store(PATCH_WEIGHT, 0);
+            uint256 size = patchSize(a, b, c, za, zb, zc);
+            store(PATCH_SIZE, size);
+            if (size == 0)
+                Patches.fitWhole(a, b, c, za >> 168, zb >> 168, zc >> 168, Shading.max((a + (255 << 128)) >> 136, load(BAND_TOP)));
+        }
+    }
+
+    /// @dev Over how much of a triangle colours are taken as quadratic functions: see PATCH_SIZE and PATCH_WEIGHT.
+    ///
+    /// Where third derivatives are D at most, such a function is off by D * d^3 / 125 at most in a triangle of longest edge d with exact
+    /// colours at vertices and middles of edges, and by D * d^3 / 96 in a square of side d with nine of them.
+    ///
+    /// Perspective: along an edge with depths that differ by k of their mean, the error is k^2/2 * (u - u^3) / (1 + ku) * dc for u from -1
+    /// to 1 and colours dc apart: 1.5 levels of 255 for k = 1/6. With greater k, colours times depths are quadratic, which without
+    /// highlights are even linear, and eight pixels at a time are divided by depths. There k may be 1/5: 2.2 levels.
+    ///
+    /// Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m by the angle of H, which turns by d / 2f
+    /// over d pixels. Where linear functions are off by 1.5 levels, d^2 = REACH, it is 0.03 / sqrt(m) * (d^2 / REACH)^1.5 levels: with d^2
+    /// = 16 * REACH it is 2 / sqrt(m), in squares of 11 * REACH as much; and for m below 1/4 it is far from that, since m is 64 levels
+    /// then.
+    function patchSize(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
+        unchecked {
+            uint256 mode = load(MODE);
+            uint256 area = Shading.doubleArea(a, b, c);
+            // where a few pixels are covered, these are the fewest colours
+            if (area < SMALL || mode & IS_STEEP != 0) return 1;
+            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> 168;
+            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> 168;
+            uint256 reach = 1 << 60;
+            if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
+            if (mode & IS_ORTHOGRAPHIC == 0) {
+                uint256 bright = brightness(za | zb | zc, mode);
+                if (6 * (nearest - farthest) * bright > nearest + farthest) {
+                    // so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
+                    size = slope(a, b, c, (zb >> 168) - (za >> 168), (zc >> 168) - (za >> 168));
+                    if (bright > 8 || 5120 * size > farthest * area) return 1;
+                    store(PATCH_WEIGHT, nearest << 8);
+                }
+            }
+            if (longest(a, b, c) < 16 * reach) return 0;
+            for (size = 64; size > 7; size >>= 1) if (size * size << 16 < 11 * reach) return size;
+            return 1;
+        }
+    }
+
+    /// @dev The square of the longest edge, in sub-pixels.
+    function longest(uint256 a, uint256 b, uint256 c) private pure returns (uint256) {
+        return Shading.max(squareLength(a, b), Shading.max(squareLength(a, c), squareLength(b, c)));
+    }
+
+    /// @dev The square of an edge, in sub-pixels.
+    function squareLength(uint256 p, uint256 q) private pure returns (uint256 square) {
+        assembly ("memory-safe") {
+            square := sub(shr(128, p), shr(128, q))
+            p := sub(and(shr(64, p), 0xfffff), and(shr(64, q), 0xfffff))
+            square := add(mul(square, square), mul(p, p))
+        }
+    }
+
+    /// @dev How much a linear function changes along a row, times twice the area, from its differences to the other vertices.
+    function slope(uint256 a, uint256 b, uint256 c, uint256 db, uint256 dc) private pure returns (uint256 size) {
+        assembly ("memory-safe") {
+            a := shr(128, a)
+            size := sub(mul(dc, sub(shr(128, b), a)), mul(db, sub(shr(128, c), a)))
+            size := xor(size, sar(255, size))
+        }
+    }
+
+    /// @dev How many times 255 colours may be at most.
+    function brightness(uint256 colors, uint256 mode) private pure returns (uint256 times) {
+        unchecked {
+            if (mode & IS_DIFFUSE == 0) {
+                times = 1 + (((colors >> 18) | (colors >> 74) | (colors >> 130)) & 63);
+            } else {
+                uint256 light = load(AMBIENT);
+                for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) light += load(record + LIGHT_DIFFUSE);
+                times = 1 + (((light >> 16) | (light >> 72) | (light >> 128)) & 0xffff);
+            }
+        }
+    }
+}

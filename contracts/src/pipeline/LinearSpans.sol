@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import "./Registers.sol";
+
+// Rows of fragments of triangles whose colours change linearly on the screen: the plain loop, and one for whatever the plain loop does not
+// know: borders of the tile, bands, colours above 255.
+
+/// @dev The depth that a word begins with, and what follows; the three bytes of a pixel, and what follows.
+uint256 constant DEPTH_64 = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
+uint256 constant NOT_DEPTH_64 = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
+uint256 constant PIXEL_24 = 0xffffff0000000000000000000000000000000000000000000000000000000000;
+uint256 constant NOT_PIXEL_24 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
+/// @dev The bytes of colours in an accumulator, and what brings them together at the top of a word; what is below them has no meaning.
+uint256 constant BYTES_OF_LANES = 0x0003fc000000000003fc000000000003fc0000000000;
+uint256 constant LANES_TO_BYTES = 0x4000000000000000400000000000000040000000000000000000;
+/// @dev The bits of colours in an accumulator that are above those of the bytes, and the lowest bits of the lanes above.
+uint256 constant ABOVE_BYTES = 0xfc000000000000fc000000000000fc000000000000;
+uint256 constant NEXT_LANES = 0x1000000000000010000000000000100000000000000;
+/// @dev An address of a depth, a multiple of 8.
+uint256 constant ADDRESS = 0xfffffff8;
+
+library LinearSpans {
+    /// @notice The plain loop: all of the triangle lies within the band, and no colour is above 255.
+    /// @param edges Addresses, as the Rasterizer says; SLOPES are their changes.
+    /// @param rows How many rows the upper part has.
+    /// @param row The address of the first row.
+    function plain(uint256 edges, uint256 rows, uint256 row) internal pure {
+        assembly ("memory-safe") {
+            // START is told for column 0; now for address 0
+            let start := sub(mload(START), mul(mload(DX_8), row))
+            row := shl(3, mload(DX_8))
+            mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
+            for {} 1 {} {
+                for {} rows {} {
+                    let p := and(shr(45, edges), ADDRESS)
+                    let last := and(shr(173, edges), ADDRESS)
+                    if lt(p, last) {
+                        let attribute := add(start, mul(mload(DX_8), p))
+                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                        for {} 1 {} {
+                            if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                                // copying a few bytes is cheaper than to put them into a word
+                                mstore(0, attribute)
+                                mcopy(p, 0, 8)
+                                mstore(0, mul(and(attribute, BYTES_OF_LANES), LANES_TO_BYTES))
+                                mcopy(pixel, 0, 3)
+                            }
+                            p := add(p, 8)
+                            if eq(p, last) { break }
+                            pixel := add(pixel, 3)
+                            attribute := add(attribute, row)
+                        }
+                    }
+                    edges := add(edges, mload(SLOPES))
+                    start := add(start, mload(ROW_STEP))
+                    rows := sub(rows, 1)
+                }
+                rows := mload(LOWER_ROWS)
+                if iszero(rows) { break }
+                edges := or(and(edges, mload(LOWER_KEPT)), mload(LOWER_EDGE))
+                mstore(SLOPES, mload(LOWER_SLOPES))
+                mstore(LOWER_ROWS, 0)
+            }
+        }
+    }
+
+    /// @notice As `plain`, where colours may be above 255.
+    /// @param edges Addresses, as the Rasterizer says; SLOPES are their changes.
+    /// @param rows How many rows the upper part has.
+    /// @param row The address of the first row.
+    function saturating(uint256 edges, uint256 rows, uint256 row) internal pure {
+        assembly ("memory-safe") {
+            let start := sub(mload(START), mul(mload(DX_8), row))
+            row := shl(3, mload(DX_8))
+            mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
+            for {} 1 {} {
+                for {} rows {} {
+                    let p := and(shr(45, edges), ADDRESS)
+                    let last := and(shr(173, edges), ADDRESS)
+                    if lt(p, last) {
+                        let attribute := add(start, mul(mload(DX_8), p))
+                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                        for {} 1 {} {
+                            if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                                mstore(0, attribute)
+                                mcopy(p, 0, 8)
+                                // 1 in the lowest bit of the next lane where a bit of ABOVE_BYTES is set; it makes all eight of the byte 1
+                                let full := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
+                                full := or(attribute, shr(14, mul(full, 0xff)))
+                                mstore(0, mul(and(full, BYTES_OF_LANES), LANES_TO_BYTES))
+                                mcopy(pixel, 0, 3)
+                            }
+                            p := add(p, 8)
+                            if eq(p, last) { break }
+                            pixel := add(pixel, 3)
+                            attribute := add(attribute, row)
+                        }
+                    }
+                    edges := add(edges, mload(SLOPES))
+                    start := add(start, mload(ROW_STEP))
+                    rows := sub(rows, 1)
+                }
+                rows := mload(LOWER_ROWS)
+                if iszero(rows) { break }
+                edges := or(and(edges, mload(LOWER_KEPT)), mload(LOWER_EDGE))
+                mstore(SLOPES, mload(LOWER_SLOPES))
+                mstore(LOWER_ROWS, 0)
+            }
+        }
+    }
+
+    /// @notice Draws the rows from `row` to before `last`, told by addresses, between two edges.
+    /// @param edges, slopes Columns, Q48.
+    /// @param start Depth and colour at column 0; DX and DY are their changes.
+    function general(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
+        assembly ("memory-safe") {
+            // colours that change linearly
+            function span(base, first, end, attribute, step) {
+                if lt(first, mload(COLUMN_BEGIN)) {
+                    attribute := add(attribute, mul(step, sub(mload(COLUMN_BEGIN), first)))
+                    first := mload(COLUMN_BEGIN)
+                }
+                if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
+                if lt(first, end) {
+                    first := add(base, shl(3, first))
+                    end := add(base, shl(3, end))
+                    base := add(mload(IMAGE_ORIGIN), mul(3, shr(3, first)))
+                    for {} 1 {} {
+                        let old := mload(first)
+                        if gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff)) {
+                            mstore(
+                                first,
+                                xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000))
+                            )
+                            let color := and(shr(32, attribute), LANES_24)
+                            color := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
+                            color := mul(
+                                and(color, 0x3fc000000000003fc000000000003fc00),
+                                0x400000000000000040000000000000004000000000000000000000000000
+                            )
+                            old := mload(base)
+                            mstore(base, xor(old, and(xor(old, color), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
+                        }
+                        first := add(first, 8)
+                        if eq(first, end) { break }
+                        base := add(base, 3)
+                        attribute := add(attribute, step)
+                    }
+                }
+            }
+
+            for {} sgt(row, last) {} {
+                let from := and(shr(48, edges), 0xffff)
+                let to := shr(176, edges)
+                if lt(from, to) { span(row, from, to, add(start, mul(from, mload(DX))), mload(DX)) }
+                edges := add(edges, slopes)
+                start := add(start, mload(DY))
+                row := sub(row, mload(DEPTH_STRIDE))
+            }
+        }
+    }
+}

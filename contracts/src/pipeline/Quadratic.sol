@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import "./Registers.sol";
+
+// Values that are quadratic functions of the place on the screen, three in a word: signed lanes of 85 bits. A smooth function that is
+// fitted at the corners and at the middles of the edges of a triangle (the P2 element) is off by third-order terms only.
+//
+// With the barycentric coordinates s of the second vertex and t of the third,
+//
+//   value = QUADRATIC_1 + s * QUADRATIC_S + t * QUADRATIC_T + s^2 * QUADRATIC_SS + s * t * QUADRATIC_ST + t^2 * QUADRATIC_TT
+//
+// where the coefficients may have any Q format, Qn. Coordinates are Q24, so their products and what is made of them have 48 bits more:
+// Qn+48. Only sums and products by whole numbers are taken: lanes that overflow on the way are right again at each pixel whose own value
+// fits its lane, and a row or column gives the same bits wherever the differences began.
+
+library Quadratic {
+    /// @notice The coefficients from the values at the vertices and at the middles of the edges.
+    function fromNodes(uint256 a, uint256 b, uint256 c, uint256 ab, uint256 ac, uint256 bc) internal pure {
+        assembly ("memory-safe") {
+            // along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
+            ab := sub(shl(2, ab), shl(1, add(a, b)))
+            ac := sub(shl(2, ac), shl(1, add(a, c)))
+            mstore(QUADRATIC_ST, sub(sub(sub(shl(2, bc), shl(1, add(b, c))), ab), ac))
+            mstore(QUADRATIC_SS, sub(0, ab))
+            mstore(QUADRATIC_TT, sub(0, ac))
+            mstore(QUADRATIC_S, add(sub(b, a), ab))
+            mstore(QUADRATIC_T, add(sub(c, a), ac))
+            mstore(QUADRATIC_1, a)
+        }
+    }
+
+    /// @notice The value at column 0 of row `top` (QUADRATIC_START) and its differences, from the coefficients. The change from column x
+    /// of row y to column x + 1 is QUADRATIC_DX + x * QUADRATIC_DXX + y * QUADRATIC_DXY, and so on for rows.
+    /// @param a The screen words of the vertices, as those of the triangle.
+    function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
+        assembly ("memory-safe") {
+            let x := and(shr(64, a), 0xfffff)
+            let xb := sub(and(shr(64, b), 0xfffff), x)
+            let xc := sub(and(shr(64, c), 0xfffff), x)
+            a := shr(128, a)
+            b := sub(shr(128, b), a)
+            c := sub(shr(128, c), a)
+            // from the first vertex to the centres of the row
+            a := sub(shl(8, top), a)
+            // change of s and t per pixel, Q24: (ds/dx, dt/dx) = (-c, b) / area, (ds/dy, dt/dy) = (xc, -xb) / area, in sub-pixels
+            top := sub(mul(xc, b), mul(xb, c))
+            let dsdx := sub(0, sdiv(shl(32, c), top))
+            let dtdx := sdiv(shl(32, b), top)
+            xc := sdiv(shl(32, xc), top)
+            xb := sub(0, sdiv(shl(32, xb), top))
+            // s and t at column 0 of the first row, Q24
+            b := sar(8, sub(mul(xc, a), mul(dsdx, x)))
+            c := sar(8, sub(mul(xb, a), mul(dtdx, x)))
+            {
+                // value, and its derivatives by s and t, Qn+24
+                a := mul(b, mload(QUADRATIC_SS))
+                x := mul(c, mload(QUADRATIC_TT))
+                let ds := add(add(shl(24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST)))
+                let dt := add(shl(24, mload(QUADRATIC_T)), x)
+                mstore(QUADRATIC_START, add(shl(48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt))))
+                ds := add(ds, a)
+                dt := add(add(dt, x), mul(b, mload(QUADRATIC_ST)))
+                // half the second difference along the row: dsdx * (SS * dsdx) + dtdx * (ST * dsdx + TT * dtdx)
+                a := mul(dsdx, mload(QUADRATIC_SS))
+                x := mul(dtdx, mload(QUADRATIC_TT))
+                b := add(mul(dsdx, mload(QUADRATIC_ST)), x)
+                c := add(mul(dsdx, a), mul(dtdx, b))
+                mstore(QUADRATIC_DX, add(c, add(mul(dsdx, ds), mul(dtdx, dt))))
+                mstore(QUADRATIC_DXX, shl(1, c))
+                // dsdy * (2 * SS * dsdx + ST * dtdx) + dtdy * (ST * dsdx + 2 * TT * dtdx)
+                a := add(shl(1, a), mul(dtdx, mload(QUADRATIC_ST)))
+                mstore(QUADRATIC_DXY, add(mul(xc, a), mul(xb, add(b, x))))
+                // the same down
+                b := add(mul(xc, mload(QUADRATIC_ST)), mul(xb, mload(QUADRATIC_TT)))
+                c := add(mul(xc, mul(xc, mload(QUADRATIC_SS))), mul(xb, b))
+                mstore(QUADRATIC_DY, add(c, add(mul(xc, ds), mul(xb, dt))))
+                mstore(QUADRATIC_DYY, shl(1, c))
+            }
+        }
+    }
+}

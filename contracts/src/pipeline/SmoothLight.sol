@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ADDRESS, NOT_DEPTH_64} from "./LinearSpans.sol";
+import {ONES_128} from "./Rasterizer.sol";
+import "./Registers.sol";
+
+// The light of one lamp on smooth surfaces. Normals N are interpolated between the vertices, and so are the directions L to the light and
+// the half vectors H between it and the eye, which turn little within a triangle. With the barycentric coordinates w and any vectors P, Q
+//
+//   P * Q = sum w_i P_i * Q_i - sum over the edges w_i w_j (P_i - P_j) * (Q_i - Q_j)
+//
+// is quadratic, so that a fragment takes three numbers from forward differences (see Quadratic), no vectors:
+//
+//   N * N, N * L, N * H     Q20 at the vertices, Q68 at a fragment, in lanes of 85 bits, N * N uppermost
+//   diffuse  = N * L / |N|
+//   specular = ((N * H)^2 / N * N)^(shininess / 2)
+//
+// Perspective needs no division: the normals are multiplied by the depths of their vertices, so that what is linear on the screen has the
+// direction of the normal, and a length that cancels.
+//
+// How far this is from the light at the fragment itself, in levels of 255; what is not bounded takes the exact way: see FragmentLight:
+//   - Between two points seen at an angle d, which are at different distances, a direction that is interpolated linearly is off by
+//     d * (ratio of the distances - 1) / 4 at most; for an edge that is e distances long neither factor is above e, and the product not
+//     above e^2 / 2, so it is off by e^2 / 8: see Materials.smoothReach. Lamps must not be much nearer than the eye.
+//   - Half vectors change by at most the root of HALF_REACH: see Specular.halfReach. Between unit vectors the interpolated one is too short
+//     by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; that is added, for N * H near |N|, where highlights are.
+//   - Where the squares of both are beyond these bounds, but not beyond eight times, or 6.5 times for half vectors, and depths do not
+//     differ by more than a third, their products are exact in the middles of the edges too. Errors are of third order then: 0.008 times
+//     the third derivative, which is at most 3 e^3 for the direction to a point, from an edge e distances long. With a diffuse coefficient
+//     of 0.7 that is two levels; for a half vector that turns by d it is 0.024 d^3, or 2.6 levels by the fourth root of the shininess.
+//   - Colours are perspective-correct where linear ones would not be (Shading.isAffine): multiplied by the weights of the normals, and
+//     divided at each fragment by its depth, which is their sum.
+//   - N * N is from 1/4 to 17/16, where one step of Newton's method from a line gives its root to 1/1300. In a triangle it is at least the
+//     least one of its vertices less a third of the largest square of a change, since the sum of w_i w_j is at most 1/3.
+
+/// @dev Words of a vertex record: the normal, the same with its lanes the other way round, and the other way round the direction to the
+/// light, Q21 and even; the half vector, Q29, and the other way round, Q21 and even. LIT once they are there and bounded, UNBOUNDED if they
+/// cannot be used, else 0.
+uint256 constant VERTEX_NORMAL = 0x40;
+uint256 constant VERTEX_REVERSED = 0x60;
+uint256 constant VERTEX_LIGHT = 0x80;
+uint256 constant VERTEX_HALF = 0xa0;
+uint256 constant VERTEX_HALF_REVERSED = 0xc0;
+uint256 constant VERTEX_STATE = 0xe0;
+uint256 constant LIT = 1;
+uint256 constant UNBOUNDED = 2;
+
+/// @dev What `setLight` finds of a triangle.
+uint256 constant UNBOUNDED_LIGHT = 0;
+uint256 constant AFFINE_LIGHT = 1;
+uint256 constant STEEP_LIGHT = 2;
+
+/// @dev Half the range of a lane of 85 bits, for vectors of Q20.
+uint256 constant VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000;
+uint256 constant LANE_85 = 0x1fffffffffffffffffffff;
+uint256 constant MIDDLE_LANE_85 = 0x3ffffffffffffffffffffe00000000000000000000;
+/// @dev The uppermost of three lanes; that and the one below.
+uint256 constant UPPER_LANE_85 = 0xfffffffffffffffffffffc000000000000000000000000000000000000000000;
+uint256 constant UPPER_LANES_85 = 0xffffffffffffffffffffffffffffffffffffffffffe000000000000000000000;
+uint256 constant IS_GREY_OR_STEEP = 0x1800;
+uint256 constant IS_CUT_OR_CROSSING = 0x4100;
+
+library SmoothLight {
+    /// @notice The coefficients of the quadratic products of a triangle.
+    /// @param a The screen words of its vertices.
+    /// @param size The sum of the squares of two edges.
+    /// @return kind UNBOUNDED_LIGHT if they may be too far from the light of each fragment; AFFINE_LIGHT if the depths of the vertices are
+    /// so near to each other that colours may be interpolated linearly, else STEEP_LIGHT.
+    function setLight(uint256 a, uint256 b, uint256 c, uint256 size) internal pure returns (uint256 kind) {
+        assembly ("memory-safe") {
+            // as in FragmentLight
+            function root(value, hint) -> r {
+                let h := mload(hint)
+                if gt(sub(shr(shl(1, h), value), 1), 2) {
+                    h := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
+                    h := or(h, shl(6, lt(0xffffffffffffffff, shr(h, value))))
+                    h := or(h, shl(5, lt(0xffffffff, shr(h, value))))
+                    h := or(h, shl(4, lt(0xffff, shr(h, value))))
+                    h := or(h, shl(3, lt(0xff, shr(h, value))))
+                    h := or(h, shl(2, lt(0xf, shr(h, value))))
+                    h := shr(1, or(h, shl(1, lt(0x3, shr(h, value)))))
+                    mstore(hint, h)
+                }
+                r := shr(10, mul(351, add(shr(h, value), shl(h, 2))))
+                r := shr(1, add(r, div(value, r)))
+                r := shr(1, add(r, div(value, r)))
+            }
+            // fills the record of a vertex with what the triangles around it need
+            function setVertex(vertex) {
+                let screen := mload(vertex)
+                // the ray (x, y, 1), Q24
+                let x := add(mload(RAY_LEFT), sar(8, mul(and(shr(64, screen), 0xfffff), mload(RAY_STEP))))
+                let y := add(mload(RAY_TOP), sar(8, mul(shr(128, screen), mload(RAY_STEP))))
+                let lx := mload(add(LIGHTS, LIGHT_X))
+                let ly := mload(add(LIGHTS, LIGHT_Y))
+                let lz := mload(add(LIGHTS, LIGHT_Z))
+                let bounded := 1
+                let length := 0x1000000
+                if mload(add(LIGHTS, LIGHT_IS_POINT)) {
+                    // from the vertex to the light, Q16
+                    let z := div(mload(DEPTH_SCALE), shr(168, mload(add(vertex, 0x20))))
+                    let place := sar(40, mul(x, z))
+                    lx := sub(lx, place)
+                    let square := mul(place, place)
+                    place := sar(40, mul(y, z))
+                    ly := sub(ly, place)
+                    square := add(square, mul(place, place))
+                    z := shr(16, z)
+                    lz := sub(lz, z)
+                    square := add(square, mul(z, z))
+                    length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
+                    // at most nearer than the eye by the root of 5/4
+                    bounded := iszero(gt(shl(2, square), mul(5, length)))
+                    length := root(length, add(LIGHTS, LIGHT_HINT))
+                }
+                lx := sdiv(shl(20, lx), length)
+                ly := sdiv(shl(20, ly), length)
+                lz := sdiv(shl(20, lz), length)
+                mstore(add(vertex, VERTEX_LIGHT), shl(1, add(add(lz, shl(85, ly)), shl(170, lx))))
+                if mload(FRAME_IS_ORTHOGRAPHIC) {
+                    x := 0
+                    y := 0
+                }
+                // H = L + V, where V is the ray turned round
+                length := root(add(add(mul(x, x), mul(y, y)), 0x1000000000000), RAY_HINT)
+                lx := sub(lx, sdiv(shl(20, x), length))
+                ly := sub(ly, sdiv(shl(20, y), length))
+                lz := sub(lz, div(0x100000000000, length))
+                length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
+                // not against the light, where it turns without bound
+                bounded := and(bounded, gt(length, 0x4000000000))
+                length := root(length, HALF_HINT)
+                lx := sdiv(shl(20, lx), length)
+                ly := sdiv(shl(20, ly), length)
+                lz := sdiv(shl(20, lz), length)
+                mstore(add(vertex, VERTEX_HALF), shl(9, add(add(lx, shl(85, ly)), shl(170, lz))))
+                mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(85, ly)), shl(170, lx))))
+                x := mload(add(vertex, VERTEX_NORMAL))
+                y := add(x, VECTOR_BIAS)
+                y := shl(1, sub(or(or(shl(170, and(y, LANE_85)), shr(170, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
+                mstore(add(vertex, VERTEX_REVERSED), y)
+                // the square of the normal, Q40, is from 15/16 to 17/16
+                bounded := and(bounded, lt(sub(sar(171, mul(x, y)), 0xf000000000), 0x2000000000))
+                mstore(add(vertex, VERTEX_STATE), sub(UNBOUNDED, bounded))
+            }
+
+            // lanes: n * r, n * l, m * h, where r, l, h are the other way round; n and m are Q30, the sums Q20
+            // A product of two vectors stands in the uppermost lane, but for bit 255, where the lowest of what is above it would be: that
+            // is 0, since one of them is twice its value.
+            function products(n, r, l, m, h) -> packed {
+                packed := and(sar(41, mul(n, r)), UPPER_LANE_85)
+                packed := add(packed, and(sar(116, mul(n, l)), UPPER_LANES_85))
+                packed := add(packed, sar(201, mul(m, h)))
+            }
+
+            // the normals of a vertex times a weight (Q10), and its products
+            function atVertex(vertex, weight, place) -> packed {
+                let n := mul(weight, mload(add(vertex, VERTEX_NORMAL)))
+                let r := mul(weight, mload(add(vertex, VERTEX_REVERSED)))
+                mstore(place, n)
+                mstore(add(place, 0x20), r)
+                packed := products(n, r, mload(add(vertex, VERTEX_LIGHT)), n, mload(add(vertex, VERTEX_HALF_REVERSED)))
+            }
+
+            // products of the changes from one vertex to another
+            function along(u, v, placeU, placeV) -> packed {
+                let n := sub(mload(placeV), mload(placeU))
+                let h := sub(mload(add(v, VERTEX_HALF)), mload(add(u, VERTEX_HALF)))
+                let reversed := sub(mload(add(v, VERTEX_HALF_REVERSED)), mload(add(u, VERTEX_HALF_REVERSED)))
+                let square := sar(180, mul(h, reversed))
+                if sgt(square, mload(HALF_CHANGE)) { mstore(HALF_CHANGE, square) }
+                square := sub(mload(add(v, VERTEX_LIGHT)), mload(add(u, VERTEX_LIGHT)))
+                packed := products(n, sub(mload(add(placeV, 0x20)), mload(add(placeU, 0x20))), square, sub(n, h), reversed)
+            }
+
+            // What has to be added to that, so that the light in the middle is right: four times the error there,
+            // (N_u + N_v) * (L_u + L_v - 2 L), and the same of H, which is not too short there
+            function correction(u, v, placeU, placeV) -> packed {
+                mstore(MIDDLE, shl(64, shr(1, add(shr(64, mload(u)), shr(64, mload(v))))))
+                mstore(add(MIDDLE, 0x20), shl(168, shr(1, add(shr(168, mload(add(u, 0x20))), shr(168, mload(add(v, 0x20)))))))
+                mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, VERTEX_NORMAL)))
+                setVertex(MIDDLE)
+                let n := add(mload(placeU), mload(placeV))
+                let t := sub(add(mload(add(u, VERTEX_LIGHT)), mload(add(v, VERTEX_LIGHT))), shl(1, mload(add(MIDDLE, VERTEX_LIGHT))))
+                packed := and(sar(116, mul(n, t)), UPPER_LANES_85)
+                t := add(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
+                packed := add(packed, sar(201, mul(n, sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))))
+                n := sub(mload(add(u, VERTEX_HALF)), mload(add(v, VERTEX_HALF)))
+                t := sub(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
+                packed := add(packed, sar(201, mul(n, t)))
+            }
+
+            a := and(a, 0xffffffff)
+            b := and(b, 0xffffffff)
+            c := and(c, 0xffffffff)
+            kind := and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE)))
+            if iszero(and(kind, LIT)) {
+                if iszero(mload(add(a, VERTEX_STATE))) { setVertex(a) }
+                if iszero(mload(add(b, VERTEX_STATE))) { setVertex(b) }
+                if iszero(mload(add(c, VERTEX_STATE))) { setVertex(c) }
+                kind := and(and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE))), LIT)
+            }
+            if kind {
+                let p := 1024
+                let q := 1024
+                let r := 1024
+                if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
+                    // depths by the greatest of them
+                    p := shr(168, mload(add(a, 0x20)))
+                    q := shr(168, mload(add(b, 0x20)))
+                    r := shr(168, mload(add(c, 0x20)))
+                    let nearest := p
+                    if gt(q, nearest) { nearest := q }
+                    if gt(r, nearest) { nearest := r }
+                    p := div(shl(10, p), nearest)
+                    q := div(shl(10, q), nearest)
+                    r := div(shl(10, r), nearest)
+                    // colours of up to 255 may differ as they like where depths do not by more than 12 / 255: see Shading.isAffine
+                    kind := add(AFFINE_LIGHT, or(or(lt(p, 980), lt(q, 980)), lt(r, 980)))
+                    mstore(DEPTHS_DIFFER, 0)
+                    if eq(kind, STEEP_LIGHT) {
+                        mstore(DEPTHS_DIFFER, add(or(or(lt(p, 896), lt(q, 896)), lt(r, 896)), or(or(lt(p, 768), lt(q, 768)), lt(r, 768))))
+                    }
+                }
+                p := atVertex(a, p, NORMAL_0)
+                q := atVertex(b, q, NORMAL_1)
+                r := atVertex(c, r, NORMAL_2)
+                mstore(HALF_CHANGE, 0)
+                let ab := along(a, b, NORMAL_0, NORMAL_1)
+                let ac := along(a, c, NORMAL_0, NORMAL_2)
+                let bc := along(b, c, NORMAL_1, NORMAL_2)
+                {
+                    // the least N * N less a third of the largest square of a change is to be 1/4 or more: three times that
+                    let least := p
+                    if slt(q, least) { least := q }
+                    if slt(r, least) { least := r }
+                    least := sub(mul(3, sar(170, least)), 0xc0000)
+                    least := and(and(slt(sar(170, ab), least), slt(sar(170, ac), least)), slt(sar(170, bc), least))
+                    kind := mul(kind, least)
+                }
+                // an eighth of the reach where depths differ, and with them the lengths of N for which |H| = 1 is made up
+                if or(gt(shl(mul(3, mload(DEPTHS_DIFFER)), mload(HALF_CHANGE)), mload(HALF_REACH)), iszero(lt(size, mload(SMOOTH_REACH)))) {
+                    kind := mul(kind, iszero(or(gt(shl(1, mload(HALF_CHANGE)), mul(13, mload(HALF_REACH))), gt(mload(DEPTHS_DIFFER), 1))))
+                    if kind {
+                        ab := add(ab, correction(a, b, NORMAL_0, NORMAL_1))
+                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                        ac := add(ac, correction(a, c, NORMAL_0, NORMAL_2))
+                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                        bc := add(bc, correction(b, c, NORMAL_1, NORMAL_2))
+                        kind := mul(kind, and(mload(add(MIDDLE, VERTEX_STATE)), LIT))
+                    }
+                }
+                mstore(QUADRATIC_1, p)
+                mstore(QUADRATIC_S, sub(sub(q, p), ab))
+                mstore(QUADRATIC_T, sub(sub(r, p), ac))
+                mstore(QUADRATIC_SS, ab)
+                mstore(QUADRATIC_ST, sub(add(ab, ac), bc))
+                mstore(QUADRATIC_TT, ac)
+            }
+        }
+    }
+
+    /// @notice Draws the fragments of a smooth triangle: see Rasterizer.drawParts.
+    function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure {
+        assembly ("memory-safe") {
+            // Fragments of a row; `light` are the products at the first, `step` their change to the next. `plain` is a literal, of which
+            // the compiler makes two functions: 1 for grey light on linear colours.
+            function span(p, end, attribute, light, step, plain) {
+                let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                for {} 1 {} {
+                    if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                        // copying a few bytes is cheaper than to put them into a word
+                        mstore(0, attribute)
+                        mcopy(p, 0, 8)
+                        // N * N, Q68, and twice its root, Q34
+                        let square := shr(170, light)
+                        let length := add(shr(44, mul(702, square)), 5892665057)
+                        length := add(length, div(square, length))
+                        let factor := mload(FACE_LIGHT_40)
+                        let sum := HALF_LEVEL
+                        // N * L, Q59
+                        let t := sar(180, shl(86, light))
+                        if sgt(t, 0) {
+                            // its quotient by |N|, Q24
+                            factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(t, length)))
+                            // N * H, Q46
+                            t := sar(193, shl(171, light))
+                            if sgt(t, 0) {
+                                t := div(mul(t, t), square)
+                                if gt(t, mload(SPECULAR_BEGIN)) {
+                                    t := mul(sub(t, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
+                                    if gt(t, 0x400000000000) { t := 0x400000000000 }
+                                    let entry := mload(add(SPECULAR_TABLE, and(shr(35, t), 0xffffe0)))
+                                    entry := add(shr(128, entry), shr(16, mul(and(entry, 0xffffffff), and(shr(24, t), 0xffff))))
+                                    sum := add(sum, and(shr(6, mul(mload(add(LIGHTS, LIGHT_COLOR)), entry)), LANES_24))
+                                }
+                            }
+                        }
+                        t := and(shr(32, attribute), LANES_24)
+                        switch plain
+                        case 1 { t := add(sum, and(shr(16, mul(t, and(shr(24, factor), 0xffffffff))), LANES_24)) }
+                        default {
+                            if and(mload(MODE), IS_STEEP) { t := and(shr(16, mul(t, div(mload(NEAREST), shr(192, attribute)))), LANES_24) }
+                            factor := shr(24, factor)
+                            sum := add(sum, shr(16, mul(and(t, 0xffffff), and(factor, 0xffffffff))))
+                            t := shr(56, t)
+                            sum := add(sum, shl(56, shr(16, mul(and(t, 0xffffff), and(shr(56, factor), 0xffffffff)))))
+                            t := add(sum, shl(112, shr(16, mul(shr(56, t), shr(112, factor)))))
+                        }
+                        // lanes above 255 get all the bits of 255
+                        if and(t, OVERFLOW) { t := or(t, mul(and(shr(30, add(t, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00)) }
+                        mstore(
+                            0,
+                            mul(and(t, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
+                        )
+                        mcopy(pixel, 0, 3)
+                    }
+                    p := add(p, 8)
+                    if eq(p, end) { break }
+                    pixel := add(pixel, 3)
+                    attribute := add(attribute, mload(DX))
+                    light := add(light, step)
+                    step := add(step, mload(QUADRATIC_DXX))
+                }
+            }
+            let mode := mload(MODE)
+            // 0 for most triangles, 1 if only the light or the colours need more
+            mode := or(and(mode, IS_CUT_OR_CROSSING), iszero(eq(and(mode, IS_GREY_OR_STEEP), IS_GREY)))
+            // START is told for column 0; now for address 0
+            let start := sub(mload(START), mul(mload(DX_8), row))
+            mstore(DX, shl(3, mload(DX_8)))
+            mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
+            let light := mload(QUADRATIC_START)
+            let down := mload(QUADRATIC_DY)
+            // half the second difference, and the first without it: the value at column x is then that at column 0 and x * (DX + x *
+            // HALF_DXX). The bit that is lost at the top does no harm: x * (x - 1) is even.
+            mstore(QUADRATIC_HALF_DXX, shr(1, mload(QUADRATIC_DXX)))
+            mstore(QUADRATIC_DX, sub(mload(QUADRATIC_DX), mload(QUADRATIC_HALF_DXX)))
+            for {} 1 {} {
+                if gt(mode, 1) {
+                    // only the rows in the band
+                    let stride := mload(DEPTH_STRIDE)
+                    let count := sdiv(sub(add(row, mul(stride, mload(BAND_TOP))), mload(DEPTH_ORIGIN)), stride)
+                    if sgt(count, 0) {
+                        if gt(count, rows) { count := rows }
+                        rows := sub(rows, count)
+                        row := sub(row, mul(stride, count))
+                        edges := add(edges, mul(mload(SLOPES), count))
+                        start := add(start, mul(mload(ROW_STEP), count))
+                    }
+                    count := sdiv(sub(add(row, mul(stride, mload(BAND_BOTTOM))), mload(DEPTH_ORIGIN)), stride)
+                    if slt(count, rows) {
+                        rows := mul(count, sgt(count, 0))
+                        mstore(LOWER_ROWS, 0)
+                    }
+                }
+                for {} rows {} {
+                    let p := and(shr(45, edges), ADDRESS)
+                    let end := and(shr(173, edges), ADDRESS)
+                    if gt(mode, 1) {
+                        // addresses may be below 0 beside the tile, columns are not
+                        end := sub(edges, mul(shl(45, row), ONES_128))
+                        p := and(shr(48, end), 0xffff)
+                        end := shr(176, end)
+                        if lt(p, mload(COLUMN_BEGIN)) { p := mload(COLUMN_BEGIN) }
+                        if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
+                        // a row without pixels stays one where addresses are below 0
+                        if gt(p, end) { end := p }
+                        p := add(row, shl(3, p))
+                        end := add(row, shl(3, end))
+                    }
+                    if lt(p, end) {
+                        let step := shr(3, sub(p, row))
+                        let first := mul(step, mload(QUADRATIC_HALF_DXX))
+                        {
+                            let mean := add(mload(QUADRATIC_DX), first)
+                            first := add(add(mean, first), mload(QUADRATIC_HALF_DXX))
+                            mean := add(light, mul(step, mean))
+                            step := first
+                            first := mean
+                        }
+                        switch and(mode, 1)
+                        case 0 { span(p, end, add(start, mul(mload(DX_8), p)), first, step, 1) }
+                        default { span(p, end, add(start, mul(mload(DX_8), p)), first, step, 0) }
+                    }
+                    edges := add(edges, mload(SLOPES))
+                    start := add(start, mload(ROW_STEP))
+                    row := sub(row, mload(DEPTH_STRIDE))
+                    light := add(light, down)
+                    down := add(down, mload(QUADRATIC_DYY))
+                    mstore(QUADRATIC_DX, add(mload(QUADRATIC_DX), mload(QUADRATIC_DXY)))
+                    rows := sub(rows, 1)
+                }
+                rows := mload(LOWER_ROWS)
+                if iszero(rows) { break }
+                edges := or(and(edges, mload(LOWER_KEPT)), mload(LOWER_EDGE))
+                mstore(SLOPES, mload(LOWER_SLOPES))
+                mstore(LOWER_ROWS, 0)
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Quadratic} from "./Quadratic.sol";
+import {Shading, COLOR_LANES} from "./Shading.sol";
+import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
+import "./Registers.sol";
+
+// How triangles are shaded of which the fragments are lit: those of smooth surfaces, and everything that no other way draws.
+
+/// @dev Keeps colours (Q42) from being rounded below zero: 1/32 of a level.
+uint256 constant SMOOTH_BIAS = 0x100000000000020000000000000200000000000002000000000;
+
+library SmoothShading {
+    /// @notice Chooses the way to shade a smooth triangle, and sets what that way needs: see Rasterizer.shade.
+    function prepare(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
+        unchecked {
+            uint256 mode = load(OBJECT_MODE);
+            uint256 kind = UNBOUNDED_LIGHT;
+            if (mode & (IS_QUADRATIC | IS_BLENDED) == IS_QUADRATIC) {
+                uint256 size = Shading.squareSize(a, b, c);
+                // nothing is tried in triangles that are too large
+                if (size < 8 * load(SMOOTH_REACH)) kind = SmoothLight.setLight(a, b, c, size);
+            }
+            if (kind == UNBOUNDED_LIGHT) return prepareExact(a, b, c, crossing);
+            (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
+            uint256 top = (a + (255 << 128)) >> 136;
+            if (top < load(BAND_TOP)) top = load(BAND_TOP);
+            Quadratic.setDifferences(a, b, c, top);
+            if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
+                mode |= IS_STEEP;
+                uint256 nearest = Shading.max(attributesA, Shading.max(attributesB, attributesC)) >> 168;
+                store(NEAREST, nearest << 24);
+                attributesA = weighted(attributesA, nearest);
+                attributesB = weighted(attributesB, nearest);
+                attributesC = weighted(attributesC, nearest);
+            }
+            store(MODE, mode | crossing);
+            store(ATTRIBUTE_0, (attributesA << 32) + SMOOTH_BIAS);
+            store(DELTA_1, attributesB - attributesA);
+            store(DELTA_2, attributesC - attributesA);
+        }
+    }
+
+    /// @notice Every fragment is lit for itself, but where nothing but colour changes, and that linearly.
+    function prepareExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
+        unchecked {
+            (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
+            uint256 mode = load(OBJECT_MODE) & ~IS_QUADRATIC;
+            if (mode & IS_SMOOTH != 0) {
+                Shading.setNormals(a, b, c);
+            } else {
+                if (mode & IS_FLAT != 0)
+                    (mode, attributesA, attributesB, attributesC) = Shading.setFace(attributesA, attributesB, attributesC);
+                if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
+                    return Shading.setLinear(attributesA, attributesB, attributesC, IS_LINEAR | crossing);
+                }
+            }
+            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+        }
+    }
+
+    /// @dev The attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest.
+    function weighted(uint256 word, uint256 nearest) private pure returns (uint256) {
+        unchecked {
+            return (word >> 168 << 168) | ((((word & COLOR_LANES) * ((word >> 168 << 10) / nearest)) >> 10) & COLOR_LANES);
+        }
+    }
+}

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+// Written by tools/layout.py from layout.toml.
+
+// ----------------------------------------------------------------------------------------------------------------------------- guard band
+
+/// @dev The guard band reaches from pixel -PIXEL_BIAS to GUARD_BAND - PIXEL_BIAS; the canvas lies at 0..2048 in it.
+uint256 constant PIXEL_BIAS = 0x600;
+uint256 constant GUARD_BAND = 0x1000;
+/// @dev Bits of a sub-pixel coordinate inside the guard band.
+uint256 constant GUARD_BITS = 20;
+
+// ----------------------------------------------------------------------------------------------------------------------------- sub-pixels
+
+/// @dev Bits of a coordinate below the pixel.
+uint256 constant SUBPIXEL_BITS = 8;
+/// @dev These bits; added before they are shifted away, it rounds up.
+uint256 constant SUBPIXEL_MASK = 255;
+uint256 constant HALF_PIXEL = 128;
+
+// ----------------------------------------------------------------------------------------------------------------------- fixed-point ones
+
+uint256 constant ONE_16 = 0x10000;
+uint256 constant HALF_24 = 0x800000;
+uint256 constant ONE_24 = 0x1000000;
+uint256 constant ONE_32 = 0x100000000;
+uint256 constant ONE_48 = 0x1000000000000;
+
+// ----------------------------------------------------------------------------------------------------------------------- mesh in calldata
+
+/// @dev The colour of a vertex, 24 bits at the top of a word.
+uint256 constant MESH_COLOR_AT = 232;
+/// @dev A component of a normal, 10 bits at the top of a word; and where the others are below it.
+uint256 constant MESH_NORMAL_AT = 246;
+uint256 constant MESH_NORMAL_Y = 10;
+uint256 constant MESH_NORMAL_Z = 20;
+/// @dev Bytes of a face.
+uint256 constant FACE_SIZE = 6;
+/// @dev Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
+uint256 constant FACE_AT = 208;
+uint256 constant FACE_FIRST_AT = 32;
+uint256 constant FACE_SECOND_AT = 16;
+uint256 constant FACE_INDEX_MASK = 0xffff;
+
+// ------------------------------------------------------------------------------------------------------------------ parts of screen words
+
+/// @dev Left or right; above or below; any of them; that or MUST_CLIP.
+uint256 constant IS_BESIDE = 0x60000000000;
+uint256 constant IS_OVER = 0x180000000000;
+uint256 constant IS_OUTSIDE = 0x1e0000000000;
+uint256 constant IS_NOT_PLAIN = 0x1f0000000000;
+/// @dev All bits of the column.
+uint256 constant SCREEN_COLUMNS = 0xfffff0000000000000000;
+/// @dev Row in whole pixels.
+uint256 constant SCREEN_PIXEL_ROW_AT = 136;
+
+// ------------------------------------------------------------------------------------------------------------------ parts of accumulators
+
+/// @dev The bits that it has more than an attribute word.
+uint256 constant ACCUMULATOR_FRACTION = 32;
+/// @dev Depth as in a vertex.
+uint256 constant ACCUMULATOR_VERTEX_DEPTH_AT = 200;
+/// @dev 1 in the lane of s.
+uint256 constant ATTRIBUTE_S = 0x100000000000000;
+/// @dev Bias of the lanes: half a level for colours.
+uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
+/// @dev 2^-15 for barycentric coordinates, so that gradients that are rounded (see Rasterizer) leave none below zero.
+uint256 constant WEIGHT_BIAS = 0x100000000000000000000000000000002000000000000020000;
+
+// --------------------------------------------------------------------------------------------------------------------- parts of triangles
+
+/// @dev Brings CROSSING_BIT to IS_CROSSING.
+uint256 constant TRIANGLE_CROSSING_SHIFT = 139;
+/// @dev The three edges.
+uint256 constant EDGE_AB = 0x1000000000000000000000000000000000000;
+uint256 constant EDGE_BC = 0x2000000000000000000000000000000000000;
+uint256 constant EDGE_CA = 0x4000000000000000000000000000000000000;
+
+// -------------------------------------------------------------------------------------------------------------- parts of clip coordinates
+
+uint256 constant CLIP_BIAS = 0x800000000000000000000000800000000000000000000000;
+/// @dev What it adds to each.
+uint256 constant CLIP_HALF = 0x800000000000000000000000;
+
+// ------------------------------------------------------------------------------------------------------------------------- parts of edges
+
+/// @dev Bits of a column behind the point; where it stands for an address of a depth.
+uint256 constant EDGE_FRACTION = 48;
+uint256 constant EDGE_ADDRESS_FRACTION = 45;
+/// @dev Brings sub-pixels to a column.
+uint256 constant EDGE_SUBPIXEL_SHIFT = 40;
+uint256 constant HALF_COLUMN = 0x800000000000;
+uint256 constant RIGHT_EDGE_AT = 128;
+/// @dev Makes the integer part of a Q48 number the next integer, as far as such numbers are exact.
+uint256 constant CEIL_48 = 0xffffffffc000;
+/// @dev 1 in both lanes.
+uint256 constant ONES_128 = 0x100000000000000000000000000000001;
+uint256 constant LANE_128 = 0xffffffffffffffffffffffffffffffff;
+uint256 constant UPPER_LANE_128 = 0xffffffffffffffffffffffffffffffff00000000000000000000000000000000;
+/// @dev A quotient of sub-pixel lengths by twice an area, shifted so, is Q29 per pixel.
+uint256 constant GRADIENT_SHIFT = 37;
+/// @dev Brings such a gradient times sub-pixels to the fraction of an accumulator.
+uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
+
+// ----------------------------------------------------------------------------------------------------------------------- parts of colours
+
+/// @dev Where green and red are.
+uint256 constant MIDDLE_AT = 56;
+uint256 constant UPPER_AT = 112;
+/// @dev A lane by itself.
+uint256 constant LANE_24 = 0xffffff;
+uint256 constant LANE_32 = 0xffffffff;
+/// @dev Brings the bytes of a colour 0xRRGGBB to BYTES_Q10, besides others.
+uint256 constant COLOR_SPREAD = 0x400000000000400000000000400;
+/// @dev Brings BYTES_56 together at the top of a word.
+uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
+
+// ------------------------------------------------------------------------------------------------------------------------ parts of pixels
+
+/// @dev 1 in each of ten pixels.
+uint256 constant TEN_PIXELS = 0x1000001000001000001000001000001000001000001000001000001;
+/// @dev Brings bits 0, 64, 128, 192 to bits 120, 144, 168, 192, besides others; and these.
+uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
+uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
+
+// ---------------------------------------------------------------------------------------------------------------- parts of signed colours
+
+uint256 constant MIDDLE_85_AT = 85;
+uint256 constant UPPER_85_AT = 170;
+/// @dev Where each lane of Q58 has a Q9 number.
+uint256 constant BLUE_Q9_AT = 49;
+uint256 constant GREEN_Q9_AT = 134;
+uint256 constant RED_Q9_AT = 219;
+/// @dev The byte of the lowest lane.
+uint256 constant BYTE_Q58 = 0x3fc00000000000000;
+/// @dev Shifts that bring BYTES_Q58 to the top of a word: blue, green, red.
+uint256 constant BLUE_TO_TOP = 190;
+uint256 constant GREEN_TO_TOP = 97;
+uint256 constant RED_TO_TOP = 4;
+uint256 constant SECOND_BYTE = 0xff000000000000000000000000000000000000000000000000000000000000;
+uint256 constant THIRD_BYTE = 0xff0000000000000000000000000000000000000000000000000000000000;
+
+// ------------------------------------------------------------------------------------------------------------------- words of the buffers
+
+/// @dev The depth that a word begins with, the next two, and what follows the first.
+uint256 constant FIRST_DEPTH = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
+uint256 constant SECOND_DEPTH = 0xffffffffffffffff00000000000000000000000000000000;
+uint256 constant THIRD_DEPTH = 0xffffffffffffffff0000000000000000;
+uint256 constant BEHIND_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
+/// @dev The pixel that a word begins with, and what follows.
+uint256 constant FIRST_PIXEL = 0xffffff0000000000000000000000000000000000000000000000000000000000;
+uint256 constant BEHIND_PIXEL = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
+
+// ---------------------------------------------------------------------------------------------------------------------------------- light
+
+/// @dev Where lanes of Q40 have Q16 numbers.
+uint256 constant BLUE_Q40_AT = 24;
+uint256 constant GREEN_Q40_AT = 80;
+uint256 constant RED_Q40_AT = 136;
+/// @dev Steps of the table of the highlight; where its last entry is, Q40.
+uint256 constant SPECULAR_ENTRIES = 64;
+uint256 constant SPECULAR_LAST = 0x400000000000;
+/// @dev Brings a place in the table, Q40, to bytes; those of whole words; what is between two entries, Q16.
+uint256 constant SPECULAR_ENTRY_SHIFT = 35;
+uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
+uint256 constant SPECULAR_REST_MASK = 0xffff;
+/// @dev Where an entry has its value.
+uint256 constant SPECULAR_VALUE_AT = 128;
+
+// ------------------------------------------------------------------------------------------------------------------- normals of fragments
+
+/// @dev Where interpolated normals (Q36, lanes of 85 bits) have Q24 numbers, the bits of these, and what keeps them positive.
+uint256 constant NORMAL_X_AT = 12;
+uint256 constant NORMAL_Y_AT = 97;
+uint256 constant NORMAL_Z_AT = 182;
+uint256 constant NORMAL_MASK = 0x7ffffff;
+uint256 constant NORMAL_HALF = 0x4000000;
+/// @dev That in each lane.
+uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
+
+// ---------------------------------------------------------------------------------------------------------------------------- screen word
+// Where a vertex is on the screen. Comparing screen words as numbers compares rows.
+
+/// @dev Address of the vertex record.
+uint256 constant SCREEN_RECORD_AT = 0;
+uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
+/// @dev The triangle must be clipped.
+uint256 constant MUST_CLIP = 0x10000000000;
+/// @dev The vertex lies left of the tile; right of it; above it; below it.
+uint256 constant IS_LEFT = 0x20000000000;
+uint256 constant IS_RIGHT = 0x40000000000;
+uint256 constant IS_ABOVE = 0x80000000000;
+uint256 constant IS_BELOW = 0x100000000000;
+/// @dev Sub-pixel column.
+uint256 constant SCREEN_COLUMN_AT = 64;
+uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
+/// @dev Sub-pixel row.
+uint256 constant SCREEN_ROW_AT = 128;
+uint256 constant SCREEN_ROW_MASK = 0xfffff;
+
+// ------------------------------------------------------------------------------------------------------------------------- attribute word
+// Depth and colours of a vertex: colours as told below, Q10. Of a vertex that has to be clipped it holds the outcode instead.
+
+/// @dev Depth: see DEPTH_SCALE.
+uint256 constant ATTRIBUTE_DEPTH_AT = 168;
+uint256 constant ATTRIBUTE_DEPTH_MASK = 0xffffffffffffff;
+
+// ---------------------------------------------------------------------------------------------------------------------------- accumulator
+// An attribute word with 32 more bits, as it is stepped from pixel to pixel. In place of colours there may be barycentric coordinates: s in
+// the middle lane, t in the lowest.
+
+/// @dev Depth with 8 more bits than in a vertex, as it is in the buffer.
+uint256 constant ACCUMULATOR_DEPTH_AT = 192;
+uint256 constant ACCUMULATOR_DEPTH_MASK = 0xffffffffffffffff;
+
+// --------------------------------------------------------------------------------------------------------------------- triangle of a list
+// The first vertex is the topmost, and the three run counter-clockwise on the screen.
+
+/// @dev Addresses of the third, second and first vertex record.
+uint256 constant TRIANGLE_C_AT = 0;
+uint256 constant TRIANGLE_C_MASK = 0xffffffff;
+uint256 constant TRIANGLE_B_AT = 32;
+uint256 constant TRIANGLE_B_MASK = 0xffffffff;
+uint256 constant TRIANGLE_A_AT = 64;
+uint256 constant TRIANGLE_A_MASK = 0xffffffff;
+/// @dev The first pixel row that may be covered, and the row after the last.
+uint256 constant TRIANGLE_TOP_AT = 96;
+uint256 constant TRIANGLE_TOP_MASK = 0xffff;
+uint256 constant TRIANGLE_BOTTOM_AT = 112;
+uint256 constant TRIANGLE_BOTTOM_MASK = 0xffff;
+/// @dev The number of the face.
+uint256 constant TRIANGLE_FACE_AT = 128;
+uint256 constant TRIANGLE_FACE_MASK = 0xffff;
+/// @dev Which edges belong to the face: first to second vertex, second to third, third to first.
+uint256 constant TRIANGLE_EDGES_AT = 144;
+uint256 constant TRIANGLE_EDGES_MASK = 7;
+/// @dev Whether it reaches beyond the left or right border of the tile.
+uint256 constant CROSSING_BIT = 0x8000000000000000000000000000000000000;
+
+// ----------------------------------------------------------------------------------------------------------------------- clip coordinates
+// Column * distance, row * distance and distance, all Q32. The first two are signed, and CLIP_BIAS adds half their range to them.
+
+uint256 constant CLIP_X_AT = 0;
+uint256 constant CLIP_X_MASK = 0xffffffffffffffffffffffff;
+uint256 constant CLIP_Y_AT = 96;
+uint256 constant CLIP_Y_MASK = 0xffffffffffffffffffffffff;
+uint256 constant CLIP_W_AT = 192;
+uint256 constant CLIP_W_MASK = 0xffffffffffffffff;
+
+// ---------------------------------------------------------------------------------------------------------------------------------- edges
+// Two columns, Q48, in lanes of 128 bits: the integer part is the first pixel whose centre is not left of the edge. Q48 columns are Q45
+// numbers of bytes of depths: with the address of a row added, edges are the addresses of depths.
+
+/// @dev Whole pixels of the left edge, and of the right one.
+uint256 constant EDGES_LEFT_COLUMN_AT = 48;
+uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
+uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
+uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
+
+// -------------------------------------------------------------------------------------------------------------------------------- colours
+// Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number in a lane borrows
+// from the lane above; as long as the sum in the end is positive in every lane (a bias sees to that), the lanes come out right.
+
+/// @dev 1 in each lane.
+uint256 constant ONES = 0x10000000000000100000000000001;
+/// @dev The lower bits of each: all that a colour of Q10 has in the lanes of a triangle.
+uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
+uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
+/// @dev Half a level, Q10.
+uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
+/// @dev What is set in lanes of Q10 above 255.
+uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
+/// @dev A byte in each lane; a byte as Q10.
+uint256 constant BYTES_56 = 0xff000000000000ff000000000000ff;
+uint256 constant BYTES_Q10 = 0x3fc000000000003fc000000000003fc00;
+
+// --------------------------------------------------------------------------------------------------------------------------------- depths
+// Four depths in a word, the leftmost uppermost.
+
+/// @dev The bit above each; and what is below it.
+uint256 constant TOPS_64 = 0x8000000000000000800000000000000080000000000000008000000000000000;
+uint256 constant BELOW_TOPS_64 = 0x7fffffffffffffff7fffffffffffffff7fffffffffffffff7fffffffffffffff;
+
+// --------------------------------------------------------------------------------------------------------------------------------- pixels
+// Colours of eight pixels in a word, or a channel of eight (Q9), the leftmost uppermost.
+
+uint256 constant ONES_24 = 0x1000001000001000001000001000001000001000001;
+/// @dev How many pixels each is to the left of the last; the squares of that.
+uint256 constant STEPS_24 = 0x7000006000005000004000003000002000001000000;
+uint256 constant SQUARES_24 = 0x31000024000019000010000009000004000001000000;
+/// @dev What is set below 0 and above 255: that below 0; what makes it carry above 255; the byte.
+uint256 constant BEYOND_BYTES_24 = 0xfe0000fe0000fe0000fe0000fe0000fe0000fe0000fe0000;
+uint256 constant TOPS_24 = 0x800000800000800000800000800000800000800000800000;
+uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
+uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
+
+// ------------------------------------------------------------------------------------------------------------------------- signed colours
+// Three signed lanes of 85 bits, of quadratic functions. A colour that is stepped is Q58, and one times its depth Q72 (Q24 without the last
+// 48 bits).
+
+/// @dev Half the range of a lane, which keeps it positive; the same without the last 48 bits, with all bits of that.
+uint256 constant BIAS_84 = 0x4000000000000000000002000000000000000000001000000000000000000000;
+uint256 constant BIAS_36 = 0x4000000000000000000002000000000000000000001000000000;
+uint256 constant LANES_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
+/// @dev Half of the last bit that a second difference keeps.
+uint256 constant BEND_ROUNDING = 0x4000000000000000000002000000000000000000001000000000000;
+/// @dev The byte of each lane, Q58; what is above; what it carries into if it is added to itself; the sign.
+uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc00000000000000;
+uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
+uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
+uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Scene, POINT} from "./Scene.sol";
+import {SceneErrors} from "./SceneErrors.sol";
+
+// What a scene, its lights and its objects have beyond the fields of their structs, so that what is new changes no selector and breaks no
+// scene that is kept. `Scene.extensions` is a sequence of records, all numbers big-endian:
+//
+//   kind     1 byte    one of the following
+//   index    2 bytes   the light or the object that it belongs to, counted from 0; 0 for the scene
+//   size     2 bytes   of what follows, which is that of the kind
+//   SPOT               of a point light, which shines into a cone only:
+//                      3 numbers of 8 bytes: where it points, Q32, any length but zero
+//                      2 numbers of 8 bytes: the cosines of the angles from there at which the light begins to fade, and at which none
+//                      is left, Q32, -1..1
+//   OPACITY            of an object: 4 bytes, Q24, below 1
+//
+// Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
+
+uint256 constant SPOT = 1;
+uint256 constant OPACITY_OF = 2;
+
+uint256 constant RECORD_HEADER = 5;
+uint256 constant SPOT_SIZE = 40;
+uint256 constant OPACITY_SIZE = 4;
+
+/// @dev One, as Q24.
+uint256 constant OPAQUE = 1 << 24;
+
+/// @notice Records, by their places in calldata.
+library Extensions {
+    /// @dev The bounds of coordinates, 2^26 units, and one, Q32.
+    int256 private constant MAX_COORDINATE = 1 << 58;
+    int256 private constant ONE = 1 << 32;
+
+    /// @notice Every record of a scene, of which lights and objects are checked.
+    function check(Scene calldata scene) internal pure {
+        unchecked {
+            bytes calldata records = scene.extensions;
+            (uint256 record, uint256 end) = bounds(scene);
+            uint256 least;
+            while (record != end) {
+                uint256 place = records.length - (end - record);
+                if (end - record < RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
+                uint256 size = (word(record) >> 216) & 0xffff;
+                if (size > end - record - RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
+                uint256 key = keyOf(record);
+                (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (key < least) revert SceneErrors.ExtensionOrder(kind, index);
+                least = key + 1;
+                if (kind == SPOT) {
+                    checkHead(kind, index, size, SPOT_SIZE, scene.lights.length);
+                    if (scene.lights[index].kind != POINT) revert SceneErrors.SpotIsNoPoint(index);
+                    checkSpot(record, index);
+                } else if (kind == OPACITY_OF) {
+                    checkHead(kind, index, size, OPACITY_SIZE, scene.objects.length);
+                    if (opacityOf(record) >= OPAQUE) revert SceneErrors.OpacityOutOfRange(index, opacityOf(record));
+                } else {
+                    revert SceneErrors.UnknownExtension(kind, index);
+                }
+                record += RECORD_HEADER + size;
+            }
+        }
+    }
+
+    function checkHead(uint256 kind, uint256 index, uint256 size, uint256 expected, uint256 count) private pure {
+        if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+        if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+    }
+
+    function checkSpot(uint256 record, uint256 light) private pure {
+        (int256 x, int256 y, int256 z) = (spotNumber(record, 0), spotNumber(record, 1), spotNumber(record, 2));
+        if (!inRange(x) || !inRange(y) || !inRange(z)) revert SceneErrors.SpotOutOfRange(light, x, y, z);
+        if (x | y | z == 0) revert SceneErrors.SpotWithoutDirection(light);
+        (int256 inner, int256 outer) = (spotNumber(record, 3), spotNumber(record, 4));
+        if (inner > ONE || outer < -ONE || inner < outer) revert SceneErrors.SpotAngles(light, inner, outer);
+    }
+
+    function inRange(int256 value) private pure returns (bool) {
+        return value >= -MAX_COORDINATE && value <= MAX_COORDINATE;
+    }
+
+    /// @notice The records in memory with one more, which comes after those of its kind: its index must be greater than theirs.
+    function added(bytes memory records, uint256 kind, uint256 index, bytes memory content) internal pure returns (bytes memory more) {
+        unchecked {
+            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(content.length), content);
+            uint256 place;
+            while (place < records.length && uint8(records[place]) <= kind) {
+                place += RECORD_HEADER + ((uint256(uint8(records[place + 3])) << 8) | uint8(records[place + 4]));
+            }
+            more = new bytes(records.length + record.length);
+            assembly ("memory-safe") {
+                let target := add(more, 32)
+                mcopy(target, add(records, 32), place)
+                target := add(target, place)
+                mcopy(target, add(record, 32), mload(record))
+                mcopy(add(target, mload(record)), add(add(records, 32), place), sub(mload(records), place))
+            }
+        }
+    }
+
+    /// @return record The first record of a scene.
+    /// @return end The place after the last.
+    function bounds(Scene calldata scene) internal pure returns (uint256 record, uint256 end) {
+        unchecked {
+            bytes calldata records = scene.extensions;
+            assembly ("memory-safe") {
+                record := records.offset
+            }
+            end = record + records.length;
+        }
+    }
+
+    /// @notice Whether the record that comes next is that of this kind and index. What follows the last record is none.
+    function isOf(uint256 record, uint256 end, uint256 kind, uint256 index) internal pure returns (bool) {
+        return record != end && keyOf(record) == (kind << 16 | index);
+    }
+
+    /// @notice Kind and index as one number.
+    function keyOf(uint256 record) internal pure returns (uint256) {
+        return word(record) >> 232;
+    }
+
+    /// @return The `i`th number of a SPOT.
+    function spotNumber(uint256 record, uint256 i) internal pure returns (int256) {
+        unchecked {
+            return int256(word(record + RECORD_HEADER + 8 * i)) >> 192;
+        }
+    }
+
+    function opacityOf(uint256 record) internal pure returns (uint256) {
+        unchecked {
+            return word(record + RECORD_HEADER) >> 224;
+        }
+    }
+
+    function word(uint256 place) private pure returns (uint256 value) {
+        assembly ("memory-safe") {
+            value := calldataload(place)
+        }
+    }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "../math/Fixed.sol";
+import {Vector, normalize} from "../math/Vector.sol";
+import {Extensions, SPOT, SPOT_SIZE, RECORD_HEADER} from "../scene/Extensions.sol";
+import {Light, Scene, POINT} from "../scene/Scene.sol";
+import {View} from "./View.sol";
+import "../pipeline/Registers.sol";
+
+/// @dev Over how much of the cosine a spot light fades at least, 2^-10, Q24: 1/1000 in glTF.
+int256 constant MIN_CONE = 1 << 14;
+
+library Lights {
+    /// @notice Lights in camera space.
+    /// @return extension The first record of the scene's extensions that belongs to no light.
+    function set(View memory view_, Scene calldata scene) internal pure returns (uint256 extension) {
+        unchecked {
+            Light[] calldata lights = scene.lights;
+            uint256 end;
+            (extension, end) = Extensions.bounds(scene);
+            uint256 record = LIGHTS;
+            for (uint256 i; i != lights.length; ++i) {
+                Light calldata light = lights[i];
+                bool isPoint = light.kind == POINT;
+                store(record + LIGHT_IS_POINT, isPoint ? 1 : 0);
+                Vector memory v = light.vector;
+                v = view_.toCamera(isPoint ? v.sub(view_.eye) : normalize(v));
+                uint256 shift = isPoint ? 16 : 8;
+                storeSigned(record + LIGHT_X, v.x.raw() >> shift);
+                storeSigned(record + LIGHT_Y, v.y.raw() >> shift);
+                storeSigned(record + LIGHT_Z, v.z.raw() >> shift);
+                store(record + LIGHT_COLOR, colorLanes(light.color));
+                if (Extensions.isOf(extension, end, SPOT, i)) {
+                    setSpot(view_, extension, record);
+                    extension += RECORD_HEADER + SPOT_SIZE;
+                }
+                record += LIGHT_SIZE;
+            }
+            store(LIGHTS_END, record);
+        }
+    }
+
+    /// @dev The cone of a light. Where light fades over less than 2^-10 of the cosine, it fades over that.
+    function setSpot(View memory view_, uint256 extension, uint256 record) private pure {
+        unchecked {
+            Vector memory axis = Vector(
+                Fixed.wrap(Extensions.spotNumber(extension, 0)),
+                Fixed.wrap(Extensions.spotNumber(extension, 1)),
+                Fixed.wrap(Extensions.spotNumber(extension, 2))
+            );
+            axis = view_.toCamera(normalize(axis));
+            storeSigned(record + LIGHT_AXIS_X, axis.x.raw() >> 8);
+            storeSigned(record + LIGHT_AXIS_Y, axis.y.raw() >> 8);
+            storeSigned(record + LIGHT_AXIS_Z, axis.z.raw() >> 8);
+            int256 outer = Extensions.spotNumber(extension, 4) >> 8;
+            int256 cone = (Extensions.spotNumber(extension, 3) >> 8) - outer;
+            storeSigned(record + LIGHT_COS_OUTER, outer);
+            storeSigned(record + LIGHT_CONE, cone < MIN_CONE ? MIN_CONE : cone);
+        }
+    }
+
+    function colorLanes(uint256 color) private pure returns (uint256) {
+        return (color & 0xff) | ((color & 0xff00) << 48) | ((color & 0xff0000) << 96);
+    }
+}

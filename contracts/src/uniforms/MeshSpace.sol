@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Vector, normalize} from "../math/Vector.sol";
+import {Matrix, transposedTimes} from "../math/Quaternion.sol";
+import {Scene, Object, Light, POINT} from "../scene/Scene.sol";
+import {View} from "./View.sol";
+import "../pipeline/Registers.sol";
+
+// Flat faces are lit where their corners are small integers: in the space of the mesh.
+
+/// @dev The scale that makes Q24 of a unit vector: see storeMeshVector.
+int256 constant DIRECTION = 1 << 40;
+
+library MeshSpace {
+    /// @notice Scale, and eye and lights in the space of the mesh.
+    function set(View memory view_, Scene calldata scene, Object calldata object, Matrix memory rotation) internal pure {
+        unchecked {
+            int256 scale = object.scale.raw();
+            if (scale == 0) return;
+            storeSigned(SCALE, scale);
+            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 64) / loadSigned(NEAR));
+            Vector memory position = object.position;
+            if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), DIRECTION);
+            else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), scale);
+            storeLanes(NORMAL_X, rotation.transposedTimes(view_.right));
+            storeLanes(NORMAL_Y, rotation.transposedTimes(view_.down));
+            storeLanes(NORMAL_Z, rotation.transposedTimes(view_.forward));
+            Light[] calldata lights = scene.lights;
+            uint256 record = LIGHTS;
+            for (uint256 i; i != lights.length; ++i) {
+                Vector memory v = lights[i].vector;
+                if (lights[i].kind == POINT) storeMeshVector(record + LIGHT_MESH_X, rotation.transposedTimes(v.sub(position)), scale);
+                else storeLanes(record + LIGHT_MESH_X, rotation.transposedTimes(normalize(v)));
+                record += LIGHT_SIZE;
+            }
+        }
+    }
+
+    /// @dev A unit vector, Q24, in signed lanes of 85 bits, z lowest.
+    function storeLanes(uint256 pointer, Vector memory v) private pure {
+        unchecked {
+            storeSigned(pointer, ((v.x.raw() >> 8) << 170) + ((v.y.raw() >> 8) << 85) + (v.z.raw() >> 8));
+        }
+    }
+
+    /// @dev A vector divided by the scale of the mesh, Q32, rounded toward zero; by DIRECTION for a unit vector as Q24. Coordinates of up
+    /// to 2^60 leave room for the shift.
+    function storeMeshVector(uint256 pointer, Vector memory v, int256 scale) private pure {
+        unchecked {
+            storeSigned(pointer, (v.x.raw() << 32) / scale);
+            storeSigned(pointer + 32, (v.y.raw() << 32) / scale);
+            storeSigned(pointer + 64, (v.z.raw() << 32) / scale);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Matrix} from "../math/Quaternion.sol";
+import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
+import {Mesh, openMesh} from "../scene/Mesh.sol";
+import {Lights} from "./Lights.sol";
+import {Materials} from "./Materials.sol";
+import {MeshSpace} from "./MeshSpace.sol";
+import {Transform} from "./Transform.sol";
+import {View, lookAt} from "./View.sol";
+import "../pipeline/Registers.sol";
+
+// What is computed once for a frame or an object. The Renderer fills the registers at the addresses that they have in the engine, and
+// hands them on as they stand. The data of a call of the engine are
+//
+//   4 bytes            selector
+//   FRAME_SIZE bytes   the registers of the frame
+//                      the scene, as it stands in the call of the Renderer, with all that follows it; the engine reads the meshes of it
+//   for each object:   its registers, OBJECT_BYTES bytes
+//                      what other engines have drawn before: see DRAWN_BEFORE
+
+library Uniforms {
+    /// @notice Writes the data of the call that has the engine draw a part of the canvas.
+    /// @param room Bytes that are left free before them; free memory begins there.
+    /// @return data Where they begin.
+    /// @return end Where they end.
+    function write(bytes4 selector, Scene calldata scene, Rectangle memory tile, bool countPixels, uint256 room)
+        internal
+        pure
+        returns (uint256 data, uint256 end)
+    {
+        unchecked {
+            // once for all calls
+            if (freeMemory() < REGISTERS_END) reserveRegisters(REGISTERS, REGISTERS_END);
+            View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
+            uint256 extension = setFrame(view_, scene, tile);
+            store(COUNT_PIXELS, countPixels ? 1 : 0);
+            data = freeMemory() + room;
+            uint256 size;
+            uint256 moved;
+            assembly ("memory-safe") {
+                size := sub(calldatasize(), scene)
+                mstore(data, selector)
+                end := add(data, add(4, FRAME_SIZE))
+                calldatacopy(end, scene, size)
+                // the place in the engine's calldata of what is at 0 in these
+                moved := sub(add(4, FRAME_SIZE), scene)
+                end := add(end, size)
+                mstore(OBJECTS, sub(end, data))
+                mstore(OBJECTS_BEGIN, sub(end, data))
+                mcopy(add(data, 4), REGISTERS, FRAME_SIZE)
+            }
+            for (uint256 i; i != scene.objects.length; ++i) {
+                // what is allocated for an object is given up with it
+                setFreeMemory(end);
+                extension = setOpacity(scene, i, extension);
+                setObject(view_, scene, scene.objects[i], tile, moved);
+                assembly ("memory-safe") {
+                    mcopy(end, OBJECT_BYTES, mload(OBJECT_BYTES))
+                    end := add(end, mload(OBJECT_BYTES))
+                }
+            }
+            setFreeMemory(data - room);
+        }
+    }
+
+    /// @notice Tile, background, and lights in camera space.
+    /// @return extension The first record of the scene's extensions that belongs to no light.
+    function setFrame(View memory view_, Scene calldata scene, Rectangle memory tile) private pure returns (uint256 extension) {
+        unchecked {
+            store(COLUMN_BEGIN, tile.x + PIXEL_BIAS);
+            store(COLUMN_END, tile.x + tile.width + PIXEL_BIAS);
+            store(DEPTH_STRIDE, 8 * tile.width);
+            assembly ("memory-safe") {
+                mcopy(TILE_X, tile, 0x80)
+            }
+            store(CANVAS_HEIGHT, scene.canvas.height);
+            store(BACKGROUND_TOP, scene.background.top);
+            store(BACKGROUND_BOTTOM, scene.background.bottom);
+            store(INVERT, scene.invert);
+            store(OBJECT_COUNT, scene.objects.length);
+            store(OBJECT_TOTAL, scene.objects.length);
+            extension = Lights.set(view_, scene);
+        }
+    }
+
+    /// @param extension The next record of the scene's extensions.
+    /// @return The one after what is read here.
+    function setOpacity(Scene calldata scene, uint256 object, uint256 extension) private pure returns (uint256) {
+        unchecked {
+            (, uint256 end) = Extensions.bounds(scene);
+            if (!Extensions.isOf(extension, end, OPACITY_OF, object)) {
+                store(OPACITY, OPAQUE);
+                return extension;
+            }
+            store(OPACITY, Extensions.opacityOf(extension));
+            return extension + RECORD_HEADER + OPACITY_SIZE;
+        }
+    }
+
+    /// @param moved How much farther the scene stands in the engine's calldata; may be negative.
+    function setObject(View memory view_, Scene calldata scene, Object calldata object, Rectangle memory tile, uint256 moved) private pure {
+        unchecked {
+            Matrix memory rotation = object.rotation.toMatrix();
+            Mesh memory mesh = openMesh(object.mesh);
+            mesh.vertices += moved;
+            mesh.faces += moved;
+            assembly ("memory-safe") {
+                mcopy(MESH_VERTICES, mesh, 0xc0)
+            }
+            store(OBJECT_FLAGS, object.flags);
+            Transform.setMatrix(view_, object, rotation);
+            Transform.setRounding(tile, object.flags & WIREFRAME != 0);
+            uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
+            if (load(OPACITY) != OPAQUE) mode |= IS_BLENDED;
+            uint256 end = OBJECT_LIT;
+            if (object.material.shading != UNLIT) {
+                mode |= Materials.set(view_, scene, object.material);
+                if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
+                else MeshSpace.set(view_, scene, object, rotation);
+                // no square is beyond the beginning of a table that is not there
+                if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
+                else end = OBJECT_LIGHTS + scene.lights.length * LIGHT_SIZE;
+            }
+            store(OBJECT_MODE, mode);
+            store(OBJECT_BYTES, end - OBJECT_BYTES);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+"""Objects that are not opaque.
+
+They are drawn twice: the first pass finds the nearest fragment of each pixel, the second mixes its colour with what is
+there, once. The last two bits of a depth say how far it is.
+"""
+
+from __future__ import annotations
+
+from .fragment_shader import Span
+from .layout import IS_BLENDED
+from .patches import HALF_85, pack, sampled
+from .registers import Registers
+from .words import MASK
+
+FOUND, DRAWN = 1, 2
+#: Just below 256, Q10.
+BRIGHTEST = 0x3FFFF
+LANE = (1 << 85) - 1
+
+
+def draw(spans: list[Span], r: Registers) -> None:
+    """Draws spans."""
+    for row, first, end, attribute, step in spans:
+        line = row - r.band_top
+        for column in range(first, end):
+            place = line, column - r.column_begin
+            if passes(attribute, place, r):
+                color = blended(sampled(attribute, column, row, r), r.image[place].tolist(), r.opacity)
+                r.image[place] = pack(((color << 48) + HALF_85) & MASK)
+            attribute += step
+
+
+def passes(attribute: int, place: tuple[int, int], r: Registers) -> bool:
+    """The depth test of both passes; whether the fragment is to be drawn now."""
+    old, depth = int(r.depth[place]), (attribute & MASK) >> 192 & ~3
+    second = bool(r.mode & IS_BLENDED)
+    if old != depth | FOUND if second else depth <= old:
+        return False
+    r.depth[place] = depth | (DRAWN if second else FOUND)
+    return second
+
+
+def blended(color: int, behind: list[int], opacity: int) -> int:
+    """A colour (signed lanes of 85 bits, Q10) over blue, green and red: color * opacity + behind * (1 - opacity)."""
+    mixed = 0
+    for lane, byte in enumerate(behind):
+        low = color & LANE
+        value = low - (low >> 84 << 85)
+        # without what the lane has borrowed
+        color = (color - value) >> 85
+        value = min(max(value, 0), BRIGHTEST)
+        mixed |= (value * opacity + (byte << 10) * ((1 << 24) - opacity)) >> 24 << (85 * lane)
+    return mixed

@@ -1,0 +1,81 @@
+"""How a surface that is lit answers the lights, and how finely it has to be shaded for that."""
+
+from __future__ import annotations
+
+from . import specular
+from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_FLAT, IS_GREY, IS_LIT, IS_QUADRATIC, IS_SMOOTH, IS_SPOT_LIT, ONES
+from .registers import Registers
+from .structs import FLAT, POINT, Light, Material, Scene
+from .view import View
+from .words import MASK
+
+
+def set_material(view: View, scene: Scene, material: Material, registers: Registers) -> int:
+    """The registers of a material that is lit; returns what it adds to the mode of the object."""
+    mode = 0
+    set_reach(view, scene.lights, material, registers)
+    registers.ambient = scaled(scene.ambient_light, material.ambient)
+    grey = is_grey(registers.ambient)
+    for record, light in zip(registers.lights, scene.lights, strict=True):
+        record.diffuse = scaled(light.color, material.diffuse)
+        if record.cone:
+            mode = IS_SPOT_LIT
+        grey = grey and is_grey(record.diffuse)
+    if material.specular != 0:
+        mode |= HAS_SPECULAR
+    specular.set_table(material.specular, material.shininess, registers)
+    # without lights the normal makes no difference
+    if material.shading == FLAT or not scene.lights:
+        mode |= IS_FLAT
+        registers.fragment_square = 1 << 48
+        registers.fragment_normal_length = 1 << 24
+    else:
+        registers.face_light = registers.ambient
+        registers.face_light_40 = registers.ambient << 24
+        focal = view.focal >> 32
+        is_point = registers.lights[0].is_point
+        registers.smooth_reach = smooth_reach(focal, material.diffuse, is_point)
+        registers.half_reach = specular.half_reach(material.specular, material.shininess)
+        # with several lights most of the work would be done for each of them all the same
+        is_simple = len(scene.lights) == 1 and mode & IS_SPOT_LIT == 0 and not specular.is_broad(material)
+        if is_simple and not (view.orthographic and is_point):
+            mode |= IS_QUADRATIC
+        mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (IS_GREY if grey else 0)
+    return mode
+
+
+def scaled(color: int, coefficient: int) -> int:
+    """Colour bytes times a coefficient (Q32), lanes of Q16 where 255 is one."""
+    k = coefficient >> 16
+    return sum(((color >> (8 * i)) & 0xFF) * k // 255 << (56 * i) for i in range(3))
+
+
+def is_grey(light: int) -> bool:
+    """Whether all lanes are equal."""
+    return light == (light & 0xFFFFFFFF) * ONES
+
+
+def set_reach(view: View, lights: tuple[Light, ...], material: Material, registers: Registers) -> None:
+    """The square of the distance, in sub-pixels, over which light is as good as linear."""
+    focal = view.focal >> 32
+    strength = material.shininess * material.specular
+    point = any(light.kind == POINT for light in lights)
+    if point:
+        strength += 2 * material.diffuse
+    strength *= len(lights)
+    if view.orthographic:
+        registers.reach = 0 if point else 1 << 60
+    else:
+        registers.reach = 1 << 60 if strength == 0 else ((48 * focal * focal << 32) & MASK) // (255 * strength)
+    if specular.is_broad(material):
+        registers.reach = 0
+
+
+def smooth_reach(focal: int, coefficient: int, is_point: bool) -> int:
+    """The sum of the squares of two edges, in sub-pixels, up to which directions to a lamp may be interpolated.
+
+    Their error is at most sum w_i w_j e_ij^2 / 2, where e is an edge by the distance of the lamp, or 5/4 of it by that
+    of the eye: 5/4 is the square of how much nearer lamps may be. The sum is at most a quarter of that of two edges.
+    Four levels of 255 are allowed.
+    """
+    return (13 * focal * focal << 32) // (255 * coefficient) if is_point and coefficient else 1 << 60

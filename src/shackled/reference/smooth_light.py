@@ -1,0 +1,150 @@
+"""The light of one lamp on smooth surfaces: products of vectors that are quadratic over a triangle.
+
+Normals N are interpolated between the vertices, and so are the directions L to the light and the half vectors H, which
+turn little within a triangle. A fragment takes N * N, N * L and N * H from differences, and
+
+    diffuse = N * L / |N|,  specular = ((N * H)^2 / N * N)^(shininess / 2)
+
+The contract says how far that is from the light at the fragment itself.
+"""
+
+from __future__ import annotations
+
+from . import quadratic
+from .fragment_shader import ray_of
+from .primitive_assembly import Triangle
+from .registers import Registers
+from .roots import sqrt
+from .vertex_shader import SmoothVertex, Vertex
+from .words import MASK, divide, divide_signed, signed
+
+#: Half the range of a lane of 85 bits, for vectors of Q20.
+VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
+LANE_85 = (1 << 85) - 1
+
+UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
+
+
+def product(a: int, b: int) -> int:
+    """The scalar product of two vectors in lanes, one of them the other way round."""
+    return signed((a * b) << 1) >> 171
+
+
+def products(n: int, r: int, light: int, m: int, half: int) -> int:
+    """Lanes n * r, n * light, m * half, where r, light and half are the other way round; n and m are Q30, sums Q20."""
+    square, diffuse, specular = product(n, r) >> 40, product(n, light) >> 30, product(m, half) >> 30
+    return (square << 170) + (diffuse << 85) + specular
+
+
+def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
+    """The quadratic products of a triangle, which of whose edges two have squares with the sum `size`.
+
+    Returns UNBOUNDED_LIGHT if they may be too far from the light of each fragment; AFFINE_LIGHT if the depths of the
+    vertices are so near to each other that colours may be interpolated linearly, else STEEP_LIGHT.
+    """
+    r = registers
+    if size >= 8 * r.smooth_reach:
+        return UNBOUNDED_LIGHT
+    vertices = (triangle.a, triangle.b, triangle.c)
+    for vertex in vertices:
+        if vertex.smooth is None:
+            vertex.smooth = smooth_vertex(vertex, r)
+    weights = [1024, 1024, 1024]
+    if not r.frame_is_orthographic:
+        # depths by the greatest of them
+        depths = [vertex.attributes >> 168 for vertex in vertices]
+        weights = [divide(depth << 10, max(depths)) for depth in depths]
+    corners = [vertex.smooth for vertex in vertices if vertex.smooth and vertex.smooth.is_bounded]
+    if len(corners) < 3:
+        return UNBOUNDED_LIGHT
+    normals = [weight * vertex.normal for weight, vertex in zip(weights, vertices, strict=True)]
+    turned = [weight * corner.reversed for weight, corner in zip(weights, corners, strict=True)]
+    a, b, c = (
+        products(n, t, corner.light, n, corner.half_reversed)
+        for n, t, corner in zip(normals, turned, corners, strict=True)
+    )
+    edges, changes = [], 0
+    pairs = ((0, 1), (0, 2), (1, 2))
+    for i, j in pairs:
+        # products of the changes from one vertex to another
+        n, u, v = normals[j] - normals[i], corners[i], corners[j]
+        half, half_reversed = v.half - u.half, v.half_reversed - u.half_reversed
+        changes = max(changes, product(half, half_reversed))
+        edges.append(products(n, turned[j] - turned[i], v.light - u.light, n - (half << 9), half_reversed))
+    # the least N * N less a third of the largest square of a change is to be 1/4 or more: three times that
+    least = 3 * (signed(min(signed(a), signed(b), signed(c))) >> 170) - 0xC0000
+    if any(signed(edge) >> 170 >= least for edge in edges):
+        return UNBOUNDED_LIGHT
+    depths_differ = (min(weights) < 896) + (min(weights) < 768)
+    if size >= r.smooth_reach or changes << 3 * depths_differ > r.half_reach:
+        if 2 * changes > 13 * r.half_reach or depths_differ > 1:
+            return UNBOUNDED_LIGHT
+        for edge, (i, j) in enumerate(pairs):
+            middle = middle_vertex(vertices[i], vertices[j], r)
+            if not middle.is_bounded:
+                return UNBOUNDED_LIGHT
+            edges[edge] += correction(normals[i] + normals[j], corners[i], corners[j], middle)
+    ab, ac, bc = edges
+    coefficients = quadratic.Coefficients(a, b - a - ab, c - a - ac, ab, ab + ac - bc, ac)
+    r.quadratic = quadratic.differences(triangle.a, triangle.b, triangle.c, 0, coefficients)
+    # colours of up to 255 may differ as they like where depths do not by more than 12 / 255: see shading.is_affine
+    return STEEP_LIGHT if min(weights) < 980 else AFFINE_LIGHT
+
+
+def middle_vertex(a: Vertex, b: Vertex, registers: Registers) -> SmoothVertex:
+    """What there is in the middle of an edge."""
+    depth = (a.attributes >> 168) + (b.attributes >> 168) >> 1
+    return smooth_vertex(Vertex(0, a.x + b.x >> 1, a.y + b.y >> 1, False, False, depth << 168, a.normal), registers)
+
+
+def correction(n: int, a: SmoothVertex, b: SmoothVertex, middle: SmoothVertex) -> int:
+    """What has to be added to the products of the changes along an edge, so that they are right in its middle.
+
+    Four times the error there, (N_a + N_b) * (L_a + L_b - 2 L), and the same of H, which is not too short there.
+    """
+    diffuse = product(n, a.light + b.light - 2 * middle.light) >> 30
+    specular = product(n, a.half_reversed + b.half_reversed - 2 * middle.half_reversed) >> 30
+    shortness = product(a.half - b.half, a.half_reversed - b.half_reversed) >> 21
+    return (diffuse << 85) + specular + shortness
+
+
+def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
+    """What the triangles around a vertex need."""
+    r = registers
+    # the ray (x, y, 1), Q24
+    x, y = ray_of(vertex, r)
+    light = r.lights[0]
+    lx, ly, lz = light.x, light.y, light.z
+    bounded = True
+    length = 1 << 24
+    if light.is_point:
+        # from the vertex to the light, Q16
+        z = divide(r.depth_scale, vertex.attributes >> 168)
+        px, py, pz = x * z >> 40, y * z >> 40, z >> 16
+        lx, ly, lz = lx - px, ly - py, lz - pz
+        square = lx * lx + ly * ly + lz * lz
+        # at most nearer than the eye by the root of 5/4
+        bounded = 4 * (px * px + py * py + pz * pz) <= 5 * square
+        length = sqrt(square)
+    lx, ly, lz = (divide_signed(component << 20, length) for component in (lx, ly, lz))
+    if r.frame_is_orthographic:
+        x = y = 0
+    # H = L + V, where V is the ray turned round
+    length = sqrt(x * x + y * y + (1 << 48))
+    hx, hy, hz = (component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24)))
+    square = hx * hx + hy * hy + hz * hz
+    # not against the light, where it turns without bound
+    bounded = bounded and square > 1 << 38
+    length = sqrt(square)
+    hx, hy, hz = (divide_signed(component << 20, length) for component in (hx, hy, hz))
+    lanes = (vertex.normal + VECTOR_BIAS) & MASK
+    reversed_normal = ((lanes & LANE_85) << 170 | lanes >> 170 | (lanes & (LANE_85 << 85))) - VECTOR_BIAS
+    # the square of the normal, Q40, is from 15/16 to 17/16
+    bounded = bounded and 0 <= product(vertex.normal, reversed_normal) - (15 << 36) < 1 << 37
+    return SmoothVertex(
+        bounded,
+        reversed_normal & MASK,
+        lz + (ly << 85) + (lx << 170),
+        hx + (hy << 85) + (hz << 170),
+        hz + (hy << 85) + (hx << 170),
+    )

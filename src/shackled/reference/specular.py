@@ -1,0 +1,65 @@
+"""The highlight of a material."""
+
+from __future__ import annotations
+
+from .registers import Registers
+from .roots import sqrt
+from .structs import Material
+from .words import MASK
+
+
+def set_table(coefficient: int, shininess: int, registers: Registers) -> None:
+    """Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level."""
+    registers.specular_root = coefficient >> 16 if shininess == 1 else 0
+    if coefficient == 0 or shininess == 1:
+        # no square is greater than this
+        registers.specular_begin = MASK
+        return
+    width = 13
+    k = 1 << 32
+    while k < coefficient:
+        width += 2
+        k <<= 1
+    width = min((width << 24) // shininess, 1 << 24)
+    begin = (1 << 24) - width
+    registers.specular_begin = begin
+    registers.specular_scale = (64 << 40) // width
+    last = (coefficient * power(1 << 24, shininess)) >> 48
+    table = [0] * 64 + [last << 128]
+    for i in reversed(range(64)):
+        value = (coefficient * power(begin + width * i // 64, shininess)) >> 48
+        table[i] = ((value << 128) | ((last - value) & MASK)) & MASK
+        last = value
+    registers.specular_table = table
+
+
+def power(square: int, exponent: int) -> int:
+    """square^(exponent / 2), where square is Q24 and the result Q32."""
+    base = square << 8
+    result = sqrt(base << 32) if exponent & 1 else 1 << 32
+    exponent >>= 1
+    while exponent:
+        if exponent & 1:
+            result = (result * base) >> 32
+        base = (base * base) >> 32
+        exponent >>= 1
+    return result
+
+
+def half_reach(coefficient: int, shininess: int) -> int:
+    """The square, Q40, of how much unit half vectors may differ in a triangle.
+
+    If they are interpolated, their direction is off by d^2/4 at most for a difference d, and cos^n is steepest with
+    about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
+    """
+    slope = (sqrt(shininess << 64) * coefficient) >> 32
+    return min((1 << 72) // (10 * slope), 1 << 36) if slope else 1 << 36
+
+
+def is_broad(material: Material) -> bool:
+    """Whether the highlight is the cosine itself.
+
+    Over its square, where the others are tabulated, it is too steep near zero to be interpolated, and each fragment
+    takes the root.
+    """
+    return material.shininess == 1 and material.specular != 0

@@ -1,0 +1,46 @@
+"""What is computed once for a frame or an object, before the engine draws."""
+
+from __future__ import annotations
+
+from . import lights, materials, mesh_space, transform
+from .extensions import OPACITY, OPAQUE, read_records
+from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
+from .registers import Registers
+from .structs import UNLIT, WIREFRAME, Scene
+from .vector import to_matrix
+from .view import View, look_at
+
+
+def set_frame(scene: Scene, registers: Registers) -> View:
+    """The registers of the frame."""
+    tile = registers.tile
+    registers.column_begin = tile.x + PIXEL_BIAS
+    registers.column_end = tile.x + tile.width + PIXEL_BIAS
+    view = look_at(scene.camera, scene.canvas.width, scene.canvas.height, registers)
+    lights.set_lights(view, scene.lights, read_records(scene.extensions), registers)
+    return view
+
+
+def set_object(view: View, scene: Scene, index: int, registers: Registers) -> None:
+    """The registers of an object."""
+    obj = scene.objects[index]
+    registers.opacity = opacity_of(scene, index)
+    rotation = to_matrix(obj.rotation)
+    transform.set_matrix(view, obj, rotation, registers)
+    transform.set_rounding(registers.tile, bool(obj.flags & WIREFRAME), registers)
+    mode = IS_ORTHOGRAPHIC if view.orthographic else 0
+    if registers.opacity != OPAQUE:
+        mode |= IS_BLENDED
+    if obj.material.shading != UNLIT:
+        mode |= materials.set_material(view, scene, obj.material, registers)
+        if mode & IS_SMOOTH:
+            transform.set_normal_matrix(view, rotation, registers)
+        else:
+            mesh_space.set_mesh_space(view, scene, obj, rotation, registers)
+    registers.object_mode = mode
+
+
+def opacity_of(scene: Scene, index: int) -> int:
+    """How much of what is behind it an object hides, Q24."""
+    content = read_records(scene.extensions).get((OPACITY, index))
+    return OPAQUE if content is None else int.from_bytes(content, "big")

@@ -1,0 +1,289 @@
+"""Spot lights and opacity, and the records of a scene that hold them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import accuracy
+from pictures import Pixels, chain, counts, draw, dynamic
+from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled.artifacts import artifact
+from shackled.image import decode_bmp
+from shackled.reference import draw_call
+from shackled.scene.codec import ONE, Rectangle, encode, encode_scene, extensions
+from shackled.scene.fit import fit
+
+CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+BOX = Mesh(
+    100 * np.array(CORNERS),
+    [(a, b, c) for a, b, c, _ in QUADS] + [(a, c, d) for a, _, c, d in QUADS],
+    [[250, 120, 40], [40, 200, 90], [60, 80, 240], [230, 230, 60]] * 2,
+)
+WALL = Mesh(
+    [[x, y, 0] for x in range(-300, 301, 100) for y in range(-300, 301, 100)],
+    [
+        face
+        for x in range(6)
+        for y in range(6)
+        for face in ((7 * x + y, 7 * x + y + 7, 7 * x + y + 1), (7 * x + y + 1, 7 * x + y + 7, 7 * x + y + 8))
+    ],
+    [[200, 220, 240]] * 49,
+    [[0, 0, 1]] * 49,
+)
+MATTE = Material("flat", 0.1, 0.9, 0.0, 1)
+GLOSSY = Material("smooth", 0.1, 0.7, 0.6, 30)
+CAMERA = Camera((0, 0, 700), (0, 0, 0), near=1)
+
+
+def wall(material: Material = GLOSSY, **changes: Any) -> Scene:
+    return replace(Scene([Object(WALL, material=material)], CAMERA, width=64, height=64), **changes)
+
+
+def spot(inner: float = 10, outer: float = 25, **changes: Any) -> Light:
+    light = Light("spot", (150, 100, 400), (255, 240, 200), (-150, -100, -400), inner, outer)
+    return replace(light, **changes)
+
+
+def box(opacity: float, z: float = 0, **changes: Any) -> Object:
+    turned = Object(BOX, (0, 0, z), (0.3, 0.4, 0.1, 1), material=Material("unlit"), opacity=opacity)
+    return replace(turned, **changes)
+
+
+def pixels(scene: Scene) -> NDArray[np.int64]:
+    return np.asarray(draw(scene)).astype(int)
+
+
+# ---- spot lights ----
+
+
+@pytest.mark.parametrize("shading", ["flat", "smooth"])
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+@pytest.mark.parametrize("angles", [(0, 45), (10, 25), (20, 20), (60, 120)])
+def test_a_cone_is_that_of_gltf(shading: Any, projection: Any, angles: tuple[float, float]) -> None:
+    camera = replace(CAMERA, projection=projection, half_height=0.5 if projection == "perspective" else 330.0)
+    lights = [spot(*angles), Light("directional", (-1, 1, 3), (30, 60, 90))]
+    measured = accuracy.measure(wall(replace(GLOSSY, shading=shading), camera=camera, lights=lights))
+    assert measured.pixels > 300
+    # where the edge is hard, it goes through pixels
+    assert measured.is_good or (angles[0] == angles[1] and measured.within > 0.97)
+
+
+def test_a_cone_of_all_directions_is_a_point_light() -> None:
+    plain = Light("point", (150, 100, 400), (255, 240, 200))
+    for material in (MATTE, GLOSSY):
+        whole = wall(material, lights=[spot(179, 180)])
+        difference = np.abs(pixels(whole) - pixels(wall(material, lights=[plain])))
+        # the point light may be interpolated over blocks and triangles
+        assert difference.max() <= 4
+
+
+def test_outside_of_the_cone_is_ambient_light_only() -> None:
+    away = spot(direction=(0, 0, 1))
+    for material in (MATTE, GLOSSY):
+        dark = pixels(wall(material, lights=[]))
+        assert np.abs(pixels(wall(material, lights=[away])) - dark).max() <= 1
+        lit = pixels(wall(material, lights=[spot(0, 10)]))
+        # in the middle of the cone it is bright, in the corners dark
+        assert (lit[30:34, 30:34] > dark[30:34, 30:34] + 40).all()
+        assert np.abs(lit[:8, :8] - dark[:8, :8]).max() <= 1
+
+
+def test_what_a_spot_light_needs() -> None:
+    with pytest.raises(InputError, match="a spot light needs a direction"):
+        Light("spot", (0, 0, 0))
+    with pytest.raises(InputError, match="the direction of a spot light must not be zero"):
+        Light("spot", (0, 0, 0), direction=(0, 0, 0))
+    with pytest.raises(InputError, match="the inner_angle of a spot light, 50, must not be above its outer_angle, 45"):
+        Light("spot", (0, 0, 0), direction=(0, 0, 1), inner_angle=50)
+    with pytest.raises(InputError, match="outer_angle of a spot light must be a finite number from 0 to 180"):
+        Light("spot", (0, 0, 0), direction=(0, 0, 1), outer_angle=181)
+    with pytest.raises(InputError, match="only a spot light has direction, inner_angle and outer_angle, not a point"):
+        Light("point", (0, 0, 0), direction=(0, 0, 1))
+
+
+# ---- opacity ----
+
+
+def scene_of(*objects: Object, **changes: Any) -> Scene:
+    backdrop = Background((200, 210, 220), (40, 30, 20))
+    return replace(Scene(list(objects), CAMERA, background=backdrop, width=48, height=48), **changes)
+
+
+def test_opaque_is_as_without() -> None:
+    assert extensions(scene_of(box(1.0))) == b""
+    assert encode(b"....", scene_of(box(1.0))) == encode(b"....", scene_of(replace(box(0.5), opacity=1)))
+
+
+def test_an_opacity_of_0_is_not_there() -> None:
+    behind = box(1.0, -300)
+    scene = scene_of(box(0.0), behind)
+    assert (pixels(scene) == pixels(scene_of(behind))).all()
+    assert counts(scene)[1] == counts(scene_of(behind))[1]
+
+
+@pytest.mark.parametrize("wireframe", [False, True])
+@pytest.mark.parametrize("cull", [False, True])
+def test_the_nearest_surface_is_seen_once(cull: bool, wireframe: bool) -> None:
+    plain = scene_of(box(1.0, cull=cull, wireframe=wireframe))
+    half = scene_of(box(0.5, cull=cull, wireframe=wireframe))
+    nothing, opaque, mixed = pixels(scene_of()), pixels(plain), pixels(half)
+    assert (opaque != nothing).any()
+    assert np.abs(mixed - (nothing + opaque) / 2).max() <= 2
+
+
+def test_the_order_of_faces_makes_no_difference() -> None:
+    expected = pixels(scene_of(box(0.4, cull=False)))
+    for seed in range(5):
+        faces = np.random.default_rng(seed).permutation(np.asarray(BOX.faces))
+        assert (pixels(scene_of(box(0.4, cull=False, mesh=replace(BOX, faces=faces)))) == expected).all()
+
+
+def test_what_is_not_opaque_comes_last() -> None:
+    far = box(1.0, -300, mesh=replace(BOX, colors=[[255, 0, 0]] * 8))
+    for objects in ((box(0.5), far), (far, box(0.5))):
+        measured = accuracy.measure(scene_of(*objects))
+        assert measured.worst <= 2
+    assert (pixels(scene_of(box(0.5), far)) == pixels(scene_of(far, box(0.5)))).all()
+    # of two that are not opaque the farther should come first: behind the nearer it is not drawn
+    near = box(0.5, mesh=replace(BOX, colors=[[0, 0, 255]] * 8))
+    through = replace(far, opacity=0.5)
+    assert pixels(scene_of(through, near))[24, 24, 0] > pixels(scene_of(near, through))[24, 24, 0] + 20
+    for objects in ((through, near), (near, through)):
+        assert accuracy.measure(scene_of(*objects)).worst <= 2
+
+
+def test_bright_colours_are_mixed_as_they_are_seen() -> None:
+    bright = wall(replace(GLOSSY, ambient=4.0), lights=[spot()])
+    mixed = replace(bright, objects=[replace(bright.objects[0], opacity=0.25)], background=Background((0, 0, 0)))
+    assert np.abs(pixels(mixed) - np.minimum(pixels(bright), 255) / 4).max() <= 1
+
+
+def test_tiles_equal_the_whole() -> None:
+    scene = fit(
+        wall(lights=[spot()], objects=[Object(WALL, material=GLOSSY), box(0.6, 120, material=MATTE), box(0.3, 180)])
+    )
+    whole = pixels(scene)
+    for x, y, width, height in ((0, 0, 31, 64), (31, 7, 33, 20), (13, 40, 1, 24)):
+        tile = chain().draw(scene, Rectangle(x, y, width, height)).bmp
+        assert (decode_bmp(tile, width, height) == whole[y : y + height, x : x + width]).all()
+
+
+# ---- records ----
+
+
+def record(kind: int, index: int, content: bytes) -> bytes:
+    return bytes([kind]) + index.to_bytes(2, "big") + len(content).to_bytes(2, "big") + content
+
+
+def cone(*numbers: int) -> bytes:
+    return b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)
+
+
+def with_records(scene: Scene, data: bytes) -> bytes:
+    """The call that has the scene rendered with these extensions."""
+    plain = replace(
+        scene,
+        lights=[Light("point", w.vector, w.color) if w.kind == "spot" else w for w in scene.lights],
+        objects=[replace(o, opacity=1.0) for o in scene.objects],
+    )
+    assert extensions(plain) == b""
+    struct = encode_scene(fit(plain))[:-32] + len(data).to_bytes(32, "big") + data + bytes(-len(data) % 32)
+    return artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + struct
+
+
+DOWN = cone(0, -ONE, 0, ONE, 0)
+HALF = (1 << 23).to_bytes(4, "big")
+FAR = 1 << 58
+
+
+def mixed() -> Scene:
+    """Two lights, the second of them a point light; three objects."""
+    lights = [Light("directional", (1, 1, 1)), spot()]
+    return fit(scene_of(box(1.0), box(0.5, 100), box(0.25, 200), lights=lights))
+
+
+def test_records_are_what_the_file_says() -> None:
+    scene = mixed()
+    axis = [round(part * ONE) for part in np.asarray(scene.lights[1].direction).tolist()]
+    cosines = [round(math.cos(math.radians(angle)) * ONE) for angle in (10, 25)]
+    expected = record(1, 1, cone(*axis, *cosines)) + record(2, 1, HALF) + record(2, 2, (1 << 22).to_bytes(4, "big"))
+    assert extensions(scene) == expected
+    drawn = chain().call("Renderer", with_records(scene, expected)).output
+    assert drawn == chain().call("Renderer", encode(artifact("Renderer").selectors["render"], scene)).output
+
+
+@pytest.mark.parametrize(
+    ("data", "error"),
+    [
+        (b"\1", "ExtensionCutOff(position=0)"),
+        (record(1, 1, DOWN)[:-1], "ExtensionCutOff(position=0)"),
+        (record(1, 1, DOWN) + b"\2\0\1\0", "ExtensionCutOff(position=45)"),
+        (record(2, 1, HALF) + bytes([2, 0, 2, 255, 255]), "ExtensionCutOff(position=9)"),
+        (record(0, 0, b""), "UnknownExtension(kind=0, index=0)"),
+        (record(3, 7, b"what is to come"), "UnknownExtension(kind=3, index=7)"),
+        (record(255, 65535, b""), "UnknownExtension(kind=255, index=65535)"),
+        (record(2, 1, HALF) + record(1, 1, DOWN), "ExtensionOrder(kind=1, index=1)"),
+        (record(2, 1, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
+        (record(2, 2, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
+        (record(1, 1, DOWN + b"\0"), "ExtensionSize(kind=1, index=1, expected=40, actual=41)"),
+        (record(2, 1, HALF[:3]), "ExtensionSize(kind=2, index=1, expected=4, actual=3)"),
+        (record(2, 1, b""), "ExtensionSize(kind=2, index=1, expected=4, actual=0)"),
+        (record(1, 2, DOWN), "ExtensionIndex(kind=1, index=2, count=2)"),
+        (record(2, 3, HALF), "ExtensionIndex(kind=2, index=3, count=3)"),
+        (record(2, 65535, HALF), "ExtensionIndex(kind=2, index=65535, count=3)"),
+        (record(1, 0, DOWN), "SpotIsNoPoint(light=0)"),
+        (record(1, 1, cone(FAR + 1, 2, -3, ONE, 0)), f"SpotOutOfRange(light=1, x={FAR + 1}, y=2, z=-3)"),
+        (record(1, 1, cone(0, 0, -FAR - 1, ONE, 0)), f"SpotOutOfRange(light=1, x=0, y=0, z={-FAR - 1})"),
+        (record(1, 1, cone(0, 0, 0, ONE, 0)), "SpotWithoutDirection(light=1)"),
+        (record(1, 1, cone(1, 0, 0, ONE + 1, 0)), f"SpotAngles(light=1, cosInner={ONE + 1}, cosOuter=0)"),
+        (record(1, 1, cone(1, 0, 0, 0, -ONE - 1)), f"SpotAngles(light=1, cosInner=0, cosOuter={-ONE - 1})"),
+        (record(1, 1, cone(1, 0, 0, 5, 6)), "SpotAngles(light=1, cosInner=5, cosOuter=6)"),
+        (record(2, 0, (1 << 24).to_bytes(4, "big")), f"OpacityOutOfRange(object=0, opacity={1 << 24})"),
+        (record(2, 0, b"\xff" * 4), f"OpacityOutOfRange(object=0, opacity={2**32 - 1})"),
+    ],
+)
+def test_wrong_records_are_refused(data: bytes, error: str) -> None:
+    call = with_records(mixed(), data)
+    with pytest.raises(RenderError) as caught:
+        chain().call("Renderer", call)
+    assert str(caught.value) == f"the contract refused: {error}"
+    with pytest.raises(RenderError) as caught:
+        draw_call(call)
+    assert str(caught.value) == f"the contract refused: {error}"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        record(2, 0, bytes(4)),
+        record(2, 2, ((1 << 24) - 1).to_bytes(4, "big")),
+        record(1, 1, cone(FAR, -FAR, FAR, ONE, -ONE)) + record(2, 0, HALF) + record(2, 1, HALF) + record(2, 2, HALF),
+        record(1, 1, cone(0, 0, 1, -ONE, -ONE)),
+        record(1, 1, cone(0, 0, -1, ONE, ONE)),
+    ],
+)
+def test_values_at_their_bounds(data: bytes) -> None:
+    call = with_records(mixed(), data)
+    picture: Pixels = draw_call(call).pixels
+    output = chain().call("Renderer", call).output
+    assert (decode_bmp(dynamic(output), 48, 48) == picture).all()
+
+
+def test_objects_far_down_the_scene_cannot_have_records() -> None:
+    small = Object(Mesh([[0, 0, 0]] * 3, [[0, 1, 2]], [[0, 0, 0]] * 3), opacity=0.5)
+    scene = replace(scene_of(), objects=[replace(small, opacity=1.0)] * 65536 + [small])
+    with pytest.raises(InputError, match="among the first 65,536 of a scene, not number 65,536"):
+        extensions(scene)
+
+
+def test_a_picture_of_both() -> None:
+    image = render(scene_of(box(0.5, material=GLOSSY), lights=[spot()]))
+    assert image.pixels.shape == (48, 48, 3)

@@ -1,0 +1,172 @@
+"""Scenes of objects that different engines draw, run by run: as the reference, which draws one object after another."""
+
+from __future__ import annotations
+
+import base64
+import re
+from dataclasses import replace
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pictures import call, call_data, chain, counts, draw, dynamic, words
+from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled.reference import draw_call
+from shackled.scene.codec import Rectangle
+
+SQUARE = Mesh(
+    [[-50, -50, 0], [50, -50, 0], [50, 50, 0], [-50, 50, 0]],
+    [[0, 1, 2], [0, 2, 3]],
+    [[255, 80, 20]] * 4,
+    [[0, 0, 1]] * 4,
+)
+KINDS: dict[str, dict[str, Any]] = {
+    "flat": {"material": Material("flat", 0.2, 0.7, 0.3, 20)},
+    "smooth": {"material": Material("smooth", 0.2, 0.7, 0.5, 30)},
+    "wire": {"material": Material("unlit"), "wireframe": True},
+    "blended": {"material": Material("flat", 0.2, 0.7, 0.3, 20), "opacity": 0.5},
+}
+CAMERA = Camera((0, 0, 300), (0, 0, 0), near=1)
+LIGHTS = [Light("point", (80, 90, 200), (255, 240, 200)), Light("directional", (-1, 1, 2), (60, 80, 120))]
+
+
+def colored(red: int, green: int, blue: int) -> Mesh:
+    return replace(SQUARE, colors=[[red, green, blue]] * 4)
+
+
+def piece(kind: str, place: int, **changes: Any) -> Object:
+    mesh = colored(60 + 40 * (place % 5), 220 - 30 * (place % 7), 40 + 23 * (place % 9))
+    turned = Object(
+        mesh, (13 * (place % 4) - 20, 9 * (place % 6) - 25, 0), (0.2, 0.1 * (place % 5), 0.1, 1), cull=False
+    )
+    return replace(turned, **KINDS[kind] | changes)
+
+
+def scene_of(*objects: Object, **changes: Any) -> Scene:
+    backdrop = Background((10, 20, 60), (90, 80, 70))
+    return replace(Scene(list(objects), CAMERA, LIGHTS, backdrop, width=32, height=24), **changes)
+
+
+def assert_as_reference(scene: Scene, tile: Rectangle | None = None) -> None:
+    data = call_data("render" if tile is None else "renderTile", scene, tile)
+    expected = draw_call(data)
+    assert (draw(scene, tile) == expected.pixels).all()
+    output = call("renderCounted" if tile is None else "renderTileCounted", scene, tile).output
+    assert dynamic(output) == dynamic(chain().call("Renderer", data).output)
+    assert output[32:96] == words(expected.triangles, expected.lit_pixels)
+
+
+@pytest.mark.parametrize("order", list(permutations(KINDS)))
+def test_kinds_in_any_order(order: tuple[str, ...]) -> None:
+    scene = scene_of(*(piece(kind, place) for place, kind in enumerate(order)), invert=order[0] == "wire")
+    assert_as_reference(scene)
+    assert_as_reference(scene, Rectangle(5, 3, 17, 11))
+
+
+@pytest.mark.parametrize("order", list(permutations(KINDS, 2)))
+def test_of_equal_depths_the_first_opaque_one_is_seen(order: tuple[str, str]) -> None:
+    """Which engine draws it makes no difference; and what is not opaque comes last."""
+    objects = [
+        Object(colored(*color), **KINDS[kind] | {"material": Material("unlit")}, cull=False)
+        for kind, color in zip(order, ((250, 0, 0), (0, 0, 250)), strict=True)
+    ]
+    scene = scene_of(*objects, background=Background((0, 0, 0)))
+    assert_as_reference(scene)
+    if "wire" not in order and "blended" not in order:
+        assert tuple(draw(scene)[12, 16]) == (250, 0, 0)
+
+
+def test_unlit_and_smooth_at_equal_depth() -> None:
+    unlit = Object(colored(250, 0, 0), material=Material("unlit"), cull=False)
+    smooth = Object(colored(0, 0, 250), material=Material("smooth", 1, 0, 0, 1), cull=False)
+    for first, second, seen in ((unlit, smooth, (250, 0, 0)), (smooth, unlit, (0, 0, 250))):
+        scene = scene_of(first, second)
+        assert_as_reference(scene)
+        assert tuple(draw(scene)[12, 16]) == seen
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_not_seen_at_all_is_not_counted(kind: str) -> None:
+    seen = scene_of(piece("flat", 0), piece("smooth", 1))
+    hidden = piece(kind, 2, opacity=0.0)
+    for objects in ((hidden, *seen.objects), (seen.objects[0], hidden, seen.objects[1]), (*seen.objects, hidden)):
+        scene = scene_of(*objects)
+        assert_as_reference(scene)
+        assert counts(scene) == counts(seen)
+        assert (draw(scene) == draw(seen)).all()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("opacity", [0.0, None])
+def test_errors_name_the_object(kind: str, opacity: float | None) -> None:
+    """Each engine counts from the first object of the scene. What is not seen is checked, too."""
+    changes = {} if opacity is None else {"opacity": opacity}
+    for place in range(4):
+        objects = [piece("smooth" if number % 2 else "flat", number) for number in range(4)]
+        objects[place] = piece(kind, place, **changes)
+        scene = scene_of(*objects)
+        assert_as_reference(scene)
+        broken = wrong_index(scene, place)
+        with pytest.raises(RenderError, match=rf"IndexOutOfRange\(object={place},") as error:
+            chain().call("Renderer", broken)
+        with pytest.raises(RenderError) as expected:
+            draw_call(broken)
+        assert str(error.value) == str(expected.value)
+
+
+def wrong_index(scene: Scene, place: int) -> bytes:
+    """The call with a face of this object that names a vertex that is not there."""
+    marked = replace(SQUARE, faces=[[0, 1, 2], [3, 2, 1]])
+    objects = list(scene.objects)
+    before = call_data("render", scene)
+    objects[place] = replace(objects[place], mesh=replace(marked, colors=objects[place].mesh.colors))
+    after = call_data("render", replace(scene, objects=objects))
+    (first, *_) = [at for at in range(len(before)) if before[at] != after[at]]
+    return after[:first] + b"\xff" + after[first + 1 :]
+
+
+@pytest.mark.parametrize("size", [(200, 130), (20, 900)])
+def test_large_pictures_equal_their_tiles(size: tuple[int, int]) -> None:
+    """Several engines draw them band by band."""
+    kinds = [*KINDS, "smooth", "flat"]
+    objects = [piece(kind, place) for place, kind in enumerate(kinds)]
+    scene = scene_of(*objects, width=size[0], height=size[1])
+    assert_as_reference(scene)
+    whole = draw(scene)
+    rows = range(0, size[1], size[1] // 3 + 1)
+    for top in rows:
+        height = min(size[1] // 3 + 1, size[1] - top)
+        for left, width in ((0, size[0] // 2 - 1), (size[0] // 2 - 1, size[0] - size[0] // 2 + 1)):
+            part = draw(scene, Rectangle(left, top, width, height))
+            assert (part == whole[top : top + height, left : left + width]).all()
+
+
+@pytest.mark.parametrize("count", [40, 300])
+def test_hundreds_of_objects_that_alternate(count: int) -> None:
+    """What the Renderer allocates from run to run does not grow into the call behind it."""
+    objects = [piece(("flat", "smooth", "wire", "blended")[place % 4], place, scale=0.2) for place in range(count)]
+    assert_as_reference(scene_of(*objects, width=9, height=7))
+
+
+@pytest.mark.parametrize("size", [(1, 1), (32, 24), (181, 91)])
+def test_texts_of_mixed_scenes(size: tuple[int, int]) -> None:
+    """There is room before the pixels for what the encoders allocate, whoever drew them."""
+    for kinds in (("flat",), ("smooth",), ("smooth", "flat", "wire", "blended") * 4):
+        scene = scene_of(*(piece(kind, place) for place, kind in enumerate(kinds)), width=size[0], height=size[1])
+        for function in ("renderDataURI", "renderSVG"):
+            text = dynamic(call(function, scene).output).decode()
+            (encoded,) = re.findall(r"data:image/bmp;base64,([0-9A-Za-z+/=]+)", text)
+            assert base64.b64decode(encoded) == dynamic(call("render", scene).output)
+        assert_as_reference(scene)
+
+
+def test_hidden_surfaces_of_both_engines() -> None:
+    """Depths are handed on: what another engine drew before hides what is behind it, pixel by pixel."""
+    near = Object(SQUARE, (0, 0, 10), material=Material("unlit"), cull=False)
+    far = Object(colored(0, 250, 0), (20, 0, -30), material=Material("smooth", 1, 0, 0, 1), cull=False, scale=1.4)
+    one, other = scene_of(near, far), scene_of(far, near)
+    assert_as_reference(one)
+    assert (draw(one) == draw(other)).all()
+    assert (np.asarray(draw(one))[12, 16] == (255, 80, 20)).all()

@@ -1,0 +1,219 @@
+"""Write what is made of contracts/layout.toml, the table of registers and packed words.
+
+python tools/layout.py            writes Registers.sol and Words.sol (contracts/src/pipeline) and reference/layout.py
+python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
+
+The compiler takes no expressions in assembly, so every address, shift and mask has to be a number of its own. Here they
+are computed, so that one line of the table adds a register, and the contracts and the reference cannot differ.
+"""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = ROOT / "contracts" / "layout.toml"
+PIPELINE = ROOT / "contracts" / "src" / "pipeline"
+REFERENCE = ROOT / "src" / "shackled" / "reference" / "layout.py"
+WORD = 32
+#: Columns of a line of the contracts, and of Python.
+SOLIDITY_WIDTH, PYTHON_WIDTH = 140, 120
+
+HEAD = """// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+{imports}// Written by tools/layout.py from layout.toml.
+"""
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number with a name; `text` says what it means, and is empty where the line before says it."""
+
+    name: str
+    value: int
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Section:
+    """Constants that belong together."""
+
+    title: str
+    text: str
+    constants: tuple[Constant, ...]
+
+
+def named(names: str, text: str, values: Iterator[int]) -> Iterator[Constant]:
+    """The constants of one line of the table, of which the first carries the text."""
+    for i, name in enumerate(names.split()):
+        yield Constant(name, next(values), "" if i else text)
+
+
+def registers(table: dict[str, Any]) -> Iterator[Section]:
+    """The sections of registers, one word after the other."""
+    address: int = table["registers_begin"]
+    first = Constant("REGISTERS", address, table["registers_text"])
+    sections = []
+    for part in table["registers"]:
+        constants: list[Constant] = []
+        for names, words, text in rows_of_registers(part):
+            size = WORD * words
+
+            def places(first: int = address, step: int = size) -> Iterator[int]:
+                while True:
+                    yield first
+                    first += step
+
+            found = tuple(named(names, text, places()))
+            address += size * len(found)
+            constants += found
+        if name := part.get("block"):
+            begin = constants[0].value
+            constants.insert(0, Constant(f"{name}_BEGIN", begin, "Where these registers begin, and their bytes."))
+            constants.insert(1, Constant(f"{name}_SIZE", address - begin))
+        sections.append(Section(part["title"], part.get("text", ""), tuple(constants)))
+    end = Constant("REGISTERS_END", address)
+    yield Section("registers", "", (first, end))
+    yield from sections
+
+
+def rows_of_registers(part: dict[str, Any]) -> Iterator[tuple[str, int, str]]:
+    """Names, words of each, and what they hold."""
+    for row in part["rows"]:
+        names, *size, text = row
+        yield names, size[0] if size else 1, text
+
+
+def records(table: dict[str, Any]) -> Iterator[Section]:
+    """Records of several words: offsets of the fields, and the size; or the fields of records that stand elsewhere."""
+    addresses = {constant.name: constant.value for section in registers(table) for constant in section.constants}
+    for part in table["records"]:
+        constants: list[Constant] = []
+        offset = 0
+        if "behind" in part:
+            from_, to = part["behind"]
+            offset = addresses[to] - addresses[from_]
+        for names, words, text in rows_of_registers(part):
+            for i, name in enumerate(names.split()):
+                constants.append(Constant(f"{part['name']}_{name}", offset, "" if i else text))
+                offset += WORD * words
+        if "behind" not in part:
+            constants.append(Constant(f"{part['name']}_SIZE", offset))
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def bits(table: dict[str, Any]) -> Iterator[Section]:
+    """Flags of a word, a bit each."""
+    for part in table["flags"]:
+        values = (1 << i for i in range(256))
+        constants = [constant for names, text in part["rows"] for constant in named(names, text, values)]
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def words(table: dict[str, Any]) -> Iterator[Section]:
+    """Packed words: of each field its lowest bit and the mask of its value; of a flag, under its own name, the bit."""
+    for part in table["words"]:
+        constants = []
+        for name, at, width, text in part["rows"]:
+            full = f"{part['name']}_{name}"
+            if width == 1:
+                constants.append(Constant(name, 1 << at, text))
+            else:
+                constants.append(Constant(f"{full}_AT", at, text))
+                constants.append(Constant(f"{full}_MASK", (1 << width) - 1))
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def lanes(table: dict[str, Any]) -> Iterator[Section]:
+    """Numbers side by side in a word: the same in each lane, or a list of them."""
+    for part in table["lanes"]:
+        constants = []
+        for name, value, text in part["rows"]:
+            each = value if isinstance(value, list) else [value] * len(part["at"])
+            word = sum(number << at for number, at in zip(each, part["at"], strict=True))
+            constants.append(Constant(name, word & ((1 << 256) - 1), text))
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def numbers(table: dict[str, Any]) -> Iterator[Section]:
+    """What stands alone."""
+    for part in table["numbers"]:
+        constants = [Constant(name, value, text) for name, value, text in part["rows"]]
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def solidity_literal(value: int) -> str:
+    """Hexadecimal; with 40 digits it would be an address, so there it begins with two zeros more."""
+    if value < 256:
+        return str(value)
+    digits = f"{value:x}"
+    return f"0x{'00' if len(digits) == 40 else ''}{digits}"
+
+
+def solidity(sections: Iterator[Section], *imports: str) -> str:
+    """A file of constants."""
+    lines = [HEAD.format(imports="".join(f'import "./{name}";\n' for name in imports) + "\n" * bool(imports))]
+    for section in sections:
+        lines.append(f"// {'-' * (SOLIDITY_WIDTH - 5 - len(section.title))} {section.title}")
+        lines += wrapped(section.text, "// ", SOLIDITY_WIDTH)
+        lines.append("")
+        for constant in section.constants:
+            lines += wrapped(constant.text, "/// @dev " if constant.text else "", SOLIDITY_WIDTH, "/// ")
+            lines.append(f"uint256 constant {constant.name} = {solidity_literal(constant.value)};")
+        lines.append("")
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def python(sections: Iterator[Section]) -> str:
+    """The same for the reference."""
+    lines = ['"""Constants of packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
+    for section in sections:
+        lines += ["", f"# ---- {section.title} ----", *wrapped(section.text, "# ", PYTHON_WIDTH), ""]
+        for constant in section.constants:
+            lines += wrapped(constant.text, "#: ", PYTHON_WIDTH)
+            text = str(constant.value) if constant.value < 256 else f"0x{constant.value:X}"
+            lines.append(f"{constant.name} = {text}")
+    return "\n".join(lines) + "\n"
+
+
+def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
+    """The text in comment lines."""
+    indent = first if rest is None else rest
+    return textwrap.wrap(text, width, initial_indent=first, subsequent_indent=indent) if text else []
+
+
+def files() -> dict[Path, str]:
+    """The text of every file that is made of the table."""
+    table = tomllib.loads(TABLE.read_text("utf-8"))
+    packed = [*numbers(table), *words(table), *lanes(table)]
+    return {
+        PIPELINE / "Registers.sol": solidity(
+            iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
+        ),
+        PIPELINE / "Words.sol": solidity(iter(packed)),
+        REFERENCE: python(iter([*bits(table), *packed])),
+    }
+
+
+def main() -> int:
+    """The command."""
+    made = files()
+    if "--check" in sys.argv[1:]:
+        stale = [path for path, text in made.items() if not path.exists() or path.read_text("utf-8") != text]
+        for path in stale:
+            print(f"{path.relative_to(ROOT)} is not made of layout.toml: run tools/layout.py", file=sys.stderr)
+        return 1 if stale else 0
+    for path, text in made.items():
+        path.write_text(text, "utf-8", newline="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
