@@ -32,7 +32,7 @@ def floor_of(scene: Scene, work: Workload) -> dict[str, int]:
     }
     if scene.lights and "flat" in shadings:
         floor["shading set-up"] = LIT_TRIANGLE * work.drawn
-    has_point = any(light.kind == "point" for light in scene.lights)
+    has_point = any(light.kind != "directional" for light in scene.lights)
     has_highlight = any(o.material.specular > 0 for o in scene.objects if o.material.shading != "unlit")
     if scene.lights and (has_point or has_highlight or "smooth" in shadings) and shadings != {"unlit"}:
         floor["fragment shader"] = (POINT_PIXEL if has_point else DIRECTIONAL_PIXEL) * work.lit

@@ -12,8 +12,8 @@ import sys
 from pathlib import Path
 from statistics import fmean
 
+from shackled.artifacts import RENDERER
 from shackled.bench import energy
-from shackled.bench.deploy import RENDERER
 from shackled.bench.original import DEPLOYMENT_GAS, original_gas
 from shackled.bench.scenes import cube
 from shackled.chain.embedded import intrinsic_gas

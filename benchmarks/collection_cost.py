@@ -1,0 +1,98 @@
+"""What the pictures and tokens of the collections cost: all 1,024 pieces of Genesis, all icons, PNG files."""
+
+from __future__ import annotations
+
+import statistics
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from shackled import load
+from shackled.artifacts import artifact
+from shackled.datasets import icons
+from shackled.datasets.genesis import seed_of
+
+from .cost import Row
+from .measure import call, gas
+from .studio import recorded as recorded_of_studio
+
+# the world in which the tests deploy the collections
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
+
+from tokens.stage import LIMIT, PRICE, Stage, icon_scene, stage, store_scene
+from tokens.world import GAS, Contract
+
+#: Seeds of the collection of 2021.
+PIECES = 1024
+#: Of the original, as its paper tells it.
+ORIGINAL_PIECE, ORIGINAL_GENERATION = 17_831e6, 40.2e6
+
+
+def rows() -> list[Row]:
+    """The rows of the cost table."""
+    return [*piece_rows(), *token_rows(), png_row()]
+
+
+def piece_rows() -> list[Row]:
+    """From a seed to a piece, and from a piece to its picture."""
+    generate = artifact("Genesis").selectors["generate"]
+    generation = [call("Genesis", generate + seed_of(number)).gas for number in range(PIECES)]
+    pictures = [gas(load(f"genesis/{number}")) for number in range(PIECES)]
+    worst = int(np.argmax(pictures))
+    dearest = Row(
+        f"dearest Genesis piece of {PIECES:,}",
+        pictures[worst],
+        ORIGINAL_PIECE,
+        must=7.5e6,
+        aim=6e6,
+        more=f"number {worst}",
+    )
+    median = statistics.median(generation)
+    return [dearest, Row("Genesis generation, median", median, ORIGINAL_GENERATION, must=0.70e6, aim=0.60e6)]
+
+
+def token_rows() -> list[Row]:
+    """`tokenURI` of both collections."""
+    of_genesis, of_icons = genesis_uris(), icon_uris()
+    worst, dearest = int(np.argmax(of_genesis)), max(of_icons, key=of_icons.__getitem__)
+    return [
+        Row(f"Genesis `tokenURI`, mean of {PIECES:,}", statistics.fmean(of_genesis), must=5.0e6, aim=4.5e6),
+        Row("the same, dearest", of_genesis[worst], must=12e6, aim=10e6, more=f"number {worst}"),
+        Row("dearest icon's `tokenURI`", of_icons[dearest], must=16.5e6, aim=14e6, more=dearest),
+    ]
+
+
+def genesis_uris() -> list[int]:
+    """Execution gas of `GenesisMetadata.tokenURI` for each seed."""
+    s = stage()
+    calls = (s.metadata.encode("tokenURI", (number, seed_of(number)))[1] for number in range(PIECES))
+    return [s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, []).execution for data in calls]
+
+
+def icon_uris() -> dict[str, int]:
+    """Execution gas of `IconsCollection.tokenURI` for each icon, enlarged four times, by its name."""
+    s = stage()
+    names = [piece.name for piece in icons.pieces()]
+    collection = with_icons(s, names)
+    return {name: collection.gas_of("tokenURI", token) for token, name in enumerate(names)}
+
+
+def with_icons(s: Stage, names: list[str]) -> Contract:
+    """A collection of one token of each icon."""
+    collection = s.world.deploy("IconsCollection", s.studio, (s.owner, LIMIT, s.owner, 500), sender=s.owner)
+    for name in names:
+        pointer = store_scene(s.studio, icon_scene(name))
+        collection.send("add", name.rpartition("/")[2], pointer, 4, PRICE, 1, 1, sender=s.owner)
+    collection.send("seal", sender=s.owner)
+    for number in range(len(names)):
+        collection.send("mintReserve", number, s.owner, 1, sender=s.owner)
+    return collection
+
+
+def png_row() -> Row:
+    """What a PNG file costs beside the bitmap that it is made of; the figure of studio.json."""
+    (name,) = (name for name in recorded_of_studio() if name.startswith("PNG, Genesis, x 4") and name.endswith(": gas"))
+    return Row(
+        "PNG of 128 x 128 enlarged 4 times, more than BMP, mean", recorded_of_studio()[name], must=1.3e6, aim=1.1e6
+    )
