@@ -14,7 +14,6 @@ from shackled.cli.app import run
 from tokens.on_a_node import Node, Shackled
 
 
-@pytest.mark.xfail(reason="not looked at since there are two engines", strict=False)
 def test_the_demo_plays_both_collections_through(node: Node, tmp_path: Path, shackled: Shackled) -> None:
     said = shackled("token", "demo", "-o", tmp_path / "out")
     listed = json.loads((tmp_path / "out" / "tokens.json").read_text())

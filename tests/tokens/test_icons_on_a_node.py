@@ -37,7 +37,6 @@ def pixels(picture: bytes) -> np.ndarray:
     return np.asarray(PillowImage.open(io.BytesIO(picture)).convert("RGB"))
 
 
-@pytest.mark.xfail(reason="not looked at since there are two engines", strict=False)
 def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackled: Shackled) -> None:
     """One test, since each step needs those before."""
     contract = node.contract("IconsCollection", address)

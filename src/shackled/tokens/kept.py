@@ -48,7 +48,8 @@ def meshes_of(data: bytes) -> list[bytes]:
         (struct,) = decode([SCENE_STRUCT], expand_zeros(data[1:]))
     except (DecodingError, IndexError, OverflowError) as error:
         raise RenderError(f"what is kept there is no whole scene: {error}") from None
-    return [each[0] for each in struct[-1]]
+    *_, objects, _ = struct
+    return [thing[0] for thing in objects]
 
 
 def expand_zeros(data: bytes) -> bytes:
