@@ -103,4 +103,4 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
 def test_mistakes_are_told_in_one_line(shackled: Shackled, arguments: tuple[object, ...], code: int, said: str) -> None:
     result = shackled(*arguments, expect=code)
     assert said in result.error
-    assert len(result.err.strip().splitlines()) <= 4
+    assert len(result.err.strip().splitlines()) <= 5

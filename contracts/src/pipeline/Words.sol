@@ -54,6 +54,10 @@ uint256 constant IS_NOT_PLAIN = 0x1f0000000000;
 uint256 constant SCREEN_COLUMNS = 0xfffff0000000000000000;
 /// @dev Row in whole pixels.
 uint256 constant SCREEN_PIXEL_ROW_AT = 136;
+/// @dev The bits of the column that are whole pixels.
+uint256 constant SCREEN_PIXEL_COLUMNS = 0xfff000000000000000000;
+/// @dev Added, it rounds row and column up to whole pixels.
+uint256 constant SCREEN_ROUND_UP = 0xff00000000000000ff0000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
