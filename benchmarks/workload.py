@@ -53,15 +53,14 @@ def workload_of(scene: Scene) -> Workload:
 def _counting() -> Iterator[dict[str, int]]:
     """Counts what the rasterizer hands on while the context is open."""
     counts = {"rows": 0, "tested": 0}
-    spans_of, draw = rasterizer.spans_of, fragment_shader.draw
+    halves_of = rasterizer.halves_of
 
-    def count_rows(triangle: Any, registers: Any) -> Iterator[list[fragment_shader.Span]]:
+    def count(triangle: Any, registers: Any) -> Iterator[tuple[int, int, int, int, int]]:
         counts["rows"] += min(triangle.bottom, registers.band_bottom) - max(triangle.top, registers.band_top)
-        return spans_of(triangle, registers)
+        for half in halves_of(triangle, registers):
+            spans = fragment_shader.spans_between(*half, registers)
+            counts["tested"] += sum(end - begin for _, begin, end, *_ in spans)
+            yield half
 
-    def count_pixels(spans: list[fragment_shader.Span], registers: Any) -> None:
-        counts["tested"] += sum(end - begin for _, begin, end, *_ in spans)
-        draw(spans, registers)
-
-    with patch.object(rasterizer, "spans_of", count_rows), patch.object(fragment_shader, "draw", count_pixels):
+    with patch.object(rasterizer, "halves_of", count):
         yield counts

@@ -48,7 +48,6 @@ def test_a_fit_finds_a_line_and_a_square() -> None:
     assert fits.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
 
 
-@pytest.mark.xfail(reason="rows of patches are not counted yet", strict=False)
 def test_the_workload_is_that_of_the_picture() -> None:
     scene = cubes(24)
     work = workload_of(scene)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import xml.etree.ElementTree as ElementTree
 from inspect import signature
 from pathlib import Path
@@ -129,14 +130,13 @@ def test_tables_for_people(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(" < gas" in line for line in lines)
 
 
-@pytest.mark.xfail(reason="names of functions of the new engines", strict=False)
 def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("flame.svg", "flame.json"):
         assert run(["gas", "shape.obj", "--size", "16", "--profile", name]) == 0
         output, _ = capsys.readouterr()
         assert f"flame graph: {name}" in output
-        assert "PrimitiveAssembly." in output
-        assert "pipeline/PrimitiveAssembly.sol:" in output
+        # place, function and gas of the dearest lines
+        assert re.search(r"pipeline/\w+\.sol:\d+ +\w+\.\w+ +[\d,]+ +\d+\.\d\d %", output)
     assert ElementTree.parse("flame.svg").getroot().tag.endswith("svg")
     gas = render(load("shape.obj"), size=16).gas
     assert json.loads(Path("flame.json").read_text("utf-8"))["profiles"][0]["endValue"] == gas

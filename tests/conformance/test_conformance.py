@@ -41,7 +41,6 @@ def _opengl() -> None:
         pytest.skip(str(error))
 
 
-@pytest.mark.xfail(reason="scene 256: the near plane chosen for the eye inside a mesh", strict=False)
 def test_random_scenes() -> None:
     whole = sum((compare(f"random scene {seed}", random_scene(seed)) for seed in SEEDS), Result())
     assert whole.faults_of_run() == []

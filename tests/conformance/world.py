@@ -1,7 +1,7 @@
 """A scene as triangles before the camera, in float64, from the numbers that the user gave.
 
 Nothing here is shared with what makes the numbers of a call: positions are those of the Scene. Only normals are rounded
-to the ten bits that a mesh holds of them.
+to the ten bits that a mesh holds of them, and a near plane that the user leaves open is where `near_plane` puts it.
 """
 
 from __future__ import annotations
@@ -12,15 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Light, Material, Scene
+from shackled.scene.fit import near_plane
 from shackled.scene.mesh import vertex_normals
 
 Array = NDArray[np.float64]
 
 #: Steps of a coordinate of a normal, as the mesh format has them.
 NORMAL_STEPS = 511
-#: Where the near plane is if the scene does not say, as a part of the farthest distance.
-NEAR_PART = 2.0**-10
-
 
 #: The cosines of a cone that is wider than all directions.
 ALL_THROUGH = (-1.0, -2.0)
@@ -113,10 +111,7 @@ def before_camera(scene: Scene) -> World:
             )
         first += len(faces) * (not o.wireframe)
     lamps = [_lamp(light, eye, axes) for light in scene.lights]
-    near = camera.near
-    if near is None:
-        farthest = max((float(-s.corners[..., 2].min()) for s in solids), default=1.0)
-        near = farthest * NEAR_PART if camera.projection == "perspective" else -np.inf
+    near = near_plane(scene) if camera.projection == "perspective" or camera.near is not None else -np.inf
     return World(
         scene.width,
         scene.height,

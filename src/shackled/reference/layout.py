@@ -92,6 +92,10 @@ IS_NOT_PLAIN = 0x1F0000000000
 SCREEN_COLUMNS = 0xFFFFF0000000000000000
 #: Row in whole pixels.
 SCREEN_PIXEL_ROW_AT = 136
+#: The bits of the column that are whole pixels.
+SCREEN_PIXEL_COLUMNS = 0xFFF000000000000000000
+#: Added, it rounds row and column up to whole pixels.
+SCREEN_ROUND_UP = 0xFF00000000000000FF0000000000000000
 
 # ---- parts of accumulators ----
 

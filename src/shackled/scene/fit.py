@@ -55,7 +55,7 @@ def fit(scene: Scene) -> Scene:
     scene = replace(scene, objects=[_prepare(o) for o in scene.objects])
     objects: list[Object]
     if _is_exact(scene):
-        camera = replace(scene.camera, near=_near(scene, 1.0, most=1.0))
+        camera = replace(scene.camera, near=near_plane(scene, 1.0, most=1.0))
         lights = list(scene.lights)
         objects = list(scene.objects)
     else:
@@ -175,12 +175,15 @@ def _move_camera(scene: Scene, factor: float) -> Camera:
         # upright on the line of sight, so that the cross product loses nothing
         up=_unit(up - (up @ forward) * forward),
         half_height=half_height,
-        near=_near(scene, factor, most=MAX_COORDINATE),
+        near=near_plane(scene, factor, most=MAX_COORDINATE),
     )
 
 
-def _near(scene: Scene, factor: float, most: float) -> float:
-    """The near distance in scaled units: the scene's own, or else a small part of the farthest, at most `most`."""
+def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> float:
+    """Return the distance of the near plane, times the factor.
+
+    It is the camera's own, or else `NEAR_PART` of how far any object reaches from the eye, at most `most`.
+    """
     camera = scene.camera
     if camera.projection == "orthographic":
         near = -math.inf if camera.near is None else camera.near * factor
@@ -219,7 +222,7 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
     if camera.projection == "perspective":
         forward = _unit(_floats(camera.target) - _floats(camera.eye))
         places = _floats(o.position) + rotate(o.rotation, o.scale * _floats(o.mesh.positions)) - _floats(camera.eye)
-        pixels /= max(float((places @ forward).min()), _near(scene, factor, most=MAX_COORDINATE) / factor)
+        pixels /= max(float((places @ forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
     size = o.scale * radius
     if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
         return MAX_SHORT
