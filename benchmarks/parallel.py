@@ -11,9 +11,10 @@ import os
 import sys
 import time
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 from statistics import fmean
+
+from attrs import evolve
 
 from shackled import Scene, load
 from shackled.bench.anvil import Anvil, AnvilChain, find_anvil
@@ -44,7 +45,7 @@ def tiles() -> Section:
     """Gas of a picture in tiles against that of the whole."""
     rows, data = [], {}
     for side in SIDES:
-        scene = replace(load("teapot"), width=side, height=side)
+        scene = evolve(load("teapot"), width=side, height=side)
         whole = gas(scene)
         sums = {}
         for across, down in GRIDS:
@@ -76,7 +77,7 @@ def many_tiles() -> Section:
     scenes |= {name: shared.scene(name) for name in shared.objects()}
     ratios: dict[str, list[float]] = {}
     for name, each in scenes.items():
-        scene = replace(each, width=512, height=512)
+        scene = evolve(each, width=512, height=512)
         whole = gas(scene)
         ratios[name] = [
             sum(gas(scene, "renderTile", part) for part in grid(512, 512, 512 // n, 512 // n)) / whole for n in (4, 8)
@@ -93,7 +94,7 @@ def many_tiles() -> Section:
 
 def throughput() -> Section:
     """Frames a second of a turntable, in several places."""
-    frames = full_turn(replace(load("teapot"), width=SIDE, height=SIDE), FRAMES)
+    frames = full_turn(evolve(load("teapot"), width=SIDE, height=SIDE), FRAMES)
     with ExitStack() as stack:
         places = opened(stack)
         best = dict.fromkeys(places, float("inf"))

@@ -7,9 +7,10 @@ out without them.
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
+
+from attrs import evolve
 
 from shackled import InputError, Light, Material, Scene, load
 
@@ -54,22 +55,22 @@ def unlit(of: Scene) -> Scene:
 
 def smooth(of: Scene) -> Scene:
     """Smooth normals, one point light, the glossy material."""
-    return replace(_with(of, [replace(GLOSSY, shading="smooth")] * len(of.objects)), lights=[LAMP])
+    return evolve(_with(of, [evolve(GLOSSY, shading="smooth")] * len(of.objects)), lights=[LAMP])
 
 
 def smooth_own(of: Scene) -> Scene:
     """Smooth normals and one point light with the coefficients that the scene has itself."""
-    return replace(_with(of, [replace(o.material, shading="smooth") for o in of.objects]), lights=[LAMP])
+    return evolve(_with(of, [evolve(o.material, shading="smooth") for o in of.objects]), lights=[LAMP])
 
 
 def frontal(of: Scene) -> Scene:
     """A point light in front, the glossy material."""
-    return replace(_with(of, [GLOSSY] * len(of.objects)), lights=[FRONTAL_LAMP])
+    return evolve(_with(of, [GLOSSY] * len(of.objects)), lights=[FRONTAL_LAMP])
 
 
 def _with(of: Scene, materials: list[Material]) -> Scene:
     pairs = zip(of.objects, materials, strict=True)
-    return replace(of, objects=[replace(o, material=material) for o, material in pairs])
+    return evolve(of, objects=[evolve(o, material=material) for o, material in pairs])
 
 
 @cache

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
+
+from attrs import evolve
 
 from shackled import Camera, Light
 from shackled.artifacts import artifact
@@ -53,7 +54,7 @@ def own_figures() -> Figures:
     scenes = {
         "cube, 128": cube(128),
         "cube, 512": cube(512),
-        "cube, orthographic, 128": replace(cube(128), camera=Camera(projection="orthographic", half_height=1000)),
+        "cube, orthographic, 128": evolve(cube(128), camera=Camera(projection="orthographic", half_height=1000)),
         "cube, point light, 128": cube(128, lights=(LAMP,)),
         "cube, unlit, 512": cube(512, UNLIT),
         "cubes that meet, 128": cubes(128),
@@ -66,11 +67,11 @@ def own_figures() -> Figures:
         "experiment triangles, 16": paper.equal_triangles(16),
         "room that is clipped, 128": room(128),
         "square of 2 triangles, point light, 128": square(1, 128, lights=(LAMP,)),
-        "square of 2 triangles, smooth, 128": square(1, 128, replace(GLOSSY, shading="smooth")),
+        "square of 2 triangles, smooth, 128": square(1, 128, evolve(GLOSSY, shading="smooth")),
         "square of 1152 triangles, 128": square(24, 128),
         "teapot, 127 x 95": staged_teapot("flat", (127, 95)),
-        "teapot, four lights, 128": replace(staged_teapot("flat", 128), lights=FOUR_LIGHTS),
-        "teapot, four lights, smooth, 128": replace(staged_teapot("smooth", 128), lights=FOUR_LIGHTS),
+        "teapot, four lights, 128": evolve(staged_teapot("flat", 128), lights=FOUR_LIGHTS),
+        "teapot, four lights, smooth, 128": evolve(staged_teapot("smooth", 128), lights=FOUR_LIGHTS),
         "teapot, inverted, 128": staged_teapot("flat", 128, invert=True),
         "teapot, orthographic, 128": staged_teapot("flat", 128, projection="orthographic"),
     }

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from shackled import Object, load, render
@@ -22,7 +22,7 @@ from shackled.chain.embedded import EmbeddedChain
 from shackled.datasets.genesis import seed_of
 from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
 from shackled.datasets.teapot import teapot
-from shackled.reference.bmp import encode_bmp
+from shackled.image import encode_bmp
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
 from shackled.scene.staging import stage
@@ -79,7 +79,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
         ("icons/heart", load("icons/heart"), None, 10),
     ):
         if bits is not None:
-            scene = replace(scene, objects=[on_grid(o, bits) for o in scene.objects])
+            scene = evolve(scene, objects=[on_grid(o, bits) for o in scene.objects])
         (o,) = fit(scene).objects
         size, storing, reading = keeper.kept_mesh(o, normal_bits)
         figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 from unittest.mock import patch
 
-import numpy as np
-
 from shackled import Scene, reference
 from shackled.artifacts import artifact
 from shackled.reference import fragment_shader, rasterizer
@@ -39,8 +37,8 @@ def workload_of(scene: Scene) -> Workload:
     with _counting() as counts:
         picture = reference.draw_call(data)
     return Workload(
-        vertices=sum(len(np.asarray(o.mesh.positions)) for o in scene.objects),
-        faces=sum(len(np.asarray(o.mesh.faces)) for o in scene.objects),
+        vertices=sum(len(o.mesh.positions) for o in scene.objects),
+        faces=scene.triangles,
         drawn=picture.triangles,
         rows=counts["rows"],
         tested=counts["tested"],

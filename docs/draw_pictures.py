@@ -11,11 +11,11 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
@@ -45,7 +45,7 @@ GLAZED = Material("smooth", ambient=0.25, diffuse=0.85, specular=0.6, shininess=
 
 def pot(divisions: int, look: Look) -> Scene:
     """The teapot, its spout to the right."""
-    return stage(teapot(divisions), replace(look, rotation=from_euler((0, 12, 0)), azimuth=30, elevation=20))
+    return stage(teapot(divisions), evolve(look, rotation=from_euler((0, 12, 0)), azimuth=30, elevation=20))
 
 
 def smooth() -> Image:
@@ -73,20 +73,20 @@ def still_life() -> Image:
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     base = Look(128, 128, color="#3f8fb5", lights=[KEY], background=NIGHT)
-    flat = replace(GLAZED, shading="flat")
-    dim = replace(GLAZED, ambient=0.1, diffuse=0.75)
+    flat = evolve(GLAZED, shading="flat")
+    dim = evolve(GLAZED, ambient=0.1, diffuse=0.75)
     lamps = [
         Light("point", (-3, 1.5, 1.5), "#ff5040"),
         Light("point", (2.5, 2.5, 2), "#40a0ff"),
         Light("point", (0, -2, 3), "#50ff70"),
     ]
     looks = [
-        replace(base, wireframe=True, cull=True, color="#7fd6c2", material=Material("unlit")),
-        replace(base, material=Material("unlit")),
-        replace(base, material=flat),
-        replace(base, material=GLAZED),
-        replace(base, material=dim, color="#d8d8d8", lights=lamps),
-        replace(base, material=GLAZED, invert=True),
+        evolve(base, wireframe=True, cull=True, color="#7fd6c2", material=Material("unlit")),
+        evolve(base, material=Material("unlit")),
+        evolve(base, material=flat),
+        evolve(base, material=GLAZED),
+        evolve(base, material=dim, color="#d8d8d8", lights=lamps),
+        evolve(base, material=GLAZED, invert=True),
     ]
     return [render(pot(4, look)) for look in looks]
 

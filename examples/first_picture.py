@@ -7,12 +7,11 @@ writes first_picture.png and says what it cost.
 
 from __future__ import annotations
 
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, render
+from shackled import Camera, Light, Material, Mesh, Object, Scene, render, replace
 from shackled.datasets.teapot import teapot
-from shackled.scene.staging import painted
 
 pot = Object(
-    painted(teapot(6), "#3f8fb5"),
+    replace(teapot(6), colors="#3f8fb5"),
     position=(0, -1.5, 0),
     material=Material("smooth", ambient=0.3, diffuse=0.8, specular=0.6, shininess=40),
     cull=False,
@@ -28,8 +27,8 @@ tile = Object(
 scene = Scene(
     objects=[pot, tile],
     camera=Camera(eye=(3, 4.5, 9), target=(0.2, -0.4, 0.5)),
-    lights=[Light("point", (-4, 6, 6), (255, 246, 232))],
-    background=Background("#1d2433", "#8794ad"),
+    lights=[Light.point(position=(-4, 6, 6), color="#fff6e8")],
+    background=("#1d2433", "#8794ad"),
 )
 
 image = render(scene, size=(192, 144))

@@ -130,7 +130,7 @@ def main() -> None:
     for name in arguments.names or MESHES:
         mesh = MESHES[name]()
         write_obj(mesh, arguments.into / f"{name}.obj")
-        print(f"{arguments.into / name}.obj: {len(mesh.faces):,} triangles")  # type: ignore[arg-type]
+        print(f"{arguments.into / name}.obj: {len(mesh.faces):,} triangles")
 
 
 if __name__ == "__main__":

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 import float64
@@ -129,29 +130,29 @@ def shared_scenes() -> dict[str, Callable[[], Scene]]:
 def smooth(scene: Scene) -> Scene:
     """The scene with interpolated normals, and a point light above to the right, on the eye's side of the object."""
     (thing,) = scene.objects
-    points = np.asarray(thing.mesh.positions) * thing.scale + np.asarray(thing.position)
+    points = thing.mesh.positions * thing.scale + thing.position
     low, high = points.min(axis=0), points.max(axis=0)
     light = (low + high) / 2 + (high - low).max() * np.array([1.0, 1.0, 1.5])
     material = Material("smooth", ambient=0.3, diffuse=0.7, specular=0.5, shininess=20)
-    return replace(scene, objects=[replace(thing, material=material)], lights=[Light("point", light)])
+    return evolve(scene, objects=[evolve(thing, material=material)], lights=[Light("point", light)])
 
 
 def solid(scene: Scene) -> Scene:
     """The scene without wireframe, which is drawn by rules of its own."""
-    return replace(scene, objects=[replace(o, wireframe=False) for o in scene.objects])
+    return evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects])
 
 
 def unlit(scene: Scene) -> Scene:
     """The scene without light."""
-    return replace(scene, objects=[replace(o, material=Material("unlit")) for o in scene.objects], lights=[])
+    return evolve(scene, objects=[evolve(o, material=Material("unlit")) for o in scene.objects], lights=[])
 
 
 def frontal_quad() -> Scene:
     """A quad across the whole canvas with the highlight of a point light in its middle."""
     scene = load(shared_folder() / "fullquad_128.json")
     material = Material("flat", ambient=0.3, diffuse=0.7, specular=0.5, shininess=20)
-    objects = [replace(o, material=material) for o in scene.objects]
-    return replace(scene, objects=objects, lights=[Light("point", (0, 0, -1500))])
+    objects = [evolve(o, material=material) for o in scene.objects]
+    return evolve(scene, objects=objects, lights=[Light("point", (0, 0, -1500))])
 
 
 WHITE, RED, GREEN, BLUE = (255, 255, 255), (255, 60, 40), (60, 255, 90), (70, 110, 255)
@@ -166,7 +167,7 @@ LIGHTS = (
 
 def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **material: float) -> Scene:
     """The teapot with some of the four lights."""
-    look = Material("smooth", **{"ambient": 0.25, "diffuse": 0.6, "specular": 0.5, "shininess": 30} | material)  # type: ignore[arg-type]
+    look = Material("smooth", **{"ambient": 0.25, "diffuse": 0.6, "specular": 0.5, "shininess": 30} | material)
     return Scene(
         [Object(painted(teapot(5)), position=(0, -1.4, 0), material=look)],
         Camera(eye=(0.2 * distance, 0.35 * distance, 0.92 * distance), target=(0, 0, 0)),
@@ -177,14 +178,14 @@ def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **ma
 
 def painted(mesh: Mesh) -> Mesh:
     """The mesh with colours that change along its axes."""
-    points = np.asarray(mesh.positions)
+    points = mesh.positions
     part = (points - points.min(axis=0)) / np.maximum(np.ptp(points, axis=0), 1e-9)
-    return replace(mesh, colors=np.rint(80 + 150 * part).astype(int))
+    return evolve(mesh, colors=np.rint(80 + 150 * part).astype(int))
 
 
 def flat(scene: Scene) -> Scene:
     """The scene with the normals of faces."""
-    return replace(scene, objects=[replace(o, material=replace(o.material, shading="flat")) for o in scene.objects])
+    return evolve(scene, objects=[evolve(o, material=evolve(o.material, shading="flat")) for o in scene.objects])
 
 
 def ground(
@@ -198,7 +199,7 @@ def ground(
     a, b, c, d = (v.ravel() for v in (grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]))
     faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
     mesh = Mesh(points, faces, normals=vertex_normals(points, faces))
-    mesh = replace(mesh, colors=np.stack([200 + 50 * x, 120 + 100 * z, 150 - 100 * x], axis=1).astype(int))
+    mesh = evolve(mesh, colors=np.stack([200 + 50 * x, 120 + 100 * z, 150 - 100 * x], axis=1).astype(int))
     camera = Camera(eye=(0, 10, 0), target=(0, 6, -20), near=0.5, half_height=half_height)
     return Scene([Object(mesh, material=material)], camera, lights, Background((90, 120, 250)))
 
@@ -216,7 +217,7 @@ def big_triangles(material: Material, lights: list[Light]) -> Scene:
     colors = [[255, 40, 30], [30, 250, 60], [40, 80, 255], [250, 250, 30], [30, 240, 240], [230, 40, 250]]
     colors += [[200, 200, 200], [0, 0, 0], [255, 255, 255]]
     mesh = Mesh(points.reshape(-1, 3), np.arange(9).reshape(-1, 3), colors)
-    mesh = replace(mesh, normals=vertex_normals(np.asarray(mesh.positions), np.asarray(mesh.faces)))
+    mesh = evolve(mesh, normals=vertex_normals(mesh.positions, mesh.faces))
     return Scene([Object(mesh, material=material, cull=False)], Camera(near=0.5), lights)
 
 
@@ -226,7 +227,7 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
     matt = Material("smooth", ambient=0.2, diffuse=0.8, specular=0.0)
     shiny = Material("smooth", ambient=0.2, diffuse=0.6, specular=0.6, shininess=40)
     sun, lamp = Light("directional", (1, 2, -1)), Light("point", (3, 5, -18))
-    walls, shiny_walls = replace(matt, shading="flat"), replace(shiny, shading="flat")
+    walls, shiny_walls = evolve(matt, shading="flat"), evolve(shiny, shading="flat")
     found: dict[str, Callable[[], Scene]] = {}
     for count in range(1, 5):
         for first in range(2 if count < 4 else 1):
@@ -243,11 +244,11 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
         "teapot, overexposed": lambda: teapot_scene(2, ambient=1.5, diffuse=2.5, specular=3.0, shininess=10),
         "teapot, coarse mesh": lambda: coarse_teapot(1),
         "teapot, coarse mesh, 4 lights": lambda: coarse_teapot(4),
-        "teapot, inverted": lambda: replace(teapot_scene(2), invert=True),
+        "teapot, inverted": lambda: evolve(teapot_scene(2), invert=True),
         "teapot, turned": lambda: turned(teapot_scene(2)),
         "teapot, both sides": lambda: both_sides(teapot_scene(1, 1)),
-        "teapot, close point light": lambda: replace(teapot_scene(), lights=[near_light]),
-        "teapot, close point light, flat": lambda: replace(flat(teapot_scene()), lights=[near_light]),
+        "teapot, close point light": lambda: evolve(teapot_scene(), lights=[near_light]),
+        "teapot, close point light, flat": lambda: evolve(flat(teapot_scene()), lights=[near_light]),
         "teapot, wide field of view": lambda: wide(teapot_scene(1, 1, distance=3.6)),
         "teapot, wide field of view, 4 lights": lambda: wide(teapot_scene(4, distance=3.6)),
         "teapot, wide field of view, flat": lambda: wide(flat(teapot_scene(1, 1, distance=3.6))),
@@ -279,8 +280,8 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
         ),
         "orthographic, shininess 1, grazing": lambda: grazing(1),
         "orthographic, shininess 3, grazing": lambda: grazing(3),
-        "teapot, 2 directional lights, flat": lambda: replace(flat(teapot_scene()), lights=[LIGHTS[0], LIGHTS[2]]),
-        "teapot, 2 point lights, flat": lambda: replace(flat(teapot_scene()), lights=[LIGHTS[1], LIGHTS[3]]),
+        "teapot, 2 directional lights, flat": lambda: evolve(flat(teapot_scene()), lights=[LIGHTS[0], LIGHTS[2]]),
+        "teapot, 2 point lights, flat": lambda: evolve(flat(teapot_scene()), lights=[LIGHTS[1], LIGHTS[3]]),
         "big near triangles, unlit": lambda: big_triangles(Material("unlit"), []),
         "big near triangles, flat": lambda: big_triangles(shiny_walls, [Light("directional", (0.2, 0.5, 1)), lamp]),
         "big near triangles, smooth": lambda: big_triangles(shiny, [Light("directional", (0.2, 0.5, 1)), lamp]),
@@ -313,29 +314,29 @@ def grazing(shininess: int) -> Scene:
 def coarse_teapot(lights: int) -> Scene:
     """Of 112 triangles whose normals turn a lot."""
     scene = teapot_scene(lights, 1)
-    return replace(scene, objects=[replace(scene.objects[0], mesh=painted(teapot(2)))])
+    return evolve(scene, objects=[evolve(scene.objects[0], mesh=painted(teapot(2)))])
 
 
 def turned(scene: Scene) -> Scene:
     """The objects turned and made half as large again."""
-    objects = [replace(o, rotation=(0.3, -0.5, 0.2, 0.8), scale=1.5 * o.scale) for o in scene.objects]
-    return replace(scene, objects=objects)
+    objects = [evolve(o, rotation=(0.3, -0.5, 0.2, 0.8), scale=1.5 * o.scale) for o in scene.objects]
+    return evolve(scene, objects=objects)
 
 
 def both_sides(scene: Scene) -> Scene:
     """The objects seen from inside as well, with faces that are turned away lit as their normals say."""
-    objects = [replace(o, cull=False) for o in scene.objects]
-    return replace(scene, objects=objects, camera=replace(scene.camera, near=8.5))
+    objects = [evolve(o, cull=False) for o in scene.objects]
+    return evolve(scene, objects=objects, camera=evolve(scene.camera, near=8.5))
 
 
 def wide(scene: Scene) -> Scene:
     """The scene with a field of view of 100 degrees, on a wide canvas."""
-    return replace(scene, camera=replace(scene.camera, half_height=1.19), width=160, height=100)
+    return evolve(scene, camera=evolve(scene.camera, half_height=1.19), width=160, height=100)
 
 
 def orthographic(scene: Scene) -> Scene:
     """The scene with an orthographic camera."""
-    return replace(scene, camera=replace(scene.camera, projection="orthographic", half_height=3.5))
+    return evolve(scene, camera=evolve(scene.camera, projection="orthographic", half_height=3.5))
 
 
 def main() -> int:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Material, Mesh, Object, Scene
@@ -87,15 +87,15 @@ def counts(scene: Scene) -> tuple[int, int]:
 def covered(scene: Scene) -> NDArray[np.bool_]:
     """(H, W): where anything is drawn, of whatever colour."""
     white = [
-        replace(o, mesh=recolored(o.mesh, WHITE), material=UNLIT if o.material.shading != "unlit" else o.material)
+        evolve(o, mesh=recolored(o.mesh, WHITE), material=UNLIT if o.material.shading != "unlit" else o.material)
         for o in scene.objects
     ]
-    return draw(replace(scene, objects=white))[:, :, 0] > 0
+    return draw(evolve(scene, objects=white))[:, :, 0] > 0
 
 
 def recolored(mesh: Mesh, color: ArrayLike) -> Mesh:
     """The mesh in one colour."""
-    return replace(mesh, colors=np.tile(np.asarray(color), (len(np.asarray(mesh.positions)), 1)))
+    return evolve(mesh, colors=np.tile(np.asarray(color), (len(mesh.positions), 1)))
 
 
 def soup(corners: ArrayLike, colors: ArrayLike = WHITE) -> Mesh:

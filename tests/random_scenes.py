@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from conformance.coverage import project
@@ -75,7 +76,7 @@ PLACES = ((1, 1, 1), (8, 1, 1), (1, 8, 1), (1, 1, 8), (8, 8, 1), (8, 1, 8), (1, 
 
 def is_anything_seen(scene: Scene) -> bool:
     """Whether the ray through the centre of one of a few pixels meets the triangle on which that pixel was chosen."""
-    world = before_camera(replace(scene, objects=[replace(o, wireframe=False) for o in scene.objects]))
+    world = before_camera(evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects]))
     corners = world.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     with np.errstate(all="ignore"):
@@ -149,7 +150,7 @@ def _camera(rng: Rng, kind: Kind, objects: list[Object]) -> Camera:
     if objects:
         seen = objects[rng.integers(len(objects))]
         center = np.asarray(seen.position)
-        size = max(seen.scale * float(np.abs(np.asarray(seen.mesh.positions)).max()), 2.0**-16)
+        size = max(seen.scale * float(np.abs(seen.mesh.positions).max()), 2.0**-16)
     perspective = rng.random() < 0.65
     if kind == "tame":
         distance = 3000.0 + 2 * size
@@ -203,13 +204,13 @@ def _light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
         return light
     toward = rng.normal(size=3)
     if objects and rng.random() < 0.8:
-        toward = np.asarray(objects[rng.integers(len(objects))].position) - np.asarray(light.vector)
+        toward = np.asarray(objects[rng.integers(len(objects))].position) - light.vector
         toward = toward * rng.choice([1, 1e-4]) + 0.1 * rng.normal(size=3) * np.abs(toward).max()
     toward = _q32(toward)
     outer = float(rng.choice([rng.uniform(0, 60), rng.uniform(0, 180), 180.0, 0.0], p=[0.6, 0.3, 0.05, 0.05]))
     inner = outer * float(rng.choice([0.0, rng.random(), 1.0]))
     direction = toward if toward.any() else (0, 0, -1)
-    return replace(light, kind="spot", direction=direction, inner_angle=inner, outer_angle=outer)
+    return evolve(light, kind="spot", direction=direction, inner_angle=inner, outer_angle=outer)
 
 
 def _plain_light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
@@ -226,10 +227,10 @@ def _plain_light(rng: Rng, kind: Kind, objects: list[Object]) -> Light:
 
 def _on_surface(rng: Rng, o: Object) -> Array:
     """A corner or another place of a face, or a little above it."""
-    corners = np.asarray(o.mesh.positions)[np.asarray(o.mesh.faces)[rng.integers(len(np.asarray(o.mesh.faces)))]]
+    corners = o.mesh.positions[o.mesh.faces[rng.integers(o.mesh.triangles)]]
     weights = np.array([1, 0, 0]) if rng.random() < 0.3 else rng.dirichlet([1, 1, 1])
     above = rng.normal(size=3) * np.ptp(corners) * 2.0 ** rng.uniform(-12, -3) * (rng.random() < 0.5)
-    return _inside(np.asarray(o.position) + rotate(o.rotation, o.scale * (weights @ corners + above)))
+    return _inside(o.position + rotate(o.rotation, o.scale * (weights @ corners + above)))
 
 
 def _object(rng: Rng, kind: Kind) -> Object:

@@ -12,7 +12,7 @@ from PIL import ImageSequence
 
 from shackled import Animation, Image, InputError
 from shackled.animation import check_animation, frame_names
-from shackled.reference import encode_bmp
+from shackled.image import encode_bmp
 
 
 def picture(pixels: np.ndarray) -> Image:
@@ -66,8 +66,16 @@ def test_formats_with_and_without_a_dot() -> None:
 
 
 def test_it_shows_itself_in_a_line() -> None:
-    assert repr(FEW) == "<Animation of 4 frames, 9 x 6, 40 gas>"
-    assert repr(Animation(FEW.frames[:1])) == "<Animation of 1 frame, 9 x 6, 10 gas>"
+    assert repr(FEW) == "<Animation 9x6, 4 frames, 40 gas>"
+    assert repr(Animation(FEW.frames[:1])) == "<Animation 9x6, 1 frame, 10 gas>"
+
+
+def test_animations_are_values() -> None:
+    assert Animation(list(FEW.frames), 100) == FEW
+    assert hash(Animation(list(FEW.frames), 100)) == hash(FEW)
+    assert Animation(FEW.frames, 101) != FEW
+    assert Animation(FEW.frames[::-1], 100) != FEW
+    assert (Animation(FEW.pixels).pixels == FEW.pixels).all()
 
 
 def test_frames_of_one_size_are_needed() -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import eth_abi
 import numpy as np
 import pytest
+from attrs import evolve
 
 from float64 import scene_type
 from pictures import chain, dynamic, words
@@ -350,7 +351,7 @@ def test_an_offset_of_the_scene_beyond_the_end() -> None:
 def test_other_orders_and_shared_parts_are_the_same_scene() -> None:
     """The ABI lets parts stand anywhere, and lets two offsets lead to one part."""
     scene = small_scene()
-    twice = replace(scene, objects=[scene.objects[1], scene.objects[1]])
+    twice = evolve(scene, objects=[scene.objects[1], scene.objects[1]])
     expected = chain().call("Renderer", call_data(scene=twice)).output
     data = call_data(scene=twice)
     objects = layout(data)["number of objects"] + 32

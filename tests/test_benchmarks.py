@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def faces(scene: Scene) -> int:
-    return sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+    return scene.triangles
 
 
 @pytest.mark.parametrize("look", ["unlit", "matte"])

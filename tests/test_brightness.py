@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import float64
 from accuracy import LEVELS, interior
@@ -28,7 +28,7 @@ def wall(material: Material, lights: list[Light], color: int = 255, tilt: float 
     square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, -tilt], [-1, 1, -tilt]])
     mesh = Mesh(1000 * square, [[0, 1, 2], [0, 2, 3]], [[color] * 3] * 4, [[0, 0, 1]] * 4)
     near = Object(mesh, (0, 0, -3000), material=material, cull=False, **look)
-    far = replace(near, position=(0, 0, -12000), scale=16.0)
+    far = evolve(near, position=(0, 0, -12000), scale=16.0)
     return Scene([near, far], Camera(near=1), lights, width=SIZE, height=SIZE)
 
 
@@ -69,8 +69,8 @@ def test_brightest_vertex_colors() -> None:
     before: Pixels = np.zeros((SIZE, SIZE, 3), np.uint8)
     for level in range(250, 256):
         colors = [[level] * 3, [255] * 3, [level, 255, level], [255, level, level]]
-        objects = [replace(o, mesh=replace(o.mesh, colors=colors)) for o in scene.objects]
-        pixels = draw(replace(scene, objects=objects))
+        objects = [evolve(o, mesh=evolve(o.mesh, colors=colors)) for o in scene.objects]
+        pixels = draw(evolve(scene, objects=objects))
         assert (pixels >= before).all()
         before = pixels
     assert (before == 255).all()

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 import float64
@@ -40,7 +40,7 @@ def huge(exponent: int) -> Iterator[Scene]:
 
 def colored(rng: np.random.Generator, corners: Array) -> Mesh:
     mesh = soup(corners)
-    positions, faces = np.asarray(mesh.positions), np.asarray(mesh.faces)
+    positions, faces = mesh.positions, mesh.faces
     return Mesh(positions, faces, rng.integers(0, 256, (3, 3)), vertex_normals(positions, faces))
 
 
@@ -98,14 +98,14 @@ def test_what_is_nearer_than_the_near_plane_is_not_drawn() -> None:
     square = [[[-50, -50, -100], [50, -50, -100], [0, 50, -100]]]
     for camera in (Camera(near=100), Camera(projection="orthographic", half_height=100.0, near=100)):
         assert covered(unlit_scene(soup(square), camera, 20)).any()
-        assert not covered(unlit_scene(soup(square), replace(camera, near=100 + 2**-20), 20)).any()
+        assert not covered(unlit_scene(soup(square), evolve(camera, near=100 + 2**-20), 20)).any()
 
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_the_near_plane_cuts_where_it_is(projection: str) -> None:
     """A floor that begins at the near plane, whose distance says in which row."""
     half_height = 0.5 if projection == "perspective" else 20.0
-    camera = Camera(projection=projection, half_height=half_height, near=200)  # type: ignore[arg-type]
+    camera = Camera(projection=projection, half_height=half_height, near=200)
     floor = [
         [[-9000, -20, 9000], [9000, -20, 9000], [9000, -20, -9000]],
         [[-9000, -20, 9000], [9000, -20, -9000], [-9000, -20, -9000]],
@@ -124,7 +124,7 @@ def test_the_near_plane_cuts_where_it_is(projection: str) -> None:
         # y = -20 at the plane is the lower border: nothing of the slope is left
         assert not rows.any()
         assert (
-            covered(unlit_scene(soup(floor), replace(camera, near=100), 100)).any(axis=1).tolist()
+            covered(unlit_scene(soup(floor), evolve(camera, near=100), 100)).any(axis=1).tolist()
             == [False] * 75 + [True] * 25
         )
 
@@ -159,7 +159,7 @@ def degenerate_meshes() -> dict[str, Mesh]:
 @pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
 @pytest.mark.parametrize("wireframe", [False, True])
 def test_degenerate_triangles_are_not_drawn(name: str, shading: str, wireframe: bool) -> None:
-    material = Material(shading, 0.2, 0.7, 0.5, 10)  # type: ignore[arg-type]
+    material = Material(shading, 0.2, 0.7, 0.5, 10)
     thing = Object(degenerate_meshes()[name], material=material, cull=False, wireframe=wireframe)
     lights = [Light("point", (10, 20, 30)), Light("directional", (1, 1, 1))]
     for camera in (Camera(near=1), Camera(projection="orthographic", half_height=40.0, near=1)):
@@ -213,7 +213,7 @@ def test_each_border_of_the_guard_band_cuts() -> None:
 
 def away(mesh: Mesh, size: int) -> Mesh:
     """The mesh at a distance where a pixel of the default perspective camera is about 256 units."""
-    return replace(mesh, positions=np.asarray(mesh.positions) * [1, 1, 0] - [0, 0, round(128 * size * 2.145)])
+    return evolve(mesh, positions=mesh.positions * [1, 1, 0] - [0, 0, round(128 * size * 2.145)])
 
 
 def test_clipping_keeps_colors_where_they_are() -> None:

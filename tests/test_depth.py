@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import float64
 from pictures import UNLIT, call_data, draw, recolored, soup, unlit_scene
@@ -31,7 +31,7 @@ def wall(z: float, size: float, color: tuple[int, int, int]) -> Mesh:
 
 def both(first: Mesh, second: Mesh) -> Mesh:
     return soup(
-        [np.asarray(m.positions)[face] for m in (first, second) for face in np.asarray(m.faces)],
+        [m.positions[face] for m in (first, second) for face in np.asarray(m.faces)],
         [np.asarray(m.colors)[face[0]] for m in (first, second) for face in np.asarray(m.faces)],
     )
 
@@ -88,12 +88,12 @@ def test_intersecting_quads_orthographic() -> None:
 
 def test_orthographic_depth_behind_the_eye() -> None:
     """An orthographic camera may see what is behind its eye; the order there goes on."""
-    camera = replace(CAMERAS["orthographic"], near=-5000)
+    camera = evolve(CAMERAS["orthographic"], near=-5000)
     scene = unlit_scene(
         [Object(wall(z, 300, c), material=UNLIT) for z, c in ((900, RED), (-900, BLUE), (2000, GREEN))], camera, 16
     )
     assert (draw(scene)[8, 8] == GREEN).all()
-    assert (draw(replace(scene, objects=scene.objects[:2]))[8, 8] == RED).all()
+    assert (draw(evolve(scene, objects=scene.objects[:2]))[8, 8] == RED).all()
 
 
 @pytest.mark.parametrize("camera", CAMERAS.values(), ids=CAMERAS.keys())
@@ -110,7 +110,7 @@ def test_of_two_coplanar_triangles_the_first_wins(camera: Camera) -> None:
 
 def test_culling_and_both_sides() -> None:
     front, back = wall(-1000, 300, RED), wall(-1000, 300, GREEN)
-    back = replace(back, faces=np.asarray(back.faces)[:, ::-1])
+    back = evolve(back, faces=back.faces[:, ::-1])
     for mesh, cull, seen in ((front, True, True), (back, True, False), (front, False, True), (back, False, True)):
         for camera in CAMERAS.values():
             picture = draw(unlit_scene([Object(mesh, material=UNLIT, cull=cull)], camera, 20))
@@ -121,11 +121,11 @@ def test_orthographic_culling_goes_by_the_viewing_direction() -> None:
     """A face far to the side, turned so that an eye point would see its other side."""
     # its normal has a little of +z: toward the viewer
     mesh = soup([[[500, -50, -1050], [510, -50, -1000], [505, 50, -1020]]], RED)
-    corners = np.asarray(mesh.positions)
+    corners = mesh.positions
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     assert normal[2] > 0
     mesh = soup([[[500, -50, -1000], [510, -50, -1050], [505, 50, -1020]]], RED)
-    corners = np.asarray(mesh.positions)
+    corners = mesh.positions
     normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
     assert normal[2] > 0 > normal @ -corners[0] * np.sign(normal @ corners[0])
     for cull in (True, False):
@@ -139,7 +139,7 @@ def test_objects_share_one_depth_buffer() -> None:
     right = quad((-100, -100, -1100), (300, -100, -900), (300, 100, -900), (-100, 100, -1100), color=GREEN)
     scene = unlit_scene([Object(m, material=UNLIT) for m in (left, right)], Camera(near=1), 65)
     picture = draw(scene)
-    assert (draw(replace(scene, objects=scene.objects[::-1])) == picture).all()
+    assert (draw(evolve(scene, objects=scene.objects[::-1])) == picture).all()
     assert (picture[32, 24:31] == RED).all()
     assert (picture[32, 34:41] == GREEN).all()
 
@@ -153,7 +153,7 @@ def test_depths_a_thousandth_apart(distance: float) -> None:
     scene: Scene = unlit_scene(things, Camera(near=distance / 1000), 32)
     picture = draw(scene)
     assert (picture[16, 16] == RED).all()
-    assert (picture == draw(replace(scene, objects=things[::-1]))).all()
+    assert (picture == draw(evolve(scene, objects=things[::-1]))).all()
 
 
 def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 from differential import compare, compare_broken, contract_answer, difference, reference_answer
 from pictures import call_data, chain, counts, shared_folder
@@ -37,8 +36,8 @@ def test_something_is_drawn_in_nearly_all_random_scenes() -> None:
 def test_random_scenes_are_of_all_sorts() -> None:
     scenes = [random_case(seed).scene for seed in range(1, 301)]
     objects = [o for scene in scenes for o in scene.objects]
-    corners = [np.abs(np.asarray(o.mesh.positions)).max() for o in objects]
-    whites = [(np.asarray(o.mesh.colors) == 255).all() for o in objects]
+    corners = [np.abs(o.mesh.positions).max() for o in objects]
+    whites = [(o.mesh.colors == 255).all() for o in objects]
     bright = [max(o.material.ambient, o.material.diffuse, o.material.specular) > 1 for o in objects]
     far = [np.linalg.norm(np.subtract(s.camera.eye, s.camera.target)) > 16 * size(s) for s in scenes if s.objects]
     at_surface = [
@@ -50,16 +49,16 @@ def test_random_scenes_are_of_all_sorts() -> None:
 
 def size(scene: Scene) -> float:
     """Of the largest object: the distance of its farthest vertex."""
-    return max(o.scale * float(np.linalg.norm(np.asarray(o.mesh.positions), axis=1).max()) for o in scene.objects)
+    return max(o.scale * float(np.linalg.norm(o.mesh.positions, axis=1).max()) for o in scene.objects)
 
 
 def from_surface(scene: Scene, light: Light) -> float:
     """How far a light is from the plane of a face that it is above, against the size of the face; the least of all."""
     found = [np.inf]
     for o in scene.objects:
-        points = np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions))
-        a, b, c = np.moveaxis(points[np.asarray(o.mesh.faces)], 1, 0)
-        normal, away = np.cross(b - a, c - a), np.asarray(light.vector) - a
+        points = o.position + rotate(o.rotation, o.scale * o.mesh.positions)
+        a, b, c = np.moveaxis(points[o.mesh.faces], 1, 0)
+        normal, away = np.cross(b - a, c - a), light.vector - a
         area = np.linalg.norm(normal, axis=1)
         near = np.linalg.norm(away, axis=1) < 2 * np.sqrt(area)
         found += (np.abs((normal * away).sum(axis=1))[near] / area[near] ** 1.5).tolist()
@@ -93,8 +92,8 @@ def test_shared_scenes(prefix: str, material: Material | None) -> None:
             # a file that is wrong on purpose
             continue
         if material:
-            objects = [replace(each, material=material) for each in scene.objects]
-            scene = replace(scene, objects=objects, lights=[Light("point", (500, 800, 0))])
+            objects = [evolve(each, material=material) for each in scene.objects]
+            scene = evolve(scene, objects=objects, lights=[Light("point", (500, 800, 0))])
         data = encode(selector("renderCounted"), scene)
         found[name] = difference(contract_answer(chain(), data), reference_answer(data))
     assert len(found) > len(mine) * 0.6
@@ -107,8 +106,8 @@ TRIANGLE = Mesh([[-30000, -30000, 0], [30000, -30000, 0], [0, 30000, 0]], [[0, 1
 @pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
 @pytest.mark.parametrize("kind", ["point", "directional"])
 def test_a_depth_that_rounds_to_zero(shading: str, kind: str) -> None:
-    far = Object(TRIANGLE, (0, 0, -(2**25)), scale=2**6, material=Material(shading), cull=False)  # type: ignore[arg-type]
-    light = Light(kind, (0, 0, 2**25))  # type: ignore[arg-type]
+    far = Object(TRIANGLE, (0, 0, -(2**25)), scale=2**6, material=Material(shading), cull=False)
+    light = Light(kind, (0, 0, 2**25))
     data = call_data("renderCounted", Scene([far], Camera(near=2.0**-32), [light], width=64, height=64))
     answer = reference_answer(data)
     assert isinstance(answer, bytes)
@@ -118,8 +117,8 @@ def test_a_depth_that_rounds_to_zero(shading: str, kind: str) -> None:
 @pytest.mark.parametrize(("width", "height"), [(2048, 27), (27, 2048), (2048, 1024)])
 @pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
 def test_large_canvases(width: int, height: int, shading: str) -> None:
-    mesh = replace(TRIANGLE, colors=np.eye(3, dtype=np.uint8) * 255)
-    obj = Object(mesh, (0, 0, -1000), (0.3, 0.5, 0, 1), 0.02, Material(shading))  # type: ignore[arg-type]
+    mesh = evolve(TRIANGLE, colors=np.eye(3, dtype=np.uint8) * 255)
+    obj = Object(mesh, (0, 0, -1000), (0.3, 0.5, 0, 1), 0.02, Material(shading))
     lights = [Light("directional", (1, 1, 1)), Light("directional", (-1, 0, 1), (255, 90, 0))]
     scene = Scene([obj], Camera(near=1.0), lights, width=width, height=height)
     tile = Rectangle(width // 3, height // 3, width // 2, height // 2)

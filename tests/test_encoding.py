@@ -6,10 +6,10 @@ import base64
 import io
 import struct
 import xml.etree.ElementTree as ElementTree
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 from PIL import Image as PillowImage
 
 from accuracy import flat, teapot_scene
@@ -21,7 +21,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def scene_of_size(width: int, height: int) -> Scene:
-    return replace(fit(flat(teapot_scene())), width=width, height=height)
+    return evolve(fit(flat(teapot_scene())), width=width, height=height)
 
 
 def decode(data: bytes) -> Pixels:
@@ -39,7 +39,7 @@ def header(bmp: bytes) -> tuple[int, ...]:
 @pytest.mark.parametrize("width", range(1, 10))
 @pytest.mark.parametrize("height", [1, 2, 7])
 def test_headers_and_padding(width: int, height: int) -> None:
-    scene = replace(
+    scene = evolve(
         Scene([], Camera(near=1), background=Background((10, 20, 30), (250, 130, 7))), width=width, height=height
     )
     bmp = dynamic(call("render", scene).output)
@@ -93,7 +93,7 @@ def test_all_entry_points_return_the_same_picture(width: int, height: int) -> No
 
 
 def test_the_svg_of_an_image_is_that_of_the_contract() -> None:
-    scene = replace(teapot_scene(), width=20, height=14)
+    scene = evolve(teapot_scene(), width=20, height=14)
     image: Image = render(scene)
     assert image.encode(".svg") == dynamic(call("renderSVG", fit(scene)).output)
 
@@ -109,7 +109,7 @@ def test_gradients_end_in_their_colors(width: int, height: int) -> None:
         assert (picture[0] == top).all()
         assert (picture[-1] == bottom).all()
         assert np.abs(picture - (top + (bottom - top) * part)).max() <= 0.501
-        assert (draw(replace(scene, invert=True)) == 255 - picture).all()
+        assert (draw(evolve(scene, invert=True)) == 255 - picture).all()
 
 
 def test_a_background_of_one_row_is_its_top() -> None:
@@ -121,14 +121,14 @@ def test_a_background_of_one_row_is_its_top() -> None:
 def test_invert_turns_every_byte() -> None:
     for name in ("flat", "smooth"):
         scene = flat(teapot_scene()) if name == "flat" else teapot_scene()
-        scene = replace(fit(scene), width=37, height=29)
-        assert (draw(replace(scene, invert=True)) == 255 - draw(scene)).all()
+        scene = evolve(fit(scene), width=37, height=29)
+        assert (draw(evolve(scene, invert=True)) == 255 - draw(scene)).all()
 
 
 def test_lit_pixels_are_those_that_are_covered() -> None:
     for width, height in ((1, 1), (2, 3), (31, 17), (64, 64), (150, 140)):
         scene = scene_of_size(width, height)
-        assert counts(scene)[1] == covered(replace(scene, background=Background((0, 0, 0)))).sum()
+        assert counts(scene)[1] == covered(evolve(scene, background=Background((0, 0, 0)))).sum()
 
 
 def test_triangles_are_those_that_face_the_eye() -> None:
@@ -138,6 +138,6 @@ def test_triangles_are_those_that_face_the_eye() -> None:
     both = unlit_scene(mesh, Camera(near=1), 20)
     # what is beside the picture does not count, nor what is behind the eye
     assert counts(both)[0] == 3
-    assert counts(replace(both, objects=[replace(both.objects[0], cull=True)]))[0] == 2
+    assert counts(evolve(both, objects=[evolve(both.objects[0], cull=True)]))[0] == 2
     far_beside = soup(corners - [1_000_000, 0, 0])
     assert counts(unlit_scene(far_beside, Camera(near=1), 20))[0] == 0

@@ -66,7 +66,7 @@ def test_scene_file(tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_bytes((EXAMPLES / "scene.toml").read_bytes())
     scene = load(tmp_path / "scene.toml")
     assert (scene.width, scene.height) == (400, 300)
-    assert [len(np.asarray(o.mesh.faces)) for o in scene.objects] == [4032, 1148, 960, 1280, 320, 288]
+    assert [o.mesh.triangles for o in scene.objects] == [4032, 1148, 960, 1280, 320, 288]
     # solids bound their volume from outside, so that nothing is missing when faces that turn away are left out
     assert [is_closed(o.mesh) for o in scene.objects if o.cull] == [True, True, True, False]
     image = render(scene, size=(48, 36))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 import accuracy
@@ -43,17 +43,17 @@ CAMERA = Camera((0, 0, 700), (0, 0, 0), near=1)
 
 
 def wall(material: Material = GLOSSY, **changes: Any) -> Scene:
-    return replace(Scene([Object(WALL, material=material)], CAMERA, width=64, height=64), **changes)
+    return evolve(Scene([Object(WALL, material=material)], CAMERA, width=64, height=64), **changes)
 
 
 def spot(inner: float = 10, outer: float = 25, **changes: Any) -> Light:
     light = Light("spot", (150, 100, 400), (255, 240, 200), (-150, -100, -400), inner, outer)
-    return replace(light, **changes)
+    return evolve(light, **changes)
 
 
 def box(opacity: float, z: float = 0, **changes: Any) -> Object:
     turned = Object(BOX, (0, 0, z), (0.3, 0.4, 0.1, 1), material=Material("unlit"), opacity=opacity)
-    return replace(turned, **changes)
+    return evolve(turned, **changes)
 
 
 def pixels(scene: Scene) -> NDArray[np.int64]:
@@ -67,9 +67,9 @@ def pixels(scene: Scene) -> NDArray[np.int64]:
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 @pytest.mark.parametrize("angles", [(0, 45), (10, 25), (20, 20), (60, 120)])
 def test_a_cone_is_that_of_gltf(shading: Any, projection: Any, angles: tuple[float, float]) -> None:
-    camera = replace(CAMERA, projection=projection, half_height=0.5 if projection == "perspective" else 330.0)
+    camera = evolve(CAMERA, projection=projection, half_height=0.5 if projection == "perspective" else 330.0)
     lights = [spot(*angles), Light("directional", (-1, 1, 3), (30, 60, 90))]
-    measured = accuracy.measure(wall(replace(GLOSSY, shading=shading), camera=camera, lights=lights))
+    measured = accuracy.measure(wall(evolve(GLOSSY, shading=shading), camera=camera, lights=lights))
     assert measured.pixels > 300
     # where the edge is hard, it goes through pixels
     assert measured.is_good or (angles[0] == angles[1] and measured.within > 0.97)
@@ -113,12 +113,12 @@ def test_what_a_spot_light_needs() -> None:
 
 def scene_of(*objects: Object, **changes: Any) -> Scene:
     backdrop = Background((200, 210, 220), (40, 30, 20))
-    return replace(Scene(list(objects), CAMERA, background=backdrop, width=48, height=48), **changes)
+    return evolve(Scene(list(objects), CAMERA, background=backdrop, width=48, height=48), **changes)
 
 
 def test_opaque_is_as_without() -> None:
     assert extensions(scene_of(box(1.0))) == b""
-    assert encode(b"....", scene_of(box(1.0))) == encode(b"....", scene_of(replace(box(0.5), opacity=1)))
+    assert encode(b"....", scene_of(box(1.0))) == encode(b"....", scene_of(evolve(box(0.5), opacity=1)))
 
 
 def test_an_opacity_of_0_is_not_there() -> None:
@@ -142,26 +142,26 @@ def test_the_order_of_faces_makes_no_difference() -> None:
     expected = pixels(scene_of(box(0.4, cull=False)))
     for seed in range(5):
         faces = np.random.default_rng(seed).permutation(np.asarray(BOX.faces))
-        assert (pixels(scene_of(box(0.4, cull=False, mesh=replace(BOX, faces=faces)))) == expected).all()
+        assert (pixels(scene_of(box(0.4, cull=False, mesh=evolve(BOX, faces=faces)))) == expected).all()
 
 
 def test_what_is_not_opaque_comes_last() -> None:
-    far = box(1.0, -300, mesh=replace(BOX, colors=[[255, 0, 0]] * 8))
+    far = box(1.0, -300, mesh=evolve(BOX, colors=[[255, 0, 0]] * 8))
     for objects in ((box(0.5), far), (far, box(0.5))):
         measured = accuracy.measure(scene_of(*objects))
         assert measured.worst <= 2
     assert (pixels(scene_of(box(0.5), far)) == pixels(scene_of(far, box(0.5)))).all()
     # of two that are not opaque the farther should come first: behind the nearer it is not drawn
-    near = box(0.5, mesh=replace(BOX, colors=[[0, 0, 255]] * 8))
-    through = replace(far, opacity=0.5)
+    near = box(0.5, mesh=evolve(BOX, colors=[[0, 0, 255]] * 8))
+    through = evolve(far, opacity=0.5)
     assert pixels(scene_of(through, near))[24, 24, 0] > pixels(scene_of(near, through))[24, 24, 0] + 20
     for objects in ((through, near), (near, through)):
         assert accuracy.measure(scene_of(*objects)).worst <= 2
 
 
 def test_bright_colours_are_mixed_as_they_are_seen() -> None:
-    bright = wall(replace(GLOSSY, ambient=4.0), lights=[spot()])
-    mixed = replace(bright, objects=[replace(bright.objects[0], opacity=0.25)], background=Background((0, 0, 0)))
+    bright = wall(evolve(GLOSSY, ambient=4.0), lights=[spot()])
+    mixed = evolve(bright, objects=[evolve(bright.objects[0], opacity=0.25)], background=Background((0, 0, 0)))
     assert np.abs(pixels(mixed) - np.minimum(pixels(bright), 255) / 4).max() <= 1
 
 
@@ -188,10 +188,10 @@ def cone(*numbers: int) -> bytes:
 
 def with_records(scene: Scene, data: bytes) -> bytes:
     """The call that has the scene rendered with these extensions."""
-    plain = replace(
+    plain = evolve(
         scene,
         lights=[Light("point", w.vector, w.color) if w.kind == "spot" else w for w in scene.lights],
-        objects=[replace(o, opacity=1.0) for o in scene.objects],
+        objects=[evolve(o, opacity=1.0) for o in scene.objects],
     )
     assert extensions(plain) == b""
     struct = encode_scene(fit(plain))[:-32] + len(data).to_bytes(32, "big") + data + bytes(-len(data) % 32)
@@ -279,7 +279,7 @@ def test_values_at_their_bounds(data: bytes) -> None:
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:
     small = Object(Mesh([[0, 0, 0]] * 3, [[0, 1, 2]], [[0, 0, 0]] * 3), opacity=0.5)
-    scene = replace(scene_of(), objects=[replace(small, opacity=1.0)] * 65536 + [small])
+    scene = evolve(scene_of(), objects=[evolve(small, opacity=1.0)] * 65536 + [small])
     with pytest.raises(InputError, match="among the first 65,536 of a scene, not number 65,536"):
         extensions(scene)
 

@@ -6,10 +6,9 @@ in whole numbers.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 from pictures import covered, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
@@ -61,7 +60,7 @@ def random_triangle(rng: np.random.Generator, kind: str, width: int, height: int
 
 def drawn(corners: Integers, width: int, height: int, cull: bool = False) -> Mask:
     scene = unlit_scene(soup(on_pixel_grid(corners, width, height)), pixel_grid_camera(height), width, height)
-    return covered(replace(scene, objects=[replace(scene.objects[0], cull=cull)]))
+    return covered(evolve(scene, objects=[evolve(scene.objects[0], cull=cull)]))
 
 
 @pytest.mark.parametrize("kind", KINDS)

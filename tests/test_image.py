@@ -6,13 +6,13 @@ import io
 import os
 import xml.etree.ElementTree as ElementTree
 from base64 import b64decode
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from PIL import Image as PillowImage
 
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
@@ -73,8 +73,8 @@ def test_sizes(image: Image) -> None:
 
 @pytest.mark.parametrize("extension", [".png", ".bmp", ".gif", ".PNG"])
 def test_files_hold_the_pixels_of_the_contract(image: Image, tmp_path: Path, extension: str) -> None:
-    few = replace(image, pixels=image.pixels & np.uint8(0xC0))
-    few = replace(few, bmp=bmp_of(few.pixels))
+    few = evolve(image, pixels=image.pixels & np.uint8(0xC0))
+    few = evolve(few, bmp=bmp_of(few.pixels))
     path = tmp_path / f"picture{extension}"
     few.save(path)
     with PillowImage.open(path) as picture:
@@ -90,7 +90,7 @@ def test_a_bmp_is_what_the_contract_returned(image: Image, tmp_path: Path) -> No
 def test_a_gif_of_many_colours_is_near(image: Image) -> None:
     rng = np.random.default_rng(0)
     pixels = rng.integers(0, 256, (40, 40, 3)).astype(np.uint8) // 8
-    with PillowImage.open(io.BytesIO(replace(image, pixels=pixels).encode(".gif"))) as picture:
+    with PillowImage.open(io.BytesIO(evolve(image, pixels=pixels).encode(".gif"))) as picture:
         difference = np.abs(np.array(picture.convert("RGB")).astype(int) - pixels)
     assert 0 < difference.max() < 16
 
@@ -129,8 +129,25 @@ def test_formats_with_and_without_a_dot(image: Image) -> None:
 
 
 def test_it_shows_itself_in_a_line(image: Image) -> None:
-    assert repr(image) == f"<Image 37 x 21, {image.gas:,} gas, {image.chain}>"
-    assert repr(replace(image, gas=None)) == f"<Image 37 x 21, {image.chain}>"
+    assert repr(image) == f"<Image 37x21, 1 triangle, {image.gas:,} gas>"
+    assert repr(evolve(image, gas=35_312_345)) == "<Image 37x21, 1 triangle, 35.3M gas>"
+    assert repr(evolve(image, gas=None, scene=None)) == "<Image 37x21>"
+
+
+def test_images_are_values(image: Image) -> None:
+    other = evolve(image, seconds=9.0)
+    assert image == other
+    assert hash(image) == hash(other)
+    for changes in ({"pixels": 255 - image.pixels}, {"gas": 1}, {"chain": "nowhere"}, {"scene": None}):
+        assert evolve(image, **changes) != image
+    with pytest.raises(ValueError, match="read-only"):
+        image.pixels[0, 0] = 5
+    with pytest.raises(AttributeError):
+        image.gas = 5  # type: ignore[misc]
+    assert Image(image.pixels.tolist()).bmp == image.bmp
+    for wrong in (image.pixels[0], image.pixels[:, :, :1], image.pixels[:0], "picture", [[1, 2], [3]]):
+        with pytest.raises(InputError, match=r"^the pixels of a picture must be bytes of shape"):
+            Image(wrong)
 
 
 def test_what_is_no_path(image: Image) -> None:

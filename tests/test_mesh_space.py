@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 from accuracy import LEVELS, measure
 from shackled import Camera, Light, Material, Mesh, Object, Scene
@@ -39,7 +38,7 @@ def view(mesh: Mesh, middle: tuple[float, float, float], size: float, angle: flo
     eye = 12.1 * np.array([np.sin(angle), 0.7 * np.cos(1.7 * angle), np.cos(angle)])
     camera = Camera(eye=tuple(eye), target=(0, 0, 0), near=0.5)
     if orthographic:
-        camera = replace(camera, projection="orthographic", half_height=5.0)
+        camera = evolve(camera, projection="orthographic", half_height=5.0)
     place = tuple(-unit * np.asarray(middle))
     lamp, far = Light("point", (2.1, 5.3, 4.7)), Light("point", tuple(1.3 * eye + [1, 2, 3]), (90, 60, 200))
     thing = Object(mesh, place, scale=unit, material=LOOK, cull=False)
@@ -64,9 +63,9 @@ def test_the_unit_of_a_mesh_makes_no_difference() -> None:
     for size in (1.0, 1.01, 3.0, 0.7):
         scene = view(cube_mesh(1), (0, 0, 0), 1, 0.7, orthographic=False)
         (thing,) = scene.objects
-        positions = np.asarray(thing.mesh.positions) * size
-        thing = replace(thing, mesh=replace(thing.mesh, positions=positions), scale=thing.scale / size)
-        errors.append(measure(replace(scene, objects=[thing])).worst)
+        positions = thing.mesh.positions * size
+        thing = evolve(thing, mesh=evolve(thing.mesh, positions=positions), scale=thing.scale / size)
+        errors.append(measure(evolve(scene, objects=[thing])).worst)
     assert max(errors) <= LEVELS
 
 
@@ -76,8 +75,8 @@ def test_from_far_away_with_the_near_plane_close_to_the_object(distance: int) ->
     eye = distance * np.array([0.48, 0.6, 0.64])
     camera = Camera(tuple(eye), (0, 0, 0), half_height=6 / distance, near=distance - 6)
     (thing,) = scene.objects
-    scene = replace(scene, camera=camera, objects=[replace(thing, material=replace(LOOK, shininess=120))])
-    scene = replace(scene, lights=[Light("directional", (1, 0.5, 0.9)), Light("point", (20, 30, 25))])
+    scene = evolve(scene, camera=camera, objects=[evolve(thing, material=evolve(LOOK, shininess=120))])
+    scene = evolve(scene, lights=[Light("directional", (1, 0.5, 0.9)), Light("point", (20, 30, 25))])
     accuracy = measure(scene)
     assert accuracy.pixels > 500
     assert accuracy.worst <= LEVELS

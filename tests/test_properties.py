@@ -6,10 +6,10 @@ differ where `conformance.coverage` allows it: at edges, and at equal depth.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike, NDArray
@@ -80,7 +80,7 @@ def materials(draw: st.DrawFn) -> Material:
 @st.composite
 def objects(draw: st.DrawFn) -> Object:
     mesh = draw(meshes())
-    extent = float(np.abs(np.asarray(mesh.positions)).max())
+    extent = float(np.abs(mesh.positions).max())
     return Object(
         mesh,
         position=draw(st.tuples(*[st.integers(-600, 600)] * 3)),
@@ -141,7 +141,7 @@ def assert_same_picture(
         assert np.isin([first.triangle[row, column], shown[row, column]], allowed).all(), (column, row)
     inner = interior(first.triangle) & interior(after.triangle) & (first.triangle == shown)
     materials = [o.material for o in before.objects]
-    sizes = [len(np.asarray(o.mesh.faces)) for o in before.objects]
+    sizes = [o.mesh.triangles for o in before.objects]
     unlit = np.repeat([m.shading == "unlit" for m in materials], sizes)
     stepped = np.repeat([m.shading == "smooth" and m.specular > 0 for m in materials], sizes)
     old, new = first.pixels.astype(int), after.pixels.astype(int)
@@ -157,7 +157,7 @@ def assert_same_picture(
 
 def changed(scene: Scene, **fields: Any) -> Scene:
     """The scene with other fields in each object."""
-    return replace(scene, objects=[replace(o, **{k: f(o) for k, f in fields.items()}) for o in scene.objects])
+    return evolve(scene, objects=[evolve(o, **{k: f(o) for k, f in fields.items()}) for o in scene.objects])
 
 
 @EACH
@@ -182,14 +182,14 @@ def test_more_light_is_never_darker(scene: Scene, data: st.DataObject) -> None:
         return np.minimum(np.asarray(color, np.int64) + more, 255)
 
     if kind == "one more":
-        other = replace(scene, lights=[*scene.lights, data.draw(lights())])
+        other = evolve(scene, lights=[*scene.lights, data.draw(lights())])
     elif kind == "brighter":
-        other = replace(scene, lights=[replace(w, color=brighter(w.color)) for w in scene.lights])
+        other = evolve(scene, lights=[evolve(w, color=brighter(w.color)) for w in scene.lights])
     elif kind == "ambient":
-        other = replace(scene, ambient_light=brighter(scene.ambient_light))
+        other = evolve(scene, ambient_light=brighter(scene.ambient_light))
     else:
         name = data.draw(st.sampled_from(["ambient", "diffuse", "specular"]))
-        other = changed(scene, material=lambda o: replace(o.material, **{name: getattr(o.material, name) + more / 333}))
+        other = changed(scene, material=lambda o: evolve(o.material, **{name: getattr(o.material, name) + more / 333}))
     dark, bright = contracts.picture(scene), contracts.picture(other)
     assert (dark.triangle == bright.triangle).all()
     assert (bright.pixels.astype(int) >= dark.pixels.astype(int) - 1).all(), kind
@@ -199,11 +199,11 @@ def test_more_light_is_never_darker(scene: Scene, data: st.DataObject) -> None:
 @given(scenes(), st.sampled_from([3, 4, 0, 1, 2, 5, 8, 100]), st.integers(0, 2))
 def test_white_in_full_light_is_white(scene: Scene, more: int, most_lights: int) -> None:
     """Whatever shines on it besides, and however little above 255 its light is."""
-    other = replace(
+    other = evolve(
         changed(
             scene,
-            mesh=lambda o: replace(o.mesh, colors=np.full_like(np.asarray(o.mesh.colors), 255)),
-            material=lambda o: replace(o.material, ambient=1 + more / 1024),
+            mesh=lambda o: evolve(o.mesh, colors=np.full_like(o.mesh.colors, 255)),
+            material=lambda o: evolve(o.material, ambient=1 + more / 1024),
         ),
         ambient_light=(255, 255, 255),
         lights=scene.lights[:most_lights],
@@ -217,7 +217,7 @@ def test_white_in_full_light_is_white(scene: Scene, more: int, most_lights: int)
 def test_a_mesh_times_a_factor_with_its_scale_over_it(scene: Scene, factor: int) -> None:
     other = changed(
         scene,
-        mesh=lambda o: replace(o.mesh, positions=np.asarray(o.mesh.positions) * factor),
+        mesh=lambda o: evolve(o.mesh, positions=o.mesh.positions * factor),
         scale=lambda o: o.scale / factor,
     )
     assert_same_picture(scene, contracts.picture(other))
@@ -228,10 +228,10 @@ def test_a_mesh_times_a_factor_with_its_scale_over_it(scene: Scene, factor: int)
 def test_all_of_the_world_moved(scene: Scene, way: tuple[int, int, int]) -> None:
     shift = np.array(way)
     camera = scene.camera
-    other = replace(
-        changed(scene, position=lambda o: np.asarray(o.position) + shift),
-        camera=replace(camera, eye=np.asarray(camera.eye) + shift, target=np.asarray(camera.target) + shift),
-        lights=[replace(w, vector=np.asarray(w.vector) + shift * (w.kind != "directional")) for w in scene.lights],
+    other = evolve(
+        changed(scene, position=lambda o: o.position + shift),
+        camera=evolve(camera, eye=camera.eye + shift, target=camera.target + shift),
+        lights=[evolve(w, vector=w.vector + shift * (w.kind != "directional")) for w in scene.lights],
     )
     assert_same_picture(scene, contracts.picture(other))
 
@@ -240,10 +240,10 @@ def test_all_of_the_world_moved(scene: Scene, way: tuple[int, int, int]) -> None
 @given(scenes(most_objects=4), st.data())
 def test_the_order_of_objects_and_lights(scene: Scene, data: st.DataObject) -> None:
     order = data.draw(st.permutations(range(len(scene.objects))))
-    sizes = [len(np.asarray(o.mesh.faces)) for o in scene.objects]
+    sizes = [o.mesh.triangles for o in scene.objects]
     firsts = np.cumsum([0, *sizes])
     numbers = np.concatenate([firsts[i] + np.arange(sizes[i]) for i in order])
-    other = replace(
+    other = evolve(
         scene, objects=[scene.objects[i] for i in order], lights=data.draw(st.permutations(list(scene.lights)))
     )
     assert_same_picture(scene, contracts.picture(other), numbers)
@@ -254,12 +254,12 @@ def test_the_order_of_objects_and_lights(scene: Scene, data: st.DataObject) -> N
 def test_a_triangle_split_in_two(scene: Scene, data: st.DataObject) -> None:
     (thing,) = scene.objects
     # a vertex half way between two others is a whole one, and its normal is theirs
-    mesh = replace(
+    mesh = evolve(
         thing.mesh,
-        positions=2 * np.asarray(thing.mesh.positions),
-        normals=np.tile([0, 1, 0], (len(np.asarray(thing.mesh.positions)), 1)),
+        positions=2 * thing.mesh.positions,
+        normals=np.tile([0, 1, 0], (len(thing.mesh.positions), 1)),
     )
-    scene = replace(scene, objects=[replace(thing, mesh=mesh, scale=thing.scale / 2)])
+    scene = evolve(scene, objects=[evolve(thing, mesh=mesh, scale=thing.scale / 2)])
     positions, faces, colors = (np.asarray(part) for part in (mesh.positions, mesh.faces, mesh.colors))
     number = data.draw(st.integers(0, len(faces) - 1))
     a, b, c = np.roll(faces[number], data.draw(st.integers(0, 2))).tolist()
@@ -271,7 +271,7 @@ def test_a_triangle_split_in_two(scene: Scene, data: st.DataObject) -> None:
         np.tile([0, 1, 0], (middle + 1, 1)),
     )
     numbers = np.sort([*range(len(faces)), number])
-    other = replace(scene, objects=[replace(scene.objects[0], mesh=halves)])
+    other = evolve(scene, objects=[evolve(scene.objects[0], mesh=halves)])
     assert_same_picture(scene, contracts.picture(other), numbers)
 
 
@@ -284,26 +284,26 @@ def test_a_mirrored_scene(scene: Scene) -> None:
     def mirrored(o: Object) -> Mesh:
         mesh = o.mesh
         return Mesh(
-            np.asarray(mesh.positions) * flip,
-            np.asarray(mesh.faces)[:, ::-1],
+            mesh.positions * flip,
+            mesh.faces[:, ::-1],
             mesh.colors,
-            np.asarray(mesh.normals) * flip,
+            mesh.normals * flip,
         )
 
-    other = replace(
+    other = evolve(
         changed(
             scene,
             mesh=mirrored,
-            position=lambda o: np.asarray(o.position) * flip,
-            rotation=lambda o: np.asarray(o.rotation) * [1, -1, -1, 1],
+            position=lambda o: o.position * flip,
+            rotation=lambda o: o.rotation * [1, -1, -1, 1],
         ),
-        camera=replace(
+        camera=evolve(
             camera,
-            eye=np.asarray(camera.eye) * flip,
-            target=np.asarray(camera.target) * flip,
-            up=np.asarray(camera.up) * flip,
+            eye=camera.eye * flip,
+            target=camera.target * flip,
+            up=camera.up * flip,
         ),
-        lights=[replace(w, vector=np.asarray(w.vector) * flip) for w in scene.lights],
+        lights=[evolve(w, vector=w.vector * flip) for w in scene.lights],
     )
     drawn = contracts.picture(other)
     assert_same_picture(scene, contracts.Drawing(drawn.pixels[:, ::-1], drawn.triangle[:, ::-1]))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import base64
 import re
-from dataclasses import replace
 from itertools import permutations
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from pictures import call, call_data, chain, counts, draw, dynamic, words
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
@@ -33,7 +33,7 @@ LIGHTS = [Light("point", (80, 90, 200), (255, 240, 200)), Light("directional", (
 
 
 def colored(red: int, green: int, blue: int) -> Mesh:
-    return replace(SQUARE, colors=[[red, green, blue]] * 4)
+    return evolve(SQUARE, colors=[[red, green, blue]] * 4)
 
 
 def piece(kind: str, place: int, **changes: Any) -> Object:
@@ -41,12 +41,12 @@ def piece(kind: str, place: int, **changes: Any) -> Object:
     turned = Object(
         mesh, (13 * (place % 4) - 20, 9 * (place % 6) - 25, 0), (0.2, 0.1 * (place % 5), 0.1, 1), cull=False
     )
-    return replace(turned, **KINDS[kind] | changes)
+    return evolve(turned, **KINDS[kind] | changes)
 
 
 def scene_of(*objects: Object, **changes: Any) -> Scene:
     backdrop = Background((10, 20, 60), (90, 80, 70))
-    return replace(Scene(list(objects), CAMERA, LIGHTS, backdrop, width=32, height=24), **changes)
+    return evolve(Scene(list(objects), CAMERA, LIGHTS, backdrop, width=32, height=24), **changes)
 
 
 def assert_as_reference(scene: Scene, tile: Rectangle | None = None) -> None:
@@ -118,11 +118,11 @@ def test_errors_name_the_object(kind: str, opacity: float | None) -> None:
 
 def wrong_index(scene: Scene, place: int) -> bytes:
     """The call with a face of this object that names a vertex that is not there."""
-    marked = replace(SQUARE, faces=[[0, 1, 2], [3, 2, 1]])
+    marked = evolve(SQUARE, faces=[[0, 1, 2], [3, 2, 1]])
     objects = list(scene.objects)
     before = call_data("render", scene)
-    objects[place] = replace(objects[place], mesh=replace(marked, colors=objects[place].mesh.colors))
-    after = call_data("render", replace(scene, objects=objects))
+    objects[place] = evolve(objects[place], mesh=evolve(marked, colors=objects[place].mesh.colors))
+    after = call_data("render", evolve(scene, objects=objects))
     (first, *_) = [at for at in range(len(before)) if before[at] != after[at]]
     return after[:first] + b"\xff" + after[first + 1 :]
 

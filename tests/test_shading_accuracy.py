@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 import float64
 from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, shared_scenes
@@ -50,7 +49,7 @@ def test_random_scenes_together(kind: Kind, seeds: range) -> None:
     errors = [np.empty((0, 3))]
     for seed in seeds:
         scene = random_case(seed, (kind,)).scene
-        scene = replace(scene, objects=[replace(o, wireframe=False) for o in scene.objects])
+        scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects])
         try:
             pixels = draw(scene)
         except RenderError:

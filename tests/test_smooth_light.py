@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import float64
 from accuracy import LEVELS
@@ -33,7 +33,7 @@ def one_triangle(
     """A triangle before the camera; `tilt`: how much nearer its last corner is."""
     corners = size * np.array([[-1000, -800, 0], [1000, -800, 0], [0, 900, 1000 * tilt]])
     mesh = Mesh(np.rint(corners), [[0, 1, 2]], colors or [(200, 180, 160)] * 3, normals)
-    thing = Object(mesh, (0, 0, -distance), scale=2**-10, material=replace(SHINY, **look), cull=False)  # type: ignore[arg-type]
+    thing = Object(mesh, (0, 0, -distance), scale=2**-10, material=evolve(SHINY, **look), cull=False)  # type: ignore[arg-type]
     return Scene([thing], Camera(near=0.1), [light], width=64, height=64)
 
 

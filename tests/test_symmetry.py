@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from accuracy import flat, painted, teapot_scene
@@ -39,9 +38,9 @@ def levels(a: Pixels, b: Pixels) -> NDArray[np.int64]:
 def on_grid(size: float = 4000.0) -> Mesh:
     """The teapot with whole coordinates and normals."""
     mesh = painted(teapot(4))
-    points = np.asarray(mesh.positions)
+    points = mesh.positions
     points = np.rint((points - [0, 1.5, 0]) * size / 6.5)
-    return replace(mesh, positions=points, normals=vertex_normals(points, np.asarray(mesh.faces)))
+    return evolve(mesh, positions=points, normals=vertex_normals(points, mesh.faces))
 
 
 SHINY = Material("smooth", 0.3, 0.6, 0.5, 20)
@@ -51,10 +50,10 @@ SHINY = Material("smooth", 0.3, 0.6, 0.5, 20)
 @pytest.mark.parametrize(("across", "down"), [(5, 0), (0, -7), (-11, 4)])
 def test_a_shift_by_whole_pixels(shading: str, across: int, down: int) -> None:
     sun = Light("directional", (1, 2, 3))
-    thing = Object(on_grid(8000.0), (37, 11, -5000), material=replace(SHINY, shading=shading))  # type: ignore[arg-type]
+    thing = Object(on_grid(8000.0), (37, 11, -5000), material=evolve(SHINY, shading=shading))
     scene = Scene([thing], pixel_grid_camera(64), [sun], width=64, height=64)
-    moved = replace(thing, position=(37 + 256 * across, 11 - 256 * down, -5000))
-    before, after = draw(scene), draw(replace(scene, objects=[moved]))
+    moved = evolve(thing, position=(37 + 256 * across, 11 - 256 * down, -5000))
+    before, after = draw(scene), draw(evolve(scene, objects=[moved]))
     expected = np.roll(before, (down, across), axis=(0, 1))
     assert np.count_nonzero(before.any(axis=2)) > 200
     assert levels(after, expected).max() <= 1
@@ -85,12 +84,12 @@ def test_a_mirrored_scene_gives_a_mirrored_picture() -> None:
 def test_a_mirrored_teapot(shading: str) -> None:
     mesh = on_grid(6000.0)
     light = Light("point", (3000, 4000, 1000), (255, 240, 220))
-    material = replace(SHINY, shading=shading)  # type: ignore[arg-type]
+    material = evolve(SHINY, shading=shading)
     scene = Scene([Object(mesh, (217, -131, -9000), material=material)], Camera(near=1), [light], width=64, height=64)
-    points, normals = np.asarray(mesh.positions), np.asarray(mesh.normals)
+    points, normals = mesh.positions, mesh.normals
     mirror = np.array([-1, 1, 1])
-    turned = Mesh(points * mirror, np.asarray(mesh.faces)[:, ::-1], mesh.colors, normals * mirror)
-    other = replace(
+    turned = Mesh(points * mirror, mesh.faces[:, ::-1], mesh.colors, normals * mirror)
+    other = evolve(
         scene,
         objects=[Object(turned, (-217, -131, -9000), material=material)],
         lights=[Light("point", (-3000, 4000, 1000), (255, 240, 220))],
@@ -105,8 +104,8 @@ def test_a_mirrored_teapot(shading: str) -> None:
 
 def moved(mesh: Mesh, o: Object, unit: float = 1.0) -> Mesh:
     """The mesh where the object puts it, in multiples of a unit."""
-    points = np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(mesh.positions))
-    return replace(mesh, positions=np.rint(points / unit), normals=rotate(o.rotation, np.asarray(mesh.normals)))
+    points = o.position + rotate(o.rotation, o.scale * mesh.positions)
+    return evolve(mesh, positions=np.rint(points / unit), normals=rotate(o.rotation, np.asarray(mesh.normals)))
 
 
 def merged(meshes: list[Mesh]) -> Mesh:
@@ -121,7 +120,7 @@ def merged(meshes: list[Mesh]) -> Mesh:
 @pytest.mark.parametrize("shading", ["unlit", "flat", "smooth"])
 def test_objects_with_transforms_equal_one_merged_mesh(shading: str) -> None:
     mesh = on_grid(2048.0)
-    material = replace(SHINY, shading=shading)  # type: ignore[arg-type]
+    material = evolve(SHINY, shading=shading)
     quarter = (0, 1, 0, 1), (1, 0, 0, 1), (0, 0, 3, 0), (0.5, 0.5, 0.5, 0.5)
     things = [
         Object(mesh, (900 * i - 1400, 500 * (i % 2) - 200, -6000 - 300 * i), rotation, scale, material)
@@ -131,7 +130,7 @@ def test_objects_with_transforms_equal_one_merged_mesh(shading: str) -> None:
     one = Object(merged([moved(mesh, o, 0.5) for o in things]), scale=0.5, material=material)
     lights = [Light("point", (4000, 5000, 0)), Light("directional", (-1, 1, 2), (90, 120, 255))]
     scene = Scene(things, Camera(near=1), lights, width=96, height=72)
-    difference = levels(draw(scene), draw(replace(scene, objects=[one])))
+    difference = levels(draw(scene), draw(evolve(scene, objects=[one])))
     assert (difference <= 1).mean() > 0.999
 
 
@@ -143,7 +142,7 @@ def test_rotation_on_chain_is_rotation(seed: int) -> None:
     # in the finest steps that 24 bits hold
     one = Object(moved(mesh, thing, 2**-9), scale=2**-9, material=Material("unlit"))
     scene = Scene([thing], Camera(near=1), width=96, height=96)
-    difference = levels(draw(scene), draw(replace(scene, objects=[one])))
+    difference = levels(draw(scene), draw(evolve(scene, objects=[one])))
     # vertices may come to lie 1/256 of a pixel apart
     assert (difference <= 1).mean() > 0.997
     assert np.median(difference) == 0
@@ -155,7 +154,7 @@ def test_the_length_of_a_rotation_does_not_matter() -> None:
     pictures = []
     for length in (1, -1, 2, 0.125):
         thing = Object(mesh, (0, 0, -4000), length * np.array([0.5, -0.25, 0.125, 1]), material=SHINY)
-        pictures.append(draw(replace(scene, objects=[thing], camera=Camera(near=1), width=48, height=48)))
+        pictures.append(draw(evolve(scene, objects=[thing], camera=Camera(near=1), width=48, height=48)))
     assert all((picture == pictures[0]).all() for picture in pictures)
     assert pictures[0].std() > 10
 
@@ -164,19 +163,19 @@ def test_the_length_of_a_rotation_does_not_matter() -> None:
 def test_a_camera_moved_with_its_scene_sees_the_same(projection: str) -> None:
     scene = flat(teapot_scene(4))
     half_height = 3.5 if projection == "orthographic" else 0.45
-    scene = replace(scene, camera=replace(scene.camera, projection=projection, half_height=half_height))  # type: ignore[arg-type]
+    scene = evolve(scene, camera=evolve(scene.camera, projection=projection, half_height=half_height))
     turn, shift = np.array([0.1, 0.7, -0.3, 0.6]), np.array([40.0, -30.0, 25.0])
 
     def carried(place: ArrayLike) -> Array:
         return np.asarray(rotate(turn, place) + shift)
 
     camera = scene.camera
-    other = replace(
+    other = evolve(
         scene,
-        camera=replace(camera, eye=carried(camera.eye), target=carried(camera.target), up=rotate(turn, camera.up)),
-        objects=[replace(o, position=carried(o.position), rotation=multiply(turn, o.rotation)) for o in scene.objects],
+        camera=evolve(camera, eye=carried(camera.eye), target=carried(camera.target), up=rotate(turn, camera.up)),
+        objects=[evolve(o, position=carried(o.position), rotation=multiply(turn, o.rotation)) for o in scene.objects],
         lights=[
-            replace(w, vector=carried(w.vector) if w.kind == "point" else rotate(turn, w.vector)) for w in scene.lights
+            evolve(w, vector=carried(w.vector) if w.kind == "point" else rotate(turn, w.vector)) for w in scene.lights
         ],
     )
     first, second = (chain().draw(s).bmp for s in (scene, other))
@@ -221,7 +220,7 @@ def test_euler_rotation_of_an_object() -> None:
     quaternion = euler_on_chain((30, -50, 70))
     thing = Object(mesh, (0, 0, -5000), quaternion, material=UNLIT)
     matrix = axis_matrix(2, 70) @ axis_matrix(1, -50) @ axis_matrix(0, 30)
-    points = np.rint(np.asarray(mesh.positions) @ matrix.T * 512)
-    turned = Object(replace(mesh, positions=points), (0, 0, -5000), scale=2**-9, material=UNLIT)
+    points = np.rint(mesh.positions @ matrix.T * 512)
+    turned = Object(evolve(mesh, positions=points), (0, 0, -5000), scale=2**-9, material=UNLIT)
     scene = Scene([thing], Camera(near=1), width=64, height=64)
-    assert (levels(draw(scene), draw(replace(scene, objects=[turned]))) <= 1).mean() > 0.997
+    assert (levels(draw(scene), draw(evolve(scene, objects=[turned]))) <= 1).mean() > 0.997

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 from pictures import call
 from random_scenes import random_case
@@ -34,7 +33,7 @@ def tilted_walls(rng: np.random.Generator, material: Material, count: int = 1) -
         axis *= np.tan(np.radians(rng.uniform(0, 35))) / np.linalg.norm(axis)
         mesh = Mesh(20000 * square, [[0, 1, 2], [0, 2, 3]], rng.integers(0, 256, (4, 3)), [[0, 0, 1]] * 4)
         objects.append(Object(mesh, (0, 0, -3000 + 10 * i), (*axis, 1.0), material=material, cull=False))
-    objects = [replace(o, rotation=tuple(np.rint(np.asarray(o.rotation) * 2**32) / 2**32)) for o in objects]
+    objects = [evolve(o, rotation=tuple(np.rint(o.rotation * 2**32) / 2**32)) for o in objects]
     return Scene(objects, Camera(near=1), [LAMP], width=SIZE, height=SIZE)
 
 
@@ -53,7 +52,7 @@ def test_tiles_of_walls_cost_their_share(look: str) -> None:
     for _ in range(12):
         scene = tilted_walls(rng, LOOKS[look])
         whole = gas(scene)
-        away = replace(scene, objects=[replace(o, position=(0, 0, 3000)) for o in scene.objects])
+        away = evolve(scene, objects=[evolve(o, position=(0, 0, 3000)) for o in scene.objects])
         alone = gas(away, Rectangle(0, 0, 1, 1))
         for width, height in ((64, 16), (32, 32), (32, 64)):
             for _ in range(2):

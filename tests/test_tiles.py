@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.random import Generator
 
 from accuracy import big_triangles, flat, ground, screen_triangle, teapot_scene
@@ -20,7 +20,7 @@ SHINY = Material("flat", 0.2, 0.6, 0.6, 40)
 
 
 def wired(scene: Scene) -> Scene:
-    return replace(scene, objects=[replace(o, wireframe=True, cull=False) for o in scene.objects])
+    return evolve(scene, objects=[evolve(o, wireframe=True, cull=False) for o in scene.objects])
 
 
 SCENES: dict[str, Callable[[], Scene]] = {
@@ -29,13 +29,13 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "smooth, four lights": lambda: teapot_scene(4),
     "flat, one sun": lambda: flat(teapot_scene(1)),
     "flat, four lights": lambda: flat(teapot_scene(4)),
-    "flat, inverted": lambda: replace(flat(teapot_scene(1)), invert=True),
+    "flat, inverted": lambda: evolve(flat(teapot_scene(1)), invert=True),
     "wireframe": lambda: wired(teapot_scene(1)),
     "wireframe of clipped triangles": lambda: wired(big_triangles(SHINY, [LAMP])),
     "large flat faces with a lamp": lambda: ground(SHINY, [LAMP]),
-    "large smooth faces with a lamp": lambda: ground(replace(SHINY, shading="smooth"), [LAMP]),
+    "large smooth faces with a lamp": lambda: ground(evolve(SHINY, shading="smooth"), [LAMP]),
     "clipped, flat": lambda: big_triangles(SHINY, [LAMP]),
-    "clipped, smooth": lambda: big_triangles(replace(SHINY, shading="smooth"), [LAMP]),
+    "clipped, smooth": lambda: big_triangles(evolve(SHINY, shading="smooth"), [LAMP]),
     "clipped, unlit": lambda: big_triangles(Material("unlit"), []),
     "steep perspective": lambda: screen_triangle(
         ((60, 5), (5, 100), (120, 100)), (1000, 9000, 300), ((0, 128, 255), (255, 0, 0), (0, 255, 0))
@@ -84,18 +84,18 @@ def assert_tiles_are_parts(scene: Scene, tiles: Iterator[Rectangle]) -> None:
 def test_random_tilings(name: str) -> None:
     rng = np.random.default_rng(1)
     for width, height in SIZES:
-        scene = replace(SCENES[name](), width=width, height=height)
+        scene = evolve(SCENES[name](), width=width, height=height)
         assert_tiles_are_parts(scene, cut(rng, Rectangle(0, 0, width, height), 4))
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_whole_as_a_tile(name: str) -> None:
-    scene = replace(SCENES[name](), width=45, height=33)
+    scene = evolve(SCENES[name](), width=45, height=33)
     assert chain().draw(scene, Rectangle(0, 0, 45, 33)).bmp == chain().draw(scene).bmp
 
 
 def test_every_pixel_as_a_tile() -> None:
-    scene = replace(flat(teapot_scene(2)), width=13, height=11)
+    scene = evolve(flat(teapot_scene(2)), width=13, height=11)
     assert_tiles_are_parts(scene, (Rectangle(x, y, 1, 1) for x in range(13) for y in range(11)))
 
 
@@ -103,8 +103,8 @@ def test_every_pixel_as_a_tile() -> None:
 @pytest.mark.parametrize("name", ["smooth, one lamp", "flat, four lights", "wireframe of clipped triangles"])
 def test_pictures_of_several_bands(name: str, width: int, height: int) -> None:
     """The contract draws a picture of more than 16384 pixels in bands of rows."""
-    scene = replace(SCENES[name](), width=width, height=height)
-    scene = replace(scene, camera=replace(scene.camera, half_height=0.3))
+    scene = evolve(SCENES[name](), width=width, height=height)
+    scene = evolve(scene, camera=evolve(scene.camera, half_height=0.3))
     rows = [Rectangle(0, y, width, min(97, height - y)) for y in range(0, height, 97)]
     assert_tiles_are_parts(scene, iter(rows))
 
@@ -112,6 +112,6 @@ def test_pictures_of_several_bands(name: str, width: int, height: int) -> None:
 def test_two_objects_in_bands() -> None:
     scene = flat(teapot_scene(2))
     (thing,) = scene.objects
-    second = replace(thing, position=(1, -1, 1), wireframe=True)
-    scene = replace(scene, objects=[thing, second], width=160, height=250)
+    second = evolve(thing, position=(1, -1, 1), wireframe=True)
+    scene = evolve(scene, objects=[thing, second], width=160, height=250)
     assert_tiles_are_parts(scene, cut(np.random.default_rng(3), Rectangle(0, 0, 160, 250), 3))

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 from pictures import UNLIT, WHITE, counts, covered, on_pixel_grid, pixel_grid_camera, recolored, unlit_scene
@@ -49,8 +48,8 @@ def each_alone(scene: Scene) -> Integers:
     """(H, W): how many triangles of the scene's one object cover each pixel, drawn one by one."""
     (thing,) = scene.objects
     total = np.zeros((scene.height, scene.width), np.int64)
-    for face in np.asarray(thing.mesh.faces):
-        total += covered(replace(scene, objects=[replace(thing, mesh=replace(thing.mesh, faces=[face]))]))
+    for face in thing.mesh.faces:
+        total += covered(evolve(scene, objects=[evolve(thing, mesh=evolve(thing.mesh, faces=[face]))]))
     return total
 
 
@@ -125,12 +124,12 @@ def torus(rings: int = 14, sides: int = 9) -> Mesh:
 @pytest.mark.parametrize("mesh", [box(800), torus()], ids=["box", "torus"])
 def test_front_and_back_of_a_closed_mesh_cover_the_same(mesh: Mesh, projection: str) -> None:
     rng = np.random.default_rng(7)
-    behind = replace(mesh, faces=np.asarray(mesh.faces)[:, ::-1])
+    behind = evolve(mesh, faces=mesh.faces[:, ::-1])
     for _ in range(8):
         camera = Camera(
             eye=np.rint(rng.normal(size=3) * 200 + [0, 0, 3200]),
             target=(0, 0, 0),
-            projection=projection,  # type: ignore[arg-type]
+            projection=projection,
             half_height=1200.0 if projection == "orthographic" else 0.5,
             near=1,
         )
@@ -146,7 +145,7 @@ def test_front_and_back_of_a_closed_mesh_cover_the_same(mesh: Mesh, projection: 
 def test_a_closed_mesh_covers_each_pixel_as_often_front_as_back() -> None:
     mesh = torus(9, 6)
     camera = Camera(eye=(0, 0, 3000), target=(0, 0, 0), half_height=0.4, near=1)
-    behind = replace(mesh, faces=np.asarray(mesh.faces)[:, ::-1])
+    behind = evolve(mesh, faces=mesh.faces[:, ::-1])
     front, back = (
         each_alone(unlit_scene([Object(side, rotation=(0.4, 0.5, 0.1, 0.7), material=UNLIT, cull=True)], camera, 40))
         for side in (mesh, behind)

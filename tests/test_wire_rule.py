@@ -7,11 +7,11 @@ the line is exactly in the middle of a column or row, either will do.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 from pictures import covered, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
@@ -76,7 +76,7 @@ def wrong(drawn: Places, corners: Integers, width: int, height: int) -> tuple[Pl
 
 def wires(corners: Integers, width: int, height: int) -> Places:
     scene = unlit_scene(soup(on_pixel_grid(corners, width, height)), pixel_grid_camera(height), width, height)
-    scene = replace(scene, objects=[replace(scene.objects[0], wireframe=True)])
+    scene = evolve(scene, objects=[evolve(scene.objects[0], wireframe=True)])
     return {(column, row) for row, column in np.argwhere(covered(scene)).tolist()}
 
 

@@ -2,6 +2,8 @@
 
 from importlib.metadata import PackageNotFoundError, version
 
+from attrs import evolve as replace
+
 from .animation import Animation
 from .errors import InputError, OutputError, RenderError
 from .image import Image
@@ -13,6 +15,7 @@ from .scene.light import Light
 from .scene.material import Material
 from .scene.mesh import Mesh
 from .scene.object import Object
+from .scene.rotation import euler
 from .scene.scene import Scene
 
 try:
@@ -34,7 +37,9 @@ __all__ = [
     "RenderError",
     "Scene",
     "__version__",
+    "euler",
     "load",
     "render",
+    "replace",
     "turntable",
 ]

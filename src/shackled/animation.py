@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from attrs import field, frozen
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image as PillowImage
 
 from .checks import number
 from .errors import InputError
-from .image import Image, as_path, check_extension
+from .image import Image, as_path, check_extension, gas_in_short
 from .palette import indexed
 from .scene.value import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
@@ -26,24 +26,36 @@ FORMATS = (".gif", ".png")
 DURATION = 80
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+def check_duration(milliseconds: float) -> int:
+    """Return how long a frame is shown, if it can be: viewers show longer what is below 2 hundredths of a second."""
+    return round(number(milliseconds, "the duration of a frame in milliseconds", 20, 10_000))
+
+
+def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
+    return tuple(frame if isinstance(frame, Image) else Image(frame) for frame in frames)
+
+
+@frozen(repr=False)
 class Animation:
-    """Frames as a contract made them, all of one size; the last leads over to the first."""
+    """Frames as a contract made them, all of one size; the last leads over to the first.
 
-    frames: Sequence[Image]
-    duration: int = DURATION
+    frames: also pixels, (H, W, 3), in place of an Image. duration: milliseconds that each is shown, 20..10,000.
+    """
 
-    def __post_init__(self) -> None:
-        check_duration(self.duration)
+    frames: tuple[Image, ...] = field(converter=_frames)
+    duration: int = field(default=DURATION, converter=check_duration)
+
+    def __attrs_post_init__(self) -> None:
+        """Check that the frames fit together."""
         sizes = {frame.pixels.shape for frame in self.frames}
         if len(sizes) != 1:
             raise InputError(f"an animation is made of one frame or more, all of one size, not of {len(sizes)} sizes")
 
     def __repr__(self) -> str:
         """A line."""
-        gas = "" if self.gas is None else f", {self.gas:,} gas"
         first = self.frames[0]
-        return f"<Animation of {plural(len(self.frames), 'frame')}, {first.width} x {first.height}{gas}>"
+        frames = plural(len(self.frames), "frame")
+        return f"<Animation {first.width}x{first.height}, {frames}{gas_in_short(self.gas)}>"
 
     @property
     def gas(self) -> int | None:
@@ -72,7 +84,7 @@ class Animation:
         else:
             pictures = [PillowImage.fromarray(frame.pixels) for frame in self.frames]
             options = {"format": "PNG", "default_image": False}
-        durations = [round(self.duration)] * len(pictures)
+        durations = [self.duration] * len(pictures)
         pictures[0].save(stream, save_all=True, append_images=pictures[1:], loop=0, duration=durations, **options)
         return stream.getvalue()
 
@@ -91,11 +103,6 @@ class Animation:
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, bytes]:
         return {"image/png": self.encode(".png")}
-
-
-def check_duration(milliseconds: int) -> int:
-    """How long a frame is shown, if it can be: what is shorter than two hundredths of a second, viewers show longer."""
-    return round(number(milliseconds, "the duration of a frame in milliseconds", 20, 10_000))
 
 
 def frame_names(count: int) -> list[str]:

@@ -1,34 +1,49 @@
-"""Checks of what is handed in, each with a message that says what was wrong and what would be right."""
+"""Checks of arguments, each with a message that says what was wrong and what would be right."""
 
 from __future__ import annotations
 
 import math
 import operator
 import re
+from collections.abc import Iterable
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
 
+Number = TypeVar("Number", bound=np.generic)
+#: Floats in an array that cannot be written to.
+Floats = NDArray[np.float64]
+#: Red, green and blue, 0..255.
+Color = tuple[int, int, int]
 
-def number(value: object, name: str, low: float = -math.inf, high: float = math.inf) -> float:
-    """`value` as a float within low..high."""
+
+def number(value: object, name: str = "a value", low: float = -math.inf, high: float = math.inf) -> float:
+    """Return `value` as a float within low..high. InputError for anything else."""
     try:
         result = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        raise InputError(f"{name} must be a number, not {value!r}") from None
+        raise InputError(f"{name} must be a number, not {value!r:.60}") from None
     if not math.isfinite(result) or not low <= result <= high:
-        raise InputError(f"{name} must be a finite number{_range(low, high)}, not {value!r}")
+        raise InputError(f"{name} must be a finite number{_range(low, high)}, not {value!r:.60}")
     return result
 
 
 def integer(value: object) -> int | None:
-    """`value` as an int, if it is one of Python or NumPy; None for anything else, such as a truth value."""
+    """Return `value` as an int, if it is one of Python or NumPy; None for anything else, such as a truth value."""
     try:
         return None if isinstance(value, bool | np.bool_) else operator.index(value)  # type: ignore[arg-type]
     except TypeError:
         return None
+
+
+def flag(value: object, name: str = "a flag") -> bool:
+    """Return `value` as a bool, if it is one of Python or NumPy, or 0 or 1. InputError for anything else."""
+    if isinstance(value, bool | np.bool_) or integer(value) in (0, 1):
+        return bool(value)
+    raise InputError(f"{name} must be True or False, not {value!r:.60}")
 
 
 def instance(value: object, name: str, kind: type) -> None:
@@ -37,19 +52,38 @@ def instance(value: object, name: str, kind: type) -> None:
         raise InputError(f"{name} must be a shackled.{kind.__name__}, not {value!r:.60}")
 
 
-def vector(value: ArrayLike, name: str, size: int = 3) -> NDArray[np.float64]:
-    """`value` as a new array of `size` finite floats."""
+def fixed(value: ArrayLike, dtype: type[Number]) -> NDArray[Number]:
+    """Return `value` as a read-only array of any shape: a copy, unless it is one already that owns its numbers.
+
+    TypeError, ValueError or OverflowError if it cannot be one.
+    """
+    if isinstance(value, np.ndarray) and value.dtype == dtype:
+        flags = value.flags
+        if flags.owndata and flags.c_contiguous and not flags.writeable:
+            return value
+    array = np.array(value, dtype=dtype, order="C")
+    array.flags.writeable = False
+    return array
+
+
+def vector(value: ArrayLike, name: str = "a vector", size: int = 3) -> Floats:
+    """Return `value` as a read-only array of `size` finite floats. InputError for anything else."""
     try:
-        result = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} must be {size} numbers, not {value!r}") from None
+        result = fixed(value, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be {size} numbers, not {value!r:.60}") from None
     if result.shape != (size,) or not np.isfinite(result).all():
-        raise InputError(f"{name} must be {size} finite numbers, not {value!r}")
+        raise InputError(f"{name} must be {size} finite numbers, not {value!r:.60}")
     return result
 
 
+def optional_vector(value: ArrayLike | None, name: str = "a vector", size: int = 3) -> Floats | None:
+    """Return None for None, and for anything else what `vector` does."""
+    return None if value is None else vector(value, name, size)
+
+
 def channels(values: ArrayLike) -> ArrayLike:
-    """Colours as numbers 0..255. Floats none of which is above 1 are shares of 255; anything else stays as it is."""
+    """Return colours as numbers 0..255. Floats none of which is above 1 are shares of 255; others stay as they are."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
@@ -59,23 +93,44 @@ def channels(values: ArrayLike) -> ArrayLike:
     return values
 
 
-def color(value: ArrayLike, name: str) -> tuple[int, int, int]:
-    """Red, green and blue, whole numbers 0..255, or floats 0..1; or a string "#rrggbb" of them."""
+def color(value: ArrayLike | str, name: str = "a colour") -> Color:
+    """Return red, green and blue, 0..255, of whole numbers 0..255, floats 0..1, "#rrggbb", or the name of a colour.
+
+    Names are those of CSS, such as "tomato". A fourth number is an alpha, which must be opaque. InputError for anything
+    else.
+    """
     if isinstance(value, str):
-        if not re.fullmatch("#[0-9a-fA-F]{6}", value):
-            raise InputError(f"{name} must be red, green and blue from 0 to 255, or #rrggbb, not {value!r}")
-        return int(value[1:3], 16), int(value[3:5], 16), int(value[5:7], 16)
-    levels = vector(channels(value), name)
-    if (levels < 0).any() or (levels > 255).any() or (levels % 1 != 0).any():
-        raise InputError(f"{name} must be red, green and blue from 0 to 255, not {value!r}")
-    red, green, blue = (int(level) for level in levels)
+        return _color_of_text(value, name)
+    try:
+        levels = np.array(channels(value), dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        levels = np.zeros(0)
+    if levels.shape not in ((3,), (4,)) or not ((levels >= 0) & (levels <= 255) & (levels % 1 == 0)).all():
+        raise InputError(f"{name} must be red, green and blue from 0 to 255, not {value!r:.60}")
+    if len(levels) == 4 and levels[3] != 255:
+        raise InputError(f"{name} must be opaque, not {value!r:.60}; an Object has an opacity")
+    red, green, blue = (int(level) for level in levels[:3])
     return red, green, blue
 
 
-def choice(value: object, name: str, choices: tuple[str, ...]) -> str:
-    """`value`, if it is one of `choices`."""
-    if value not in choices:
-        raise InputError(f"{name} must be one of {', '.join(choices)}, not {value!r}")
+def _color_of_text(text: str, name: str) -> Color:
+    from PIL import ImageColor
+
+    known = ImageColor.colormap.get(text.strip().lower(), text.strip())
+    digits = known if isinstance(known, str) else "#{:02x}{:02x}{:02x}".format(*known)
+    match = re.fullmatch("#?([0-9a-fA-F]{6})", digits)
+    if not match:
+        raise InputError(
+            f"{name} must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not {text!r:.60}"
+        )
+    red, green, blue = bytes.fromhex(match[1])
+    return red, green, blue
+
+
+def choice(value: object, name: str, choices: Iterable[str]) -> str:
+    """Return `value`, if it is one of `choices`. InputError for anything else."""
+    if value not in (known := tuple(choices)):
+        raise InputError(f"{name} must be one of {', '.join(known)}, not {value!r:.60}")
     return str(value)
 
 

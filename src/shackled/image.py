@@ -5,40 +5,61 @@ from __future__ import annotations
 import base64
 import io
 import os
-from dataclasses import dataclass
+import struct
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from attrs import field, frozen
+from numpy.typing import ArrayLike, NDArray
 from PIL import Image as PillowImage
 
+from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
 from .scene.scene import Scene
+from .scene.value import array_key, plural
 from .whole_file import check_output_file, write_output
 
 #: What `Image.save` can write, by extension.
 FORMATS = (".png", ".bmp", ".svg", ".gif")
 
+Pixels = NDArray[np.uint8]
 
-@dataclass(frozen=True, eq=False, repr=False)
+
+def _pixels(values: ArrayLike) -> Pixels:
+    try:
+        pixels = fixed(values, np.uint8)
+    except (TypeError, ValueError, OverflowError):
+        pixels = np.zeros(0, np.uint8)
+    if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
+        raise InputError(f"the pixels of a picture must be bytes of shape (height, width, 3), not {values!r:.60}")
+    return pixels
+
+
+@frozen(repr=False)
 class Image:
     """A picture as a contract made it.
 
-    pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned.
+    pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned, those of the pixels if not
+        given.
     gas, intrinsic_gas: of the execution, and what a transaction costs before it; None where none is counted.
-    chain: where it was made. seconds: how long the call took.
+    chain: where it was made. seconds: how long the call took; this alone is not compared by ==.
     scene: what it shows; None if that is not known.
     """
 
-    pixels: NDArray[np.uint8]
-    bmp: bytes
-    gas: int | None
-    intrinsic_gas: int | None
-    chain: str
-    seconds: float
+    pixels: Pixels = field(converter=_pixels, eq=array_key)
+    bmp: bytes = b""
+    gas: int | None = None
+    intrinsic_gas: int | None = None
+    chain: str = ""
+    seconds: float = field(default=0.0, eq=False)
     scene: Scene | None = None
+
+    def __attrs_post_init__(self) -> None:
+        """Encode the pixels where the file is not given."""
+        if not self.bmp:
+            object.__setattr__(self, "bmp", encode_bmp(self.pixels))
 
     @property
     def width(self) -> int:
@@ -99,8 +120,8 @@ class Image:
         )
 
     def __repr__(self) -> str:
-        gas = "" if self.gas is None else f"{self.gas:,} gas, "
-        return f"<Image {self.width} x {self.height}, {gas}{self.chain}>"
+        triangles = "" if self.triangles is None else f", {plural(self.triangles, 'triangle')}"
+        return f"<Image {self.width}x{self.height}{triangles}{gas_in_short(self.gas)}>"
 
     def _repr_png_(self) -> bytes:
         return self.encode(".png")
@@ -127,6 +148,25 @@ def check_extension(extension: object, formats: tuple[str, ...]) -> str:
     if found not in formats:
         raise InputError(f"the format must be one of {' '.join(formats)}, not {extension!r:.60}")
     return found
+
+
+def gas_in_short(gas: int | None) -> str:
+    """Return what is put after other figures in a line: ", 35.3M gas", or "" where none is counted."""
+    if gas is None:
+        return ""
+    return f", {gas / 1e6:,.1f}M gas" if gas >= 1e6 else f", {gas:,} gas"
+
+
+def encode_bmp(pixels: Pixels) -> bytes:
+    """Return a BMP of 24 bits a pixel as the contracts make it, of pixels (H, W, 3), rows from the top."""
+    height, width, _ = pixels.shape
+    rows = pixels[::-1, :, ::-1].reshape(height, 3 * width)
+    body = np.pad(rows, ((0, 0), (0, -3 * width % 4))).tobytes()
+    # 24 bits a pixel, 2835 pixels per metre (72 dots per inch)
+    header = struct.pack(
+        "<2sIIIIiiHHIIiiII", b"BM", 54 + len(body), 0, 54, 40, width, height, 1, 24, 0, len(body), 2835, 2835, 0, 0
+    )
+    return header + body
 
 
 def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from attrs import evolve
 
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
@@ -105,14 +106,14 @@ def render_whole(scene: Scene, chain: Chain) -> Image:
 def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
     """The scene on a canvas of another size; the camera keeps its vertical field of view."""
     width, height = _pair(size, "the size of a picture")
-    return replace(scene, width=width, height=height)
+    return evolve(scene, width=width, height=height)
 
 
 def simplify_scene(scene: Scene, max_triangles: int) -> Scene:
     """The scene with every mesh of more triangles simplified to `max_triangles`."""
     from .scene.simplify import simplify
 
-    return replace(scene, objects=[replace(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
+    return evolve(scene, objects=[evolve(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
 
 
 def _prepared(scene: Scene | str | Path, size: int | tuple[int, int] | None, max_triangles: int | None) -> Scene:

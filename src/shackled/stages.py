@@ -9,9 +9,10 @@ records of its vertices.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
@@ -65,7 +66,7 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
     given = sum(len(part.mesh.faces) for part in geometry)
     seen, on_canvas = projected_points(geometry, scene)
     points = sum(len(part.vertices) for part in geometry)
-    plain = replace(scene, invert=False)
+    plain = evolve(scene, invert=False)
     gas = "" if drawing.gas is None else f", {drawing.gas:,} gas"
     return [
         Stage(
@@ -151,28 +152,28 @@ def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, 
 
 def edges(o: Object) -> Object:
     """An object's triangles as wires."""
-    return replace(o, wireframe=True, material=UNLIT)
+    return evolve(o, wireframe=True, material=UNLIT)
 
 
 def filled(o: Object) -> Object:
     """An object's triangles in the colours of their vertices, each a little brighter or darker than the next."""
-    faces = np.asarray(o.mesh.faces)
+    faces = o.mesh.faces
     if o.wireframe or faces.size > MAX_VERTICES:
-        return replace(o, material=UNLIT)
+        return evolve(o, material=UNLIT)
     shades = DARKEST + (1 - DARKEST) * (np.arange(len(faces)) * GOLDEN % 1)
-    colors = np.asarray(o.mesh.colors)[faces] * shades[:, None, None]
+    colors = o.mesh.colors[faces] * shades[:, None, None]
     split = Mesh(
-        np.asarray(o.mesh.positions)[faces].reshape(-1, 3),
+        o.mesh.positions[faces].reshape(-1, 3),
         np.arange(faces.size).reshape(-1, 3),
         np.rint(colors).astype(np.uint8).reshape(-1, 3),
     )
-    return replace(o, mesh=split, material=UNLIT)
+    return evolve(o, mesh=split, material=UNLIT)
 
 
 def over_nothing(scene: Scene, chain: Chain) -> Pixels:
     """The fragments of a scene without its background. They are what does not depend on the background."""
     on_black, on_white = (
-        decode_bmp(chain.draw(replace(scene, background=background)).bmp, scene.width, scene.height)
+        decode_bmp(chain.draw(evolve(scene, background=background)).bmp, scene.width, scene.height)
         for background in (BLACK, WHITE)
     )
     is_fragment = (on_black == on_white).all(axis=2, keepdims=True)
@@ -188,7 +189,7 @@ def nothing(scene: Scene) -> Pixels:
 
 
 def _each(scene: Scene, change: Callable[[Object], Object]) -> Scene:
-    return replace(scene, objects=[change(o) for o in scene.objects])
+    return evolve(scene, objects=[change(o) for o in scene.objects])
 
 
 def _lights(scene: Scene) -> str:

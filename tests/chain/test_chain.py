@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from importlib.resources import files
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact, contracts
@@ -42,7 +42,7 @@ def chain(request: pytest.FixtureRequest) -> EmbeddedChain:
 def test_both_machines_agree_on_bytes_and_gas() -> None:
     pytest.importorskip("pyrevm")
     fast, slow = PyrevmChain(), PyEvmChain()
-    for scene in (SCENE, replace(SCENE, objects=[], invert=True)):
+    for scene in (SCENE, evolve(SCENE, objects=[], invert=True)):
         assert fast.draw(scene) == slow.draw(scene)
         assert fast.count(scene) == slow.count(scene)
     tile = Rectangle(3, 2, 10, 9)
@@ -63,7 +63,7 @@ def test_the_picture_and_the_counts(chain: EmbeddedChain) -> None:
     assert 0 < triangles <= 8
     assert 0 < lit <= 24 * 17
     assert np.count_nonzero(pixels.any(axis=2)) <= lit
-    assert chain.count(replace(SCENE, objects=[])) == (0, 0)
+    assert chain.count(evolve(SCENE, objects=[])) == (0, 0)
 
 
 def test_a_tile_is_a_part_of_the_picture(chain: EmbeddedChain) -> None:
@@ -146,7 +146,7 @@ def test_selectors_of_errors() -> None:
 
 def test_the_reference_makes_the_same_picture_and_counts_no_gas() -> None:
     reference, machine = open_chain("reference"), open_chain()
-    for scene in (SCENE, replace(SCENE, invert=True, width=9, height=30)):
+    for scene in (SCENE, evolve(SCENE, invert=True, width=9, height=30)):
         drawing = reference.draw(scene)
         assert drawing.bmp == machine.draw(scene).bmp
         assert (drawing.gas, drawing.intrinsic_gas) == (None, None)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from pictures import UNLIT, draw
@@ -27,8 +28,8 @@ class Drawing:
 def picture(scene: Scene) -> Drawing:
     """The picture of a scene without wires."""
     # the same numbers for both
-    scene = fit(replace(scene, objects=[o for o in scene.objects if not o.wireframe]))
-    numbered = replace(
+    scene = fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
+    numbered = evolve(
         scene, objects=list(_numbered(scene.objects)), lights=[], background=Background((0, 0, 0)), invert=False
     )
     channels = draw(numbered).astype(np.int64)
@@ -39,11 +40,11 @@ def _numbered(objects: Iterable[Object]) -> Iterator[Object]:
     """The objects with triangles whose colour is their number, counted from 1."""
     count = 0
     for o in objects:
-        positions, faces = np.asarray(o.mesh.positions), np.asarray(o.mesh.faces)
+        positions, faces = o.mesh.positions, o.mesh.faces
         for first in range(0, len(faces), MAX_TRIANGLES):
             part = faces[first : first + MAX_TRIANGLES]
             numbers = 1 + count + np.arange(len(part))
             colors = np.repeat(numbers[:, None] >> [16, 8, 0] & 255, 3, axis=0)
             mesh = Mesh(positions[part].reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3), colors)
-            yield replace(o, mesh=mesh, material=UNLIT)
+            yield evolve(o, mesh=mesh, material=UNLIT)
             count += len(part)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
@@ -29,7 +29,7 @@ def built_in() -> list[Piece]:
 
 def built_in_scene(name: str, size: int) -> Scene:
     """A piece on a canvas of another size."""
-    return replace(require(name).make(), width=size, height=size)
+    return evolve(require(name).make(), width=size, height=size)
 
 
 def random_scene(seed: int) -> Scene:
@@ -66,12 +66,12 @@ def _canvas(rng: Rng) -> tuple[int, int]:
 def _object(rng: Rng, unit: float) -> Object:
     whole = rng.random() < 0.35
     mesh = (_whole_mesh if whole else _mesh)(rng)
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     radius = float(np.linalg.norm(positions - positions.mean(axis=0), axis=1).max())
     # seldom a power of two, so that neither scale nor size are round in any base
     size = unit * (1.0 if rng.random() < 0.2 else rng.uniform(0.5, 2))
-    mesh = replace(mesh, colors=_colors(rng, mesh))
-    mesh = replace(mesh, normals=_normals(rng, mesh))
+    mesh = evolve(mesh, colors=_colors(rng, mesh))
+    mesh = evolve(mesh, normals=_normals(rng, mesh))
     return Object(
         mesh,
         position=(0, 0, 0) if rng.random() < 0.2 else unit * rng.normal(size=3),
@@ -95,7 +95,7 @@ def _whole_mesh(rng: Rng) -> Mesh:
     else:
         side = int(rng.integers(2, 7))
         mesh = _terrain(side, rng.integers(0, 3, (side + 1, side + 1)).astype(float))
-    return replace(mesh, positions=np.asarray(mesh.positions) * scale + scale * rng.integers(-1, 2, 3))
+    return evolve(mesh, positions=mesh.positions * scale + scale * rng.integers(-1, 2, 3))
 
 
 def _mesh(rng: Rng) -> Mesh:
@@ -115,7 +115,7 @@ def _mesh(rng: Rng) -> Mesh:
         lambda: _soup(rng),
     ]
     mesh = made[rng.integers(len(made))]()
-    return replace(mesh, positions=np.asarray(mesh.positions) * rng.uniform(0.5, 2) + rng.normal(size=3) * 0.1)
+    return evolve(mesh, positions=mesh.positions * rng.uniform(0.5, 2) + rng.normal(size=3) * 0.1)
 
 
 def _box(sides: NDArray[np.int64] | Array, inward: bool = False) -> Mesh:
@@ -145,7 +145,7 @@ def _soup(rng: Rng) -> Mesh:
 
 
 def _colors(rng: Rng, mesh: Mesh) -> NDArray[np.int64]:
-    count, choice = len(np.asarray(mesh.positions)), rng.random()
+    count, choice = len(mesh.positions), rng.random()
     if choice < 0.25:
         return np.full((count, 3), 255)
     if choice < 0.5:
@@ -158,11 +158,11 @@ def _colors(rng: Rng, mesh: Mesh) -> NDArray[np.int64]:
 
 
 def _normals(rng: Rng, mesh: Mesh) -> Array | None:
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     choice = rng.random()
     if choice < 0.5:
         return None
-    normals = vertex_normals(positions, np.asarray(mesh.faces))
+    normals = vertex_normals(positions, mesh.faces)
     return normals + rng.normal(size=positions.shape) * (2.0 if choice < 0.6 else 0.2)
 
 
@@ -226,15 +226,15 @@ def _light(rng: Rng, seen: Object) -> Light:
 
 def _point(rng: Rng, seen: Object) -> Array:
     """A place on an object."""
-    faces = np.asarray(seen.mesh.faces)
-    corners = np.asarray(seen.mesh.positions)[faces[rng.integers(len(faces))]]
+    faces = seen.mesh.faces
+    corners = seen.mesh.positions[faces[rng.integers(len(faces))]]
     point = rng.dirichlet([1, 1, 1]) @ corners
     return np.asarray(np.asarray(seen.position) + rotate(seen.rotation, seen.scale * point))
 
 
 def _size(seen: Object) -> float:
     """Half its largest extent."""
-    return seen.scale * float(np.ptp(np.asarray(seen.mesh.positions), axis=0).max()) / 2
+    return seen.scale * float(np.ptp(seen.mesh.positions, axis=0).max()) / 2
 
 
 def _direction(rng: Rng) -> Array:

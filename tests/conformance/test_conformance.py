@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 import float64
 from accuracy import flat, teapot_scene
@@ -64,7 +63,7 @@ def test_every_dataset_is_compared() -> None:
 @pytest.mark.parametrize("scene", [teapot_scene(4), flat(teapot_scene(3, 1))], ids=["smooth", "flat"])
 def test_opengl_and_float64_agree(scene: Scene) -> None:
     """Two programs that share nothing with the contracts, but the formula."""
-    scene = replace(scene, width=256, height=256)
+    scene = evolve(scene, width=256, height=256)
     theirs, exact = opengl.draw(before_camera(scene)), float64.render(scene)
     assert (theirs.triangle != exact.triangle).mean() < 0.001
     same = interior(theirs.triangle) & (theirs.triangle == exact.triangle)
@@ -85,7 +84,7 @@ def drawn_otherwise(monkeypatch: pytest.MonkeyPatch, otherwise: Scene) -> list[s
 
 def test_a_wrong_light_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = flat(teapot_scene(2))
-    brighter = replace(scene, ambient_light=(255, 255, 255), lights=[])
+    brighter = evolve(scene, ambient_light=(255, 255, 255), lights=[])
     found = drawn_otherwise(monkeypatch, brighter)
     assert any(f"off by more than {MOST:g} levels; pixel (" in fault for fault in found)
 
@@ -93,10 +92,10 @@ def test_a_wrong_light_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_shift_of_a_tenth_of_a_pixel_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = flat(teapot_scene(2))
     way = np.array([0.1 * 9.0 * scene.camera.half_height / 64, 0, 0])
-    moved = [replace(o, position=np.asarray(o.position) + way) for o in scene.objects]
+    moved = [evolve(o, position=o.position + way) for o in scene.objects]
     assert any(
         "show a wrong triangle; pixel (" in fault
-        for fault in drawn_otherwise(monkeypatch, replace(scene, objects=moved))
+        for fault in drawn_otherwise(monkeypatch, evolve(scene, objects=moved))
     )
 
 
@@ -117,7 +116,7 @@ def squares(*depths: float) -> Scene:
     """Squares one behind the other, at these distances nearer than the origin, of two triangles each."""
     look = Material("unlit")
     objects = [Object(Mesh(SQUARE, [[0, 1, 2], [0, 2, 3]]), (0, 0, z), material=look, cull=False) for z in depths]
-    camera = replace(teapot_scene().camera, eye=(0, 0, 10), target=(0, 0, 0), half_height=0.2)
+    camera = evolve(teapot_scene().camera, eye=(0, 0, 10), target=(0, 0, 0), half_height=0.2)
     return Scene(objects, camera, width=64, height=64)
 
 

@@ -92,7 +92,7 @@ def before_camera(scene: Scene) -> World:
     first = 0
     for o in scene.objects:
         mesh, turn = o.mesh, rotation(o.rotation)
-        points, faces = _floats(mesh.positions), np.asarray(mesh.faces)
+        points, faces = _floats(mesh.positions), mesh.faces
         corners = ((_floats(o.position) - eye) + o.scale * points[faces] @ turn.T) @ axes.T
         normals = vertex_normals(points, faces) if mesh.normals is None else _floats(mesh.normals)
         normals = np.rint(unit(normals) * NORMAL_STEPS) / NORMAL_STEPS

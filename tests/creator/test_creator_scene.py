@@ -93,7 +93,7 @@ def test_every_field_changes_the_scene() -> None:
     assert made.lights[0].color == (255, 0, 0)
     assert made.ambient_light == (1, 2, 3)
     assert all(o.material == Material("unlit", 1, 2, 3, 4) for o in made.objects)
-    assert all((np.asarray(o.mesh.colors) == (0, 255, 0)).all() for o in made.objects)
+    assert all((o.mesh.colors == (0, 255, 0)).all() for o in made.objects)
     assert not any(o.cull for o in made.objects)
     assert all(o.wireframe for o in made.objects)
     assert made.invert
@@ -140,7 +140,7 @@ def test_a_light_there_and_back() -> None:
         if light.kind == "point":
             assert np.allclose(again.vector, light.vector, atol=0.01)
         else:
-            assert np.allclose(again.vector, np.asarray(light.vector) / 14**0.5, atol=1e-5)
+            assert np.allclose(again.vector, light.vector / 14**0.5, atol=1e-5)
 
 
 def test_lights_that_follow_are_seen_from_the_same_side() -> None:

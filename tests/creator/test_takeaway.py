@@ -250,8 +250,8 @@ def test_the_python_snippet_makes_the_picture(name: str, look: str, tmp_path: Pa
 def test_the_python_snippet_of_an_upload(tmp_path: Path) -> None:
     mesh = load("icosphere").objects[0].mesh
     name = "a 'b' \"c\".obj"
-    rows = [f"v {x} {y} {z}" for x, y, z in np.asarray(mesh.positions).tolist()]
-    rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in np.asarray(mesh.faces).tolist()]
+    rows = [f"v {x} {y} {z}" for x, y, z in mesh.positions.tolist()]
+    rows += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh.faces.tolist()]
     data = "\n".join(rows).encode()
     (tmp_path / name).write_bytes(data)
     scene = simplify_scene(load(tmp_path / name), 200)

@@ -199,8 +199,8 @@ def test_a_canvas_that_is_too_large_is_brought_down(visitor: Visitor) -> None:
 
 def write_obj(path: Path) -> None:
     mesh = load("teapot").objects[0].mesh
-    lines = [f"v {x} {y} {z}" for x, y, z in np.asarray(mesh.positions).tolist()]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in np.asarray(mesh.faces).tolist()]
+    lines = [f"v {x} {y} {z}" for x, y, z in mesh.positions.tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh.faces.tolist()]
     path.write_text("\n".join(lines))
 
 

@@ -35,15 +35,15 @@ BALL = icosphere(3)
 
 
 def moved(mesh: Mesh, scale: float, by: tuple[float, float, float]) -> Mesh:
-    return Mesh(scale * np.asarray(mesh.positions) + by, mesh.faces, mesh.colors)
+    return Mesh(scale * mesh.positions + by, mesh.faces, mesh.colors)
 
 
 def count(mesh: Mesh) -> tuple[int, int]:
-    return len(np.asarray(mesh.positions)), len(np.asarray(mesh.faces))
+    return len(mesh.positions), mesh.triangles
 
 
 def test_vertices_of_one_place_become_one() -> None:
-    positions, faces = np.asarray(BALL.positions), np.asarray(BALL.faces)
+    positions, faces = BALL.positions, np.asarray(BALL.faces)
     soup = Mesh(positions[faces].reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3))
     assert count(clean(soup)) == count(BALL)
     assert is_closed(clean(soup))
@@ -67,10 +67,10 @@ def test_what_bounds_nothing_goes() -> None:
 def test_one_of_two_against_one_stays() -> None:
     points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     mesh = clean(Mesh(points, [(1, 0, 2), (0, 1, 2), (2, 0, 1)]))
-    corners = np.asarray(mesh.positions)[np.asarray(mesh.faces)]
+    corners = mesh.positions[mesh.faces]
     assert np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).tolist() == [[0, 0, 1]]
     mesh = clean(Mesh(points, [(1, 0, 2), (0, 1, 2), (2, 1, 0)]))
-    corners = np.asarray(mesh.positions)[np.asarray(mesh.faces)]
+    corners = mesh.positions[mesh.faces]
     assert np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).tolist() == [[0, 0, -1]]
 
 
@@ -81,7 +81,7 @@ def test_nothing_but_slivers_is_a_mistake() -> None:
 
 def test_holes_are_closed() -> None:
     faces = np.asarray(BALL.faces)
-    center = np.asarray(BALL.positions)[faces].mean(axis=1)
+    center = BALL.positions[faces].mean(axis=1)
     open_ball = clean(Mesh(BALL.positions, faces[(center[:, 1] > -0.8) & (center[:, 0] < 0.85)]))
     assert not is_closed(open_ball)
     assert is_closed(capped(open_ball))
@@ -95,13 +95,13 @@ def test_crumbs_go_and_parts_stay() -> None:
     whole = joined(Mesh(BALL.positions, BALL.faces), moved(BALL, 0.3, (0, 0, 3)), board)
     mesh = without_crumbs(joined(whole, crumb))
     assert count(mesh) == count(whole)
-    assert len(np.unique(parts(np.asarray(mesh.faces), len(np.asarray(mesh.positions))))) == 3
+    assert len(np.unique(parts(mesh.faces, len(mesh.positions)))) == 3
     assert count(without_crumbs(board)) == count(board)
 
 
 def test_placing() -> None:
     mesh = placed(moved(torus(), 1000, (5, 6, 7)), (90, 0, 0))
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     assert np.linalg.norm(positions, axis=1).max() == pytest.approx(1)
     np.testing.assert_allclose(positions.max(axis=0), -positions.min(axis=0), atol=1e-9)
     assert np.ptp(positions, axis=0).argmin() == 2  # it stood about y, now about z
@@ -171,8 +171,8 @@ def test_creases_are_sharp_and_the_rest_is_smooth() -> None:
     can = clean(cylinder())
     mesh = creased(can, 40)
     normals, corners = (
-        np.asarray(mesh.normals)[np.asarray(mesh.faces)],
-        np.asarray(mesh.positions)[np.asarray(mesh.faces)],
+        np.asarray(mesh.normals)[mesh.faces],
+        mesh.positions[mesh.faces],
     )
     flat = np.abs(corners[:, :, 1]).min(axis=1) > 0.89
     lid = flat & (np.ptp(corners[:, :, 1], axis=1) == 0)
@@ -181,5 +181,5 @@ def test_creases_are_sharp_and_the_rest_is_smooth() -> None:
     # along the side each normal points from the axis
     side = corners[~lid] * (1, 0, 1)
     assert (np.einsum("fci,fci->fc", normals[~lid], side) > 0.75 * 0.99).all()
-    assert len(np.asarray(creased(can, 180).positions)) == len(np.asarray(can.positions))
+    assert len(np.asarray(creased(can, 180).positions)) == len(can.positions)
     assert len(np.asarray(creased(icosphere(2), 0).positions)) == 3 * 320

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import os
 from collections import Counter
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import shackled
 from shackled import Mesh
@@ -40,8 +40,8 @@ CLOSED = {
 
 
 def edges(mesh: Mesh) -> Counter[tuple[int, int]]:
-    number = np.unique(np.asarray(mesh.positions), axis=0, return_inverse=True)[1].reshape(-1)
-    faces = number[np.asarray(mesh.faces)]
+    number = np.unique(mesh.positions, axis=0, return_inverse=True)[1].reshape(-1)
+    faces = number[mesh.faces]
     return Counter(map(tuple, np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).tolist()))
 
 
@@ -49,19 +49,19 @@ def edges(mesh: Mesh) -> Counter[tuple[int, int]]:
 def test_closed_shapes(name: str) -> None:
     make, triangles, volume = CLOSED[name]
     mesh = make()
-    assert len(np.asarray(mesh.faces)) == triangles
+    assert mesh.triangles == triangles
     assert is_closed(mesh)
     if volume is not None:
         assert signed_volume(mesh) == pytest.approx(volume, rel=2e-3)
-    a, b, c = np.asarray(mesh.positions)[np.asarray(mesh.faces)].transpose(1, 0, 2)
+    a, b, c = mesh.positions[mesh.faces].transpose(1, 0, 2)
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).min() > 1e-6
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "torus-knot", "spring", "superellipsoid", "cylinder", "cone"])
 def test_normals_point_out(name: str) -> None:
     mesh = CLOSED[name][0]()
-    normals = np.asarray(mesh.normals)[np.asarray(mesh.faces)]
-    a, b, c = np.asarray(mesh.positions)[np.asarray(mesh.faces)].transpose(1, 0, 2)
+    normals = np.asarray(mesh.normals)[mesh.faces]
+    a, b, c = mesh.positions[mesh.faces].transpose(1, 0, 2)
     assert np.linalg.norm(normals, axis=2) == pytest.approx(1)
     assert (np.einsum("fcd,fd->fc", normals, np.cross(b - a, c - a)) > 0).all()
 
@@ -69,7 +69,7 @@ def test_normals_point_out(name: str) -> None:
 @pytest.mark.parametrize("depth", [0, 1, 2])
 def test_the_sponge(depth: int) -> None:
     mesh = shapes.menger_sponge(depth)
-    assert len(np.asarray(mesh.faces)) == 2 * (2 * 20**depth + 4 * 8**depth)
+    assert mesh.triangles == 2 * (2 * 20**depth + 4 * 8**depth)
     assert signed_volume(mesh) == pytest.approx(1.3**3 * (20 / 27) ** depth)
 
 
@@ -78,7 +78,7 @@ def test_one_sided_surfaces_have_faces_on_both_sides(make: object) -> None:
     mesh = make()  # type: ignore[operator]
     found = edges(mesh)
     assert all(found[b, a] >= 1 for a, b in found)  # the back of an edge is an edge of the back
-    normals = np.asarray(mesh.normals)
+    normals = mesh.normals
     half = len(normals) // 2
     assert (normals[:half] == -normals[half:]).all()
 
@@ -91,11 +91,11 @@ def test_the_moebius_strip_has_half_a_turn() -> None:
 
 def test_the_cube_has_the_colour_of_each_corner() -> None:
     mesh = shapes.cube()
-    np.testing.assert_array_equal(np.asarray(mesh.colors), np.where(np.asarray(mesh.positions) > 0, 255, 0))
+    np.testing.assert_array_equal(mesh.colors, np.where(mesh.positions > 0, 255, 0))
 
 
 def test_the_cornell_box_has_the_published_measures() -> None:
-    room, short, tall, lamp = (np.asarray(o.mesh.positions) for o in cornell_box().objects)
+    room, short, tall, lamp = (o.mesh.positions for o in cornell_box().objects)
     assert room.max(axis=0).tolist() == [556, 548.8, 559.2]
     assert room.min(axis=0).tolist() == [0, 0, 0]
     assert short[:, 1].max() == 165
@@ -127,7 +127,7 @@ def test_the_box_covers_each_pixel_within_it_once() -> None:
 
 def test_the_first_render_has_the_points_of_the_paper() -> None:
     mesh = builtin.first_render().objects[0].mesh
-    points = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
+    points = mesh.positions[mesh.faces].tolist()
     assert points == [[[-1, 0, 0], [-1, 2, 0], [0, 2, 0]], [[1, 0, 5], [1, -2, 5], [0, -2, 5]]]
     path = SHARED / "scenes" / "first_orth.json"
     if not path.is_file():
@@ -146,7 +146,7 @@ def test_every_piece_makes_a_picture(piece: Piece) -> None:
     covered = (image.lit_pixels or 0) / 128**2
     assert 0.02 < covered <= 1
     if piece.name != "cornell-box":  # which fills its picture
-        background = shackled.render(replace(piece.make(), objects=[])).pixels
+        background = shackled.render(evolve(piece.make(), objects=[])).pixels
         rows, columns = np.nonzero((image.pixels != background).any(axis=2))
         for side in (rows, columns):
             assert side.min() >= 4

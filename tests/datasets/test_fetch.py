@@ -81,7 +81,7 @@ def obj(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """A ball, in another place and of another size than it will have."""
     path = tmp_path_factory.mktemp("ball") / "ball.obj"
     ball = icosphere(3)
-    write_obj(shackled.Mesh(40 * np.asarray(ball.positions) + 7, ball.faces), path)
+    write_obj(shackled.Mesh(40 * ball.positions + 7, ball.faces), path)
     return path.read_bytes()
 
 

@@ -19,9 +19,9 @@ def test_patches_are_those_of_newell() -> None:
 @pytest.mark.parametrize("divisions", [1, 2, 5, 6, 32])
 def test_size(divisions: int) -> None:
     mesh = teapot(divisions)
-    assert len(np.asarray(mesh.faces)) == 64 * divisions**2 - 8 * divisions
-    assert len(np.asarray(mesh.positions)) < 65536
-    assert len(np.unique(np.asarray(mesh.positions), axis=0)) == len(np.asarray(mesh.positions))
+    assert mesh.triangles == 64 * divisions**2 - 8 * divisions
+    assert len(mesh.positions) < 65536
+    assert len(np.unique(mesh.positions, axis=0)) == len(mesh.positions)
 
 
 def test_it_stands_upright_on_the_ground() -> None:
@@ -34,17 +34,17 @@ def test_it_stands_upright_on_the_ground() -> None:
 
 def test_triangles_have_an_area() -> None:
     mesh = teapot(6)
-    a, b, c = np.asarray(mesh.positions)[np.asarray(mesh.faces)].transpose(1, 0, 2)
+    a, b, c = mesh.positions[mesh.faces].transpose(1, 0, 2)
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).min() > 1e-6
 
 
 def test_faces_are_wound_alike_and_outward() -> None:
     mesh = teapot(6)
-    faces = np.asarray(mesh.faces)
+    faces = mesh.faces
     edges = Counter(map(tuple, faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).tolist()))
     assert max(edges.values()) == 1
     assert 25 < signed_volume(mesh) < 27
-    assert (np.asarray(mesh.normals)[np.asarray(mesh.positions)[:, 1] > 3.149][:, 1] > 0.99).all()
+    assert (np.asarray(mesh.normals)[mesh.positions[:, 1] > 3.149][:, 1] > 0.99).all()
 
 
 def test_the_only_open_edges_are_at_rim_lid_handle_and_spout() -> None:
@@ -60,7 +60,7 @@ def test_the_only_open_edges_are_at_rim_lid_handle_and_spout() -> None:
 
 def test_normals_point_outward_from_the_body() -> None:
     mesh = teapot(6)
-    positions, normals = np.asarray(mesh.positions), np.asarray(mesh.normals)
+    positions, normals = mesh.positions, np.asarray(mesh.normals)
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
     belly = (np.abs(np.hypot(positions[:, 0], positions[:, 2]) - 2) < 0.02) & (positions[:, 1] < 1.4)
     belly &= np.abs(positions[:, 2]) > 0.4  # neither handle nor spout

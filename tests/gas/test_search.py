@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 
 from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
@@ -102,7 +102,7 @@ def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> 
     pytest.importorskip("pyrevm")
     chain = open_chain("pyrevm")
     assert isinstance(chain, ContractChain)
-    data = render_call(replace(scenes["empty"], width=5))
+    data = render_call(evolve(scenes["empty"], width=5))
     zero_width = bytearray(data)
     zero_width[zero_width.index((5).to_bytes(32, "big")) + 31] = 0
     with pytest.raises(RenderError, match="refused") as caught:
@@ -118,11 +118,11 @@ def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, s
     scene = scenes["smooth"]
     if name != "smooth":
         (pot,) = scene.objects
-        flat = replace(pot, material=replace(pot.material, shading="flat"))
-        scene = replace(scene, objects=[flat, pot, replace(flat, opacity=0.5), flat], invert=True)
+        flat = evolve(pot, material=evolve(pot.material, shading="flat"))
+        scene = evolve(scene, objects=[flat, pot, evolve(flat, opacity=0.5), flat], invert=True)
     if name == "large":
         # 32 rows need no padding
-        scene = replace(scene, width=512, height=40)
+        scene = evolve(scene, width=512, height=40)
     whole = chain.call("Renderer", render_call(scene)).output
     calls = engine_calls(scene, chain)
     engines = ["FragmentEngine"] if name == "smooth" else ["Engine", "FragmentEngine", "Engine", "FragmentEngine"]

@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from attrs import evolve
 
 from nodes import Reply, serving
 from shackled import InputError, RenderError, Scene, load
@@ -19,7 +20,7 @@ from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
 pytest.importorskip("distributed")
-SCENE = replace(load("teapot"), width=48, height=48)
+SCENE = evolve(load("teapot"), width=48, height=48)
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +64,7 @@ def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatc
 
 
 def test_tiles_on_a_cluster_of_our_own() -> None:
-    large = replace(SCENE, width=100, height=100)
+    large = evolve(SCENE, width=100, height=100)
     job = render_frames([large], Where(cluster="", jobs=2, tile=(100, 9)))
     (image,) = render_frames([large], Where()).images
     assert job.images[0].bmp == image.bmp

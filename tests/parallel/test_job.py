@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 import shackled
 from shackled import Image, InputError, RenderError, Scene, load
@@ -25,7 +26,7 @@ from shackled.parallel.store import Store
 from shackled.render import render_whole
 from shackled.scene.codec import Rectangle
 
-SCENE = replace(load("teapot"), width=96, height=70)
+SCENE = evolve(load("teapot"), width=96, height=70)
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +77,7 @@ def test_the_cost_is_told_about_right() -> None:
     chain = open_chain()
     assert isinstance(chain, PyrevmChain)
     for name, side in (("teapot", 512), ("cube", 300), ("genesis/3", 400)):
-        scene = replace(load(name), width=side, height=side)
+        scene = evolve(load(name), width=side, height=side)
         gas = chain.draw(scene).gas
         assert gas is not None
         assert abs(estimate(scene, chain).gas(side * side) / gas - 1) < 0.25
@@ -91,7 +92,7 @@ def test_an_empty_scene() -> None:
 
 
 def test_a_picture_of_2048() -> None:
-    scene = replace(load("cube"), width=2048, height=48)
+    scene = evolve(load("cube"), width=2048, height=48)
     (image,) = render_frames([scene], Where(gas_limit=6_000_000)).images
     assert image.bmp == render_whole(scene, open_chain()).bmp
 
@@ -162,7 +163,7 @@ def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, w
     assert job.images[0].bmp == whole.bmp
     monkeypatch.setattr("shackled.parallel.referee.open_chain", lambda name: open_chain(name) if name else slow)
     # NumPy draws what nodes are compared with
-    judge, small, cube = Referee(every=True), Rectangle(0, 0, 16, 16), replace(load("cube"), width=96, height=96)
+    judge, small, cube = Referee(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
     piece, right = draw_part(open_chain("pyrevm"), cube, small), judge.draw(cube, small)
     assert right.gas is None
     assert piece.bmp == right.bmp
@@ -174,7 +175,7 @@ def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     assert isinstance(chain, PyrevmChain)
     node, cheap = ChainPlace(chain, distant=True), estimate(SCENE, chain)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
-    large = replace(SCENE, width=2048, height=1024)
+    large = evolve(SCENE, width=2048, height=1024)
     cases = (
         (SCENE, cheap, None, "all"),
         (SCENE, dear, None, "some"),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import pytest
+from attrs import evolve
 
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, each_third, proxy
@@ -20,11 +20,11 @@ from shackled.parallel import job as job_module
 from shackled.render import render_whole
 from shackled.scene.turning import full_turn
 
-SCENE = replace(load("cube"), width=64, height=60)
+SCENE = evolve(load("cube"), width=64, height=60)
 TILE = (64, 5)
 PARTS = 12
 #: A turntable, of which there are so many tiles of 64 x 16 pixels that can be lied about.
-SPIN = full_turn(replace(load("cube"), width=64, height=64), 2)
+SPIN = full_turn(evolve(load("cube"), width=64, height=64), 2)
 LIES = 8
 
 
@@ -75,7 +75,7 @@ def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
 
 
 def test_a_large_picture_survives_the_death_of_a_node() -> None:
-    scene = replace(load("teapot"), width=1024, height=1024)
+    scene = evolve(load("teapot"), width=1024, height=1024)
 
     class Killer(Notes):
         done = 0
@@ -202,7 +202,7 @@ def test_a_node_that_does_not_answer_in_time(node: str, right: Image) -> None:
         job = render_frames([SCENE], Where(rpc=(url, node), tile=TILE, timeout=1.0), listener=Notes())
         assert job.images[0].bmp == right.bmp
     with proxy(node, always("stuck")) as url, pytest.raises(NodeError, match=r"did not answer within 0.2 seconds"):
-        render_frames([replace(SCENE, width=12, height=10)], Where(rpc=(url,), timeout=0.2))
+        render_frames([evolve(SCENE, width=12, height=10)], Where(rpc=(url,), timeout=0.2))
 
 
 def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
@@ -244,7 +244,7 @@ def test_answers_that_are_too_long(node: str, right: Image) -> None:
 
 def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
     """As geth does, whatever gas is asked for; nobody says so."""
-    scene = replace(load("cube"), width=128, height=128)
+    scene = evolve(load("cube"), width=128, height=128)
 
     def answer(request: dict[str, Any]) -> Reply:
         if request["method"] == "eth_call":

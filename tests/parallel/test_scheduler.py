@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 
 from shackled import OutputError, RenderError, Scene, load
 from shackled.chain import Drawing, open_chain
@@ -32,7 +33,7 @@ from shackled.parallel.tiles import area, cut
 from shackled.scene.codec import Rectangle
 
 SIDE = 40
-SCENE = replace(load("cube"), width=SIDE, height=SIDE)
+SCENE = evolve(load("cube"), width=SIDE, height=SIDE)
 #: Says what goes wrong with the n-th call of a place, counted from 0; or answers None.
 Trouble = Callable[[int, Rectangle], BaseException | None]
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 
 from shackled import InputError, RenderError, Scene, load
 from shackled.chain import Drawing, open_chain
@@ -18,7 +18,7 @@ from shackled.parallel.tiles import cut
 from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
-SCENE = replace(load("cube"), width=32, height=20)
+SCENE = evolve(load("cube"), width=32, height=20)
 PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]
 PIECE = draw_part(open_chain(), SCENE, PARTS[0].tile)
 
@@ -39,7 +39,7 @@ def test_parts_are_found_again(store: Store) -> None:
 
 def test_parts_of_another_picture_are_not_taken(store: Store) -> None:
     store.write(PARTS[0], PIECE)
-    assert Store(store.folder, [replace(SCENE, invert=True)]).read(PARTS[0]) is None
+    assert Store(store.folder, [evolve(SCENE, invert=True)]).read(PARTS[0]) is None
 
 
 @pytest.mark.parametrize("damage", [b"", b"x", b"{}\n", bytes(500)], ids=repr)
@@ -65,7 +65,7 @@ def test_plans(store: Store) -> None:
     assert store.read_plan() is None
     store.write_plan(PARTS)
     assert store.read_plan() == PARTS
-    assert Store(store.folder, [replace(SCENE, invert=True)]).read_plan() is None
+    assert Store(store.folder, [evolve(SCENE, invert=True)]).read_plan() is None
     for plan in (PARTS[1:], [*PARTS, PARTS[0]], [*PARTS, Part(1, Rectangle(0, 0, 32, 20))]):
         store.write_plan(plan)
         assert store.read_plan() is None
@@ -128,7 +128,7 @@ def test_a_job_that_was_cut_otherwise_keeps_its_plan(tmp_path: Path) -> None:
     assert first.calls == 4
     assert render_frames([SCENE], Where(gas_limit=20_000_000), keep=keep).calls == 1
     keep2 = tmp_path / "large.png.parts"
-    large = replace(SCENE, width=64, height=64)
+    large = evolve(SCENE, width=64, height=64)
     tight = render_frames([large], Where(tile=(64, 16)), keep=keep2)
     # two processes would be given more parts
     assert render_frames([large], Where(jobs=2), keep=keep2).calls == tight.calls == 4

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from attrs import evolve
 from benchmarks.measure import gas
 from benchmarks.parallel import GRIDS, SIDES
 
@@ -18,7 +18,7 @@ FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json"
 
 @pytest.mark.parametrize("side", SIDES[:3])
 def test_gas_of_tiles(side: int) -> None:
-    scene, written = replace(load("teapot"), width=side, height=side), FIGURES["Tiles"][str(side)]
+    scene, written = evolve(load("teapot"), width=side, height=side), FIGURES["Tiles"][str(side)]
     assert written["whole"] == gas(scene)
     for across, down in GRIDS[:3]:
         parts = grid(side, side, side // across, side // down)

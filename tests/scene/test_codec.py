@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from importlib.resources import files
 from typing import Any
 
 import eth_abi
 import numpy as np
 import pytest
+from attrs import evolve
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
@@ -27,7 +27,7 @@ TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3]
 
 def scene_of(mesh: Mesh = TRIANGLE, **changes: Any) -> Scene:
     thing = Object(mesh, position=(0, 0, -2500), material=Material("unlit"))
-    return replace(Scene([thing]), **changes)
+    return evolve(Scene([thing], Camera()), **changes)
 
 
 def scene_types() -> list[str]:
@@ -81,7 +81,7 @@ def test_a_whole_numbered_scene_passes_exactly() -> None:
 
 def test_two_objects_and_a_tile() -> None:
     thing = scene_of().objects[0]
-    scene = scene_of(objects=[thing, replace(thing, cull=False, wireframe=True, position=(1, 2, -3000))])
+    scene = scene_of(objects=[thing, evolve(thing, cull=False, wireframe=True, position=(1, 2, -3000))])
     data = encode(SELECTOR, scene, Rectangle(5, 6, 7, 8))
     values, rectangle = decode(data, "(uint256,uint256,uint256,uint256)")
     assert rectangle == (5, 6, 7, 8)
@@ -96,7 +96,7 @@ def test_a_tile_outside_the_canvas(tile: tuple[int, int, int, int]) -> None:
 
 
 def test_normals_take_ten_bits_each() -> None:
-    packed = pack(replace(TRIANGLE, normals=[[0, 0, 5], [-1, 0, 0], [0, 0, 0]]), smooth=True)
+    packed = pack(evolve(TRIANGLE, normals=[[0, 0, 5], [-1, 0, 0], [0, 0, 0]]), smooth=True)
     assert packed[0] == 1
     words = [int.from_bytes(packed[5 + 13 * i + 9 : 5 + 13 * i + 13], "big") for i in range(3)]
     assert words == [511 << 2, (-511 & 1023) << 22, 0]
@@ -112,7 +112,7 @@ def test_large_whole_coordinates_take_24_bits() -> None:
     assert packed[:5] == bytes([2, 0, 3, 0, 1])
     rows = [packed[5 + 12 * i : 17 + 12 * i] for i in range(3)]
     numbers = [[int.from_bytes(row[k : k + 3], "big", signed=True) for k in (0, 3, 6)] for row in rows]
-    assert numbers == np.asarray(mesh.positions).tolist()
+    assert numbers == mesh.positions.tolist()
 
 
 def test_whole_coordinates_are_needed_to_pack() -> None:
@@ -123,7 +123,7 @@ def test_whole_coordinates_are_needed_to_pack() -> None:
 def test_unused_vertices_are_dropped_in_order() -> None:
     mesh = Mesh([[9, 9, 9], [0, 0, 0], [8, 8, 8], [5, 0, 0], [0, 5, 0]], [[1, 4, 3]], np.arange(15).reshape(5, 3))
     fitted = fit(scene_of(mesh)).objects[0].mesh
-    assert np.asarray(fitted.positions).tolist() == [[0, 0, 0], [5, 0, 0], [0, 5, 0]]
+    assert fitted.positions.tolist() == [[0, 0, 0], [5, 0, 0], [0, 5, 0]]
     assert np.asarray(fitted.faces).tolist() == [[0, 2, 1]]
     assert np.asarray(fitted.colors).tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
 
@@ -143,8 +143,8 @@ def test_the_largest_mesh_is_taken() -> None:
 
 def placed(o: Object, camera: Camera, scene: Scene) -> np.ndarray:
     """The vertices in units that do not depend on how the world was moved: as the camera sees them."""
-    eye = np.asarray(camera.eye)
-    points = np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions)) - eye
+    eye = camera.eye
+    points = o.position + rotate(o.rotation, o.scale * o.mesh.positions) - eye
     return np.asarray(points)
 
 
@@ -177,16 +177,16 @@ def test_fitting_keeps_what_the_camera_sees(
     scene = Scene([thing], Camera(eye=eye, target=(0, 0, 0)), [light])
     fitted = fit(scene)
     before, after = placed(thing, scene.camera, scene), placed(fitted.objects[0], fitted.camera, fitted)
-    used = np.unique(np.asarray(mesh.faces))
-    lengths = [np.abs(np.asarray(s.lights[0].vector) - np.asarray(s.camera.eye)).max() for s in (fitted, scene)]
+    used = np.unique(mesh.faces)
+    lengths = [np.abs(np.asarray(s.lights[0].vector) - s.camera.eye).max() for s in (fitted, scene)]
     factor = lengths[0] / lengths[1]
-    radius = np.abs(np.asarray(mesh.positions)).max() * scale
+    radius = np.abs(mesh.positions).max() * scale
     # half a step of the grid along each axis, turned
     assert np.abs(before[used] * factor - after).max() <= (radius / 32767 + 1e-9 * world) * factor
     assert np.log2(factor) == pytest.approx(round(np.log2(factor)), abs=1e-6)
     for vector in (fitted.camera.eye, fitted.camera.target, fitted.objects[0].position, fitted.lights[0].vector):
         assert np.abs(np.asarray(vector)).max() <= MAX_COORDINATE
-    towards = np.asarray(fitted.camera.target) - np.asarray(fitted.camera.eye)
+    towards = fitted.camera.target - fitted.camera.eye
     assert np.allclose(towards / np.linalg.norm(towards), -eye / np.linalg.norm(eye), atol=1e-9)
     assert fitted.camera.near is not None
     assert fitted.camera.near > 0
@@ -236,7 +236,7 @@ def test_worlds_far_from_the_origin_keep_their_precision() -> None:
     )
     assert np.allclose(np.asarray(near.objects[0].position), np.asarray(moved.objects[0].position), atol=1e-3)
     assert near.objects[0].scale == moved.objects[0].scale
-    assert np.asarray(near.camera.target).tolist() == np.asarray(moved.camera.target).tolist()
+    assert near.camera.target.tolist() == moved.camera.target.tolist()
 
 
 def test_a_light_infinitely_far_away_keeps_its_direction() -> None:
@@ -259,7 +259,7 @@ def test_a_far_light_does_not_cost_the_meshes_their_precision() -> None:
 
 def test_directions_of_any_length_are_sent() -> None:
     scene = scene_of(lights=[Light("directional", (1e-200, 0, 0)), Light("directional", (0, -1e200, 0))])
-    fitted = fit(replace(scene, objects=[replace(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))
+    fitted = fit(evolve(scene, objects=[evolve(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))
     assert np.asarray(fitted.lights[0].vector).tolist() == [1, 0, 0]
     assert np.asarray(fitted.lights[1].vector).tolist() == [0, -1, 0]
     assert np.asarray(fitted.objects[0].rotation).tolist() == [0, 0, 0, 1]
@@ -274,7 +274,7 @@ def test_the_near_plane_is_chosen_by_the_extent() -> None:
     assert fit(scene_of()).camera.near == 1
     small = Object(Mesh([[-1, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), position=(0, 0, -3))
     assert near(Scene([small])) == pytest.approx(2**-10, rel=0.5)
-    assert near(Scene([replace(small, scale=1e-6)])) == pytest.approx(2**-10, rel=0.5)
+    assert near(Scene([evolve(small, scale=1e-6)])) == pytest.approx(2**-10, rel=0.5)
     assert fit(scene_of(camera=Camera(projection="orthographic", half_height=500))).camera.near == -MAX_COORDINATE
 
 
@@ -324,8 +324,8 @@ def test_smooth_normals_are_those_of_the_unrounded_mesh() -> None:
     rng = np.random.default_rng(1)
     mesh = Mesh(rng.normal(size=(10, 3)), rng.integers(0, 10, (30, 3)))
     fitted = fit(Scene([Object(mesh, (0, 0, -5), material=Material("smooth"))])).objects[0].mesh
-    expected = vertex_normals(np.asarray(mesh.positions), np.asarray(mesh.faces))
-    assert np.allclose(np.asarray(fitted.normals), expected[np.unique(np.asarray(mesh.faces))])
+    expected = vertex_normals(mesh.positions, mesh.faces)
+    assert np.allclose(np.asarray(fitted.normals), expected[np.unique(mesh.faces)])
 
 
 def test_scaling_the_world_by_a_power_of_two_changes_nothing() -> None:

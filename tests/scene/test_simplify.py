@@ -37,7 +37,7 @@ def test_the_shape_stays() -> None:
 
 def test_colors_stay_where_they_are() -> None:
     small = simplify(sphere(), 300)
-    positions, colors = np.asarray(small.positions), np.asarray(small.colors)
+    positions, colors = small.positions, np.asarray(small.colors)
     assert (colors[positions[:, 1] > 0.1] == (255, 0, 0)).all()
     assert (colors[positions[:, 1] < -0.1] == (0, 0, 255)).all()
 
@@ -45,24 +45,22 @@ def test_colors_stay_where_they_are() -> None:
 def test_a_vertex_takes_the_colour_of_the_nearest() -> None:
     """Not of any of those that became one: a gradient over a sphere is still one."""
     whole = sphere()
-    height = np.asarray(whole.positions)[:, 1]
+    height = whole.positions[:, 1]
     levels = np.rint(127.5 + 127.5 * height / np.abs(height).max())
     small = simplify(Mesh(whole.positions, whole.faces, np.stack([levels] * 3, axis=1).astype(np.uint8)), 100)
-    expected = 127.5 + 127.5 * np.asarray(small.positions)[:, 1] / np.abs(height).max()
+    expected = 127.5 + 127.5 * small.positions[:, 1] / np.abs(height).max()
     assert np.abs(np.asarray(small.colors)[:, 0] - expected).max() < 12
 
 
 def test_a_mesh_that_is_small_enough_is_returned_as_it_is() -> None:
     whole = sphere()
-    assert simplify(whole, len(np.asarray(whole.faces))) is whole
+    assert simplify(whole, len(whole.faces)) is whole
 
 
 def test_triangles_without_common_vertices_are_connected_first() -> None:
     whole = sphere()
-    corners = np.asarray(whole.faces).reshape(-1)
-    loose = Mesh(
-        np.asarray(whole.positions)[corners], np.arange(len(corners)).reshape(-1, 3), np.asarray(whole.colors)[corners]
-    )
+    corners = whole.faces.reshape(-1)
+    loose = Mesh(whole.positions[corners], np.arange(len(corners)).reshape(-1, 3), whole.colors[corners])
     small = simplify(loose, 300)
     assert is_closed(small)
     assert len(np.asarray(small.faces)) <= 300

@@ -1,7 +1,6 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
@@ -20,15 +19,15 @@ BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
 
 def world(scene: Scene) -> NDArray[np.float64]:
     thing = scene.objects[0]
-    return np.asarray(thing.position) + rotate(thing.rotation, thing.scale * np.asarray(thing.mesh.positions))
+    return thing.position + rotate(thing.rotation, thing.scale * thing.mesh.positions)
 
 
 def picture(scene: Scene) -> NDArray[np.float64]:
     """(n, 2): where the vertices are in the picture, -1..1 to the right and upward; all must be before the eye."""
     camera = scene.camera
-    eye, back = np.asarray(camera.eye), np.asarray(camera.eye) - np.asarray(camera.target)
+    eye, back = camera.eye, camera.eye - camera.target
     back = back / np.linalg.norm(back)
-    right = np.cross(np.asarray(camera.up), back)
+    right = np.cross(camera.up, back)
     right /= np.linalg.norm(right)
     seen = world(scene) - eye
     depth = -seen @ back
@@ -55,7 +54,7 @@ def test_the_mesh_fills_the_picture(
         *size, rotation=from_euler(turn), azimuth=view[0], elevation=view[1], projection="perspective", margin=0.1
     )
     if projection == "orthographic":
-        look = replace(look, projection="orthographic")
+        look = evolve(look, projection="orthographic")
     scene = stage(BOX, look)
     places = picture(scene)
     assert np.abs(places).max() == pytest.approx(0.9)
@@ -74,8 +73,8 @@ def test_the_viewer_stands_before_it_above_and_to_the_right() -> None:
 def test_the_key_light_comes_from_the_upper_left_of_the_viewer() -> None:
     for azimuth in (0, 90, 200):
         scene = stage(BOX, Look(azimuth=azimuth, elevation=10))
-        back = np.asarray(scene.camera.eye) - np.asarray(scene.camera.target)
-        right = np.cross(np.asarray(scene.camera.up), back)
+        back = scene.camera.eye - scene.camera.target
+        right = np.cross(scene.camera.up, back)
         (key,) = scene.lights
         assert np.asarray(key.vector) @ right < 0 < np.asarray(key.vector) @ np.cross(back, right)
         assert np.asarray(key.vector) @ back > 0
@@ -93,7 +92,7 @@ def test_what_may_be_chosen_is_taken() -> None:
     )
     scene = stage(BOX, look)
     thing = scene.objects[0]
-    assert np.asarray(thing.mesh.colors).tolist() == [[255, 0, 0]] * 8
+    assert thing.mesh.colors.tolist() == [[255, 0, 0]] * 8
     assert (thing.material.shading, thing.wireframe, thing.cull) == ("smooth", True, False)
     assert (scene.lights[0].kind, scene.ambient_light, scene.invert) == ("point", (1, 2, 3), True)
 
@@ -118,7 +117,7 @@ def test_volume() -> None:
 
 def test_painted_keeps_the_rest() -> None:
     mesh = painted(Mesh(CORNERS, FACES, normals=CORNERS), (1, 2, 3))
-    assert np.asarray(mesh.colors).tolist() == [[1, 2, 3]] * 8
+    assert mesh.colors.tolist() == [[1, 2, 3]] * 8
     assert np.asarray(mesh.normals).tolist() == CORNERS.tolist()
 
 
@@ -139,4 +138,4 @@ def test_what_cannot_be() -> None:
     with pytest.raises(InputError, match=r"^the height of a picture must be from 1 to 2048 pixels, not 0$"):
         stage(BOX, Look(height=0))
     with pytest.raises(InputError, match=r"^the colour of a mesh must be red, green and blue from 0 to 255"):
-        stage(BOX, Look(color="red"))
+        stage(BOX, Look(color="crimsonish"))

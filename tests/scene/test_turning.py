@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from attrs import evolve
 
 from pictures import chain
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load
@@ -33,7 +32,7 @@ def scene(**camera: object) -> Scene:
 
 def covered(each: Scene) -> np.ndarray:
     """Which pixels are not background."""
-    drawn, empty = (decode_bmp(chain().draw(s).bmp, s.width, s.height) for s in (each, replace(each, objects=[])))
+    drawn, empty = (decode_bmp(chain().draw(s).bmp, s.width, s.height) for s in (each, evolve(each, objects=[])))
     mask: np.ndarray = (drawn != empty).any(axis=2)
     return mask
 
@@ -53,7 +52,7 @@ def test_the_meshes_are_left_to_the_contract() -> None:
 def test_everything_stays_in_the_picture(projection: str) -> None:
     start = scene(projection=projection)
     if projection == "orthographic":
-        start = replace(start, camera=replace(start.camera, half_height=1.0))
+        start = evolve(start, camera=evolve(start.camera, half_height=1.0))
     assert covered(start).any()
     widest = 0
     for each in full_turn(start, 6):
@@ -70,8 +69,8 @@ def test_everything_stays_in_the_picture(projection: str) -> None:
 def test_a_margin_stays_around_what_turns(projection: str) -> None:
     """The widest of all frames fills as much of the picture as may be filled, or as the first one did."""
     start = scene(projection=projection)
-    start = replace(start, camera=replace(start.camera, half_height=0.1 if projection == "perspective" else 1.0))
-    tight = replace(start, camera=replace(start.camera, half_height=start.camera.half_height * reach(start) / 0.97))
+    start = evolve(start, camera=evolve(start.camera, half_height=0.1 if projection == "perspective" else 1.0))
+    tight = evolve(start, camera=evolve(start.camera, half_height=start.camera.half_height * reach(start) / 0.97))
     for each, share in ((start, FILLED), (tight, 0.97)):
         assert max(reach(turned) for turned in full_turn(each, 16)) == pytest.approx(share, abs=1e-9)
 
@@ -79,26 +78,26 @@ def test_a_margin_stays_around_what_turns(projection: str) -> None:
 def reach(each: Scene) -> float:
     """The part of the half width or half height of the picture that is filled, of a camera that looks along -z."""
     o, camera = each.objects[0], each.camera
-    points = np.asarray(o.position) + rotate(o.rotation, np.asarray(o.mesh.positions)) - np.asarray(camera.eye)
+    points = o.position + rotate(o.rotation, o.mesh.positions) - camera.eye
     distance = -points[:, 2] if camera.projection == "perspective" else np.ones(len(points))
     return float((np.abs(points[:, :2]).max(axis=1) / distance).max() / camera.half_height)
 
 
 def test_a_camera_that_sees_enough_stays() -> None:
-    start = replace(scene(), camera=replace(scene().camera, half_height=0.7))
-    far = replace(start, camera=replace(start.camera, eye=(1, 2, 60)))
-    wide = full_turn(replace(far, objects=[replace(far.objects[0], rotation=from_euler((0, 90, 0)))]), 4)
+    start = evolve(scene(), camera=evolve(scene().camera, half_height=0.7))
+    far = evolve(start, camera=evolve(start.camera, eye=(1, 2, 60)))
+    wide = full_turn(evolve(far, objects=[evolve(far.objects[0], rotation=from_euler((0, 90, 0)))]), 4)
     assert wide[0].camera is far.camera
-    inside = replace(start, camera=replace(start.camera, eye=(1, 2, -3.05)))
+    inside = evolve(start, camera=evolve(start.camera, eye=(1, 2, -3.05)))
     assert full_turn(inside, 3)[0].camera is inside.camera
-    empty = replace(start, objects=[])
+    empty = evolve(start, objects=[])
     assert full_turn(empty, 2) == [empty, empty]
 
 
 def test_a_full_turn_ends_where_it_began() -> None:
-    start = replace(load("teapot"), width=40, height=40)
+    start = evolve(load("teapot"), width=40, height=40)
     again = turn(start, (0, 360, 0))
-    assert np.allclose(np.abs(again.objects[0].rotation @ start.objects[0].rotation), 1)  # type: ignore[operator]
+    assert np.allclose(np.abs(again.objects[0].rotation @ start.objects[0].rotation), 1)
     assert np.allclose(again.objects[0].position, start.objects[0].position)
     # opposite steps of a thing that looks alike from both sides
     half = full_turn(scene(), 2)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import shackled
-from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load, render
+from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load, render, replace
 from shackled.parallel import Where
+from shackled.scene.rotation import rotate
 from shackled.scene.simplify import simplify
 from shackled.scene.staging import Look
 
@@ -75,6 +75,25 @@ def test_zeros_of_either_sign_are_equal() -> None:
     assert hash(one) == hash(other)
 
 
+def test_arrays_cannot_be_written_to() -> None:
+    light = Light.spot((1, 2, 3), (0, -1, 0))
+    thing = Object(Mesh(CORNERS, FACES, normals=CORNERS))
+    mesh, camera = thing.mesh, Camera()
+    arrays = [camera.eye, camera.target, camera.up, light.vector, light.direction, thing.position, thing.rotation]
+    for array in (*arrays, mesh.positions, mesh.faces, mesh.colors, mesh.normals):
+        with pytest.raises(ValueError, match="read-only"):
+            np.asarray(array)[0] = 5
+    mine = np.array(CORNERS)
+    kept = Mesh(mine, FACES)
+    mine[0] = 7
+    assert kept == Mesh(CORNERS, FACES)
+
+
+def test_a_change_shares_the_arrays_that_stay() -> None:
+    assert replace(MESH, colors="red").positions is MESH.positions
+    assert replace(MESH, colors="red").faces is MESH.faces
+
+
 # ---- numbers ----
 
 
@@ -93,6 +112,32 @@ def test_colours_are_bytes_or_fractions() -> None:
         assert scene(ambient_light=value).ambient_light == color
 
 
+def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
+    for value in (
+        "tomato",
+        "Tomato",
+        "#ff6347",
+        "ff6347",
+        (255, 99, 71),
+        (255, 99, 71, 255),
+        np.array([255, 99, 71], np.uint8),
+    ):
+        assert Background(value).top == Light.point((1, 2, 3), value).color == (255, 99, 71)
+        assert Mesh(CORNERS, FACES, value).colors.tolist() == [[255, 99, 71]] * 3
+    assert Background((1.0, 0.5, 0.0, 1.0)).top == (255, 128, 0)
+    rows = [(255, 0, 0, 255), (0, 128, 0, 255), (0, 0, 255, 255)]
+    assert Mesh(CORNERS, FACES, ["red", "green", "#0000ff"]) == Mesh(CORNERS, FACES, rows)
+    assert scene(background="navy").background == Background((0, 0, 128))
+    assert scene(background=("navy", (1.0, 1.0, 1.0))).background == Background((0, 0, 128), (255, 255, 255))
+    with pytest.raises(InputError, match=r"^the colour of vertex 1 must be opaque, not of alpha 128; an Object"):
+        Mesh(CORNERS, FACES, [(1, 2, 3, 255), (1, 2, 3, 128), (1, 2, 3, 255)])
+    with pytest.raises(InputError, match=r"^the background colour must be opaque, not \(1, 2, 3, 4\); an Object"):
+        Background((1, 2, 3, 4))
+    for wrong in ("reddish", "", "#12345", "#1234567"):
+        with pytest.raises(InputError, match=r"^the background colour must be .* or the name of a colour, not "):
+            Background(wrong)
+
+
 @pytest.mark.parametrize(
     "row", [(0.5, 2, 3), (1.5, 0.5, 0.5), (-0.1, 0, 0), (256, 0, 0), (float("nan"), 0, 0)], ids=str
 )
@@ -105,7 +150,8 @@ def test_other_fractions_are_no_colours(row: tuple[float, ...]) -> None:
 
 @pytest.mark.parametrize("face", [(0.9, 1.2, 2.7), (0, 1.5, 2), (0, 1, float("nan")), (0, 1, -1), (0, 1, 3)], ids=str)
 def test_faces_are_whole(face: tuple[float, ...]) -> None:
-    with pytest.raises(InputError, match=r"^face 1 names the vertices \[.*\], but they are numbered 0 to 2$"):
+    rule = "which must be whole numbers|but they are numbered 0 to 2"
+    with pytest.raises(InputError, match=rf"^face 1 names the vertices \[.*\], ({rule})$"):
         Mesh(CORNERS, [(0, 1, 2), face])
 
 
@@ -156,8 +202,97 @@ def test_integers_of_numpy_are_sizes() -> None:
 def test_numbers_in_strings_are_numbers() -> None:
     """Or nothing: not strings that fail later."""
     assert Camera(half_height="0.5", near="1") == Camera(half_height=0.5, near=1)  # type: ignore[arg-type]
-    assert Material(ambient="1") == Material(ambient=1)  # type: ignore[arg-type]
-    assert Object(MESH, scale="2") == Object(MESH, scale=2)  # type: ignore[arg-type]
+    assert Material(ambient="1") == Material(ambient=1)
+    assert Object(MESH, scale="2") == Object(MESH, scale=2)
+
+
+# ---- cameras, lights and places in other words ----
+
+
+def test_cameras_by_field_of_view_and_by_height() -> None:
+    assert Camera.perspective((1, 2, 3), fov=90).half_height == pytest.approx(1)
+    assert Camera.orthographic((1, 2, 3), height=5) == Camera((1, 2, 3), projection="orthographic", half_height=2.5)
+
+
+def test_lights_by_kind() -> None:
+    assert Light.directional(toward=(0, 1, 0)) == Light("directional", (0, 1, 0))
+    assert Light.point(position=(0, 1, 0), color="red") == Light("point", (0, 1, 0), (255, 0, 0))
+    assert Light.spot((0, 1, 0), (0, -1, 0), outer_angle=30) == Light(
+        "spot", (0, 1, 0), direction=(0, -1, 0), outer_angle=30
+    )
+
+
+@pytest.mark.parametrize("angles", [(0, 0, 0), (90, 0, 0), (20, -130, 55), (0, 180, 0), (179, 1, 178)], ids=str)
+def test_rotations_by_angles_and_by_matrix(angles: tuple[float, ...]) -> None:
+    quaternion = shackled.euler(*angles)
+    assert (Object(MESH, rotation=angles).rotation == quaternion).all()
+    matrix = rotate(quaternion, np.eye(3)).T
+    by_matrix = Object(MESH, rotation=matrix)
+    np.testing.assert_allclose(rotate(by_matrix.rotation, CORNERS), rotate(quaternion, CORNERS), atol=1e-12)
+    whole = np.eye(4)
+    whole[:3, :3], whole[:3, 3] = 2.5 * matrix, (1, 2, 3)
+    thing = Object.from_matrix(MESH, whole, cull=False)
+    expected = (np.column_stack([CORNERS, np.ones(3)]) @ whole.T)[:, :3]
+    np.testing.assert_allclose(thing.world_positions(), expected, atol=1e-12)
+    assert thing.scale == pytest.approx(2.5)
+    assert not thing.cull
+
+
+@pytest.mark.parametrize(
+    ("matrix", "message"),
+    [
+        (np.eye(3), "the matrix of an object must be 4 x 4 finite numbers, not array"),
+        (np.diag([1, 2, 1, 1]), "the matrix of an object must scale all axes alike, and have"),
+        (np.diag([0, 0, 0, 1]), "the matrix of an object must scale all axes alike, and have"),
+        (
+            np.diag([1, 1, -1, 1]),
+            "the matrix of a rotation must have unit columns at right angles, and",
+        ),
+        (np.eye(4) + np.eye(4, k=-1)[::-1], "the matrix of an object must scale all axes alike, and have"),
+    ],
+)
+def test_matrices_that_are_no_places(matrix: np.ndarray, message: str) -> None:
+    with pytest.raises(InputError) as error:
+        Object.from_matrix(MESH, matrix)
+    assert str(error.value).startswith(message)
+
+
+def test_counts_and_bounds() -> None:
+    pair = Scene([Object(MESH), Object(MESH, position=(10, 0, 0), scale=2)])
+    assert (MESH.triangles, pair.triangles) == (1, 2)
+    assert pair.bounds.tolist() == [[0, 0, 0], [12, 2, 1]]
+    assert Scene([]).bounds.tolist() == [[0, 0, 0]] * 2
+
+
+# ---- what is not given ----
+
+
+def test_objects_alone_are_staged() -> None:
+    """They fill the picture, are lit, and stand before a background."""
+    place = load("teapot").objects[0]
+    for made in (Scene([place]), Scene(place), Scene([place.mesh]), Scene([place, replace(place, position=(3, 0, 0))])):
+        assert len(made.lights) == 1
+        assert made.background != Background()
+        image = render(made)
+        assert (image.lit_pixels or 0) > 1500
+        assert np.ptp(image.pixels.reshape(-1, 3), axis=0).min() > 100
+    assert Scene([place], width=64).camera != Scene([place]).camera
+    assert replace(Scene([place]), width=64).camera == Scene([place]).camera
+    # what is chosen is not added to
+    assert Scene([place], Camera()).lights == ()
+    assert Scene([place], lights=[]).camera == Camera()
+    assert Scene([place], background="red").camera == Camera()
+    assert Scene([]).background == Background()
+    with pytest.raises(InputError, match="too large for a camera to be placed"):
+        Scene([Mesh([(1e307, 0, 0), (0, 1e300, 0), (0, 0, 0)], FACES)])
+
+
+def test_scenes_are_saved(tmp_path: Any) -> None:
+    made = scene(lights=[Light.spot((1, 2, 3), (0, -1, 0))], invert=True)
+    made.save(tmp_path / "made.json")
+    assert load(tmp_path / "made.json") == made
+    with pytest.raises(InputError, match=r"made\.toml must end in \.json"):
+        made.save(tmp_path / "made.toml")
 
 
 # ---- kinds ----
@@ -172,13 +307,14 @@ def test_numbers_in_strings_are_numbers() -> None:
             "the material of an object must be a shackled.Material, not {'ambient': 1}",
         ),
         (
-            lambda: Scene([Object(MESH), MESH]),  # type: ignore[list-item]
-            "objects[1] of a scene must be a shackled.Object, not <Mesh 3 vertices, 1",
+            lambda: Scene([Object(MESH), Camera()]),  # type: ignore[list-item]
+            "objects[1] of a scene must be a shackled.Object, not Camera(",
         ),
-        (lambda: Scene(Object(MESH)), "the objects of a scene must be a list, not Object("),  # type: ignore[arg-type]
+        (lambda: Scene(5), "the objects of a scene must be a list, not 5"),  # type: ignore[arg-type]
         (lambda: scene(lights=[Camera()]), "lights[0] of a scene must be a shackled.Light, not Camera("),
-        (lambda: scene(camera=None), "the camera of a scene must be a shackled.Camera, not None"),
-        (lambda: scene(background=(0, 0, 0)), "the background of a scene must be a shackled.Background, not (0, 0, 0)"),
+        (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
+        (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),
+        (lambda: Object(MESH, cull="no"), "cull of an object must be True or False, not 'no'"),
         (lambda: render(MESH), "a Scene, the path of a file or the name of a piece is needed, not <Mesh 3 vertices"),  # type: ignore[arg-type]
         (lambda: load((CORNERS, FACES)), "a Scene, the path of a file or the name of a piece is needed, not ([("),  # type: ignore[arg-type]
         (lambda: load("x.obj", look=5), "the look of a mesh must be a shackled.Look, not 5"),  # type: ignore[arg-type]
@@ -195,6 +331,6 @@ def test_wrong_kinds_are_one_clear_error(make: Any, message: str) -> None:
 
 def test_meshes_and_scenes_show_themselves_in_a_line() -> None:
     assert repr(MESH) == "<Mesh 3 vertices, 1 triangle>"
-    assert repr(load("cube")) == "<Scene 128 x 128, 1 object, 12 triangles, 1 light>"
+    assert repr(load("cube")) == "<Scene 128x128, 1 object, 12 triangles, 1 light>"
     assert len(repr(load("teapot").objects[0])) < 400
     assert shackled.OutputError.__mro__[1] is OSError

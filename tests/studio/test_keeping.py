@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import io
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -92,7 +92,7 @@ def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:
     """Without loss where faces have one shade each; where it is smooth, on a grid of 2^11, with normals of 6 bits."""
     pot = teapot(4)
     flat = store_scene(stage(pot), STUDIO)[0]
-    assert len(np.asarray(pot.faces)) == 992
+    assert len(pot.faces) == 992
     assert flat.gas < 1_100_000
     scene = load("teapot")
     assert scene.objects[0].material.shading == "smooth"
@@ -119,14 +119,14 @@ def test_zeros_are_compressed_as_they_are_decompressed(runs: list[tuple[int, int
 def test_a_grid_leaves_objects_where_they_are(bits: int) -> None:
     o = Object(teapot(2), (3, -4, 5), from_euler((20, 30, 40)), 2.5)
     gridded = on_grid(o, bits)
-    positions = np.asarray(gridded.mesh.positions)
+    positions = gridded.mesh.positions
     assert (positions % 1 == 0).all()
     assert np.ptp(positions, axis=0).max() <= 2**bits - 1
 
     def placed(each: Object) -> NDArray[np.float64]:
-        return np.asarray(each.position) + rotate(each.rotation, np.asarray(each.mesh.positions) * each.scale)
+        return each.position + rotate(each.rotation, each.mesh.positions * each.scale)
 
-    step = 2.5 * np.ptp(np.asarray(o.mesh.positions), axis=0).max() / (2**bits - 2)
+    step = 2.5 * np.ptp(o.mesh.positions, axis=0).max() / (2**bits - 2)
     assert np.abs(placed(gridded) - placed(o)).max() <= 0.87 * step
 
 
@@ -142,4 +142,4 @@ def test_bad_input() -> None:
     with pytest.raises(InputError, match="4 to 16 bits a side, not 17"):
         store_scene(scene, STUDIO, position_bits=17)
     with pytest.raises(InputError, match="4 to 10 bits, not 2"):
-        store_scene(replace(scene), STUDIO, normal_bits=2)
+        store_scene(evolve(scene), STUDIO, normal_bits=2)

@@ -17,7 +17,7 @@ from PIL import Image as PillowImage
 from ledger import call_data
 from pictures import chain
 from shackled import RenderError
-from shackled.reference.bmp import encode_bmp
+from shackled.image import encode_bmp
 from shackled.reference.png import CODE_LENGTHS, PIXEL, code_header, codes, encode_png, literal, match
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -131,8 +131,8 @@ def test_a_box_is_closed(world: World, probe: bytes) -> None:
     parts = take_apart(packed)
     mesh = Mesh(np.array(parts.positions) - 32768, parts.faces)
     assert is_closed(mesh)
-    assert np.asarray(mesh.positions).min(axis=0).tolist() == [-10, -20, -30]
-    assert np.asarray(mesh.positions).max(axis=0).tolist() == [40, 50, 60]
+    assert mesh.positions.min(axis=0).tolist() == [-10, -20, -30]
+    assert mesh.positions.max(axis=0).tolist() == [40, 50, 60]
     assert set(parts.colors) == {0x102030}
 
 

@@ -6,11 +6,11 @@ import base64
 import io
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from eth_abi.abi import decode
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
@@ -95,7 +95,7 @@ def test_what_is_kept_is_the_scene(world: World) -> None:
     pointer = stored(world, SCENE)
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert struct[0] == (48, 40)
-    sizes = [5 + 13 * len(np.asarray(POT.positions)) + 6 * len(np.asarray(POT.faces)), 5 + 9 * 3 + 6]
+    sizes = [5 + 13 * len(POT.positions) + 6 * len(np.asarray(POT.faces)), 5 + 9 * 3 + 6]
     assert [len(o[0]) for o in struct[6]] == sizes
     # a scene that is not kept is drawn in the same way, its meshes wherever they are
     data = call_data(f"drawPNG({SCENE_STRUCT},uint256)", struct, 1)
@@ -104,9 +104,9 @@ def test_what_is_kept_is_the_scene(world: World) -> None:
 
 
 def test_extensions_are_kept_with_the_scene(world: World) -> None:
-    glass = [replace(o, opacity=opacity) for o, opacity in zip(SCENE.objects, (0.5, 1.0), strict=True)]
+    glass = [evolve(o, opacity=opacity) for o, opacity in zip(SCENE.objects, (0.5, 1.0), strict=True)]
     cone = Light("spot", (300, 500, 900), (255, 240, 200), (-300, -500, -900), 5, 20)
-    scene = replace(SCENE, objects=glass, lights=[*SCENE.lights, cone])
+    scene = evolve(SCENE, objects=glass, lights=[*SCENE.lights, cone])
     pointer = stored(world, scene)
     png = world.call("Studio", "renderPNG(address,uint256)", pointer, 1)
     with PillowImage.open(io.BytesIO(png)) as picture:
@@ -138,9 +138,9 @@ def test_turned(world: World) -> None:
     turn = tuple(round(part * 2**32) for part in np.asarray(quaternion).tolist())
     boxes = []
     for o in SCENE.objects:
-        positions = np.asarray(o.mesh.positions)
+        positions = o.mesh.positions
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-        place = np.asarray(o.position) + spun(o.rotation, center * o.scale)
+        place = o.position + spun(o.rotation, center * o.scale)
         boxes.append((place, o.scale * np.linalg.norm(np.ptp(positions, axis=0)) / 2))
     low, high = (
         limit([place + sign * radius for place, radius in boxes], axis=0) for limit, sign in ((np.min, -1), (np.max, 1))
@@ -148,14 +148,14 @@ def test_turned(world: World) -> None:
     target = (low + high) / 2
     # of points, and of the rotations of objects
     objects = [
-        replace(
+        evolve(
             o,
-            position=target + spun(quaternion, np.asarray(o.position) - target),
+            position=target + spun(quaternion, o.position - target),
             rotation=product(quaternion, o.rotation),
         )
         for o in SCENE.objects
     ]
-    expected = render(replace(SCENE, objects=objects))
+    expected = render(evolve(SCENE, objects=objects))
     assert (expected.lit_pixels or 0) > 200
     difference = np.abs(changed(world, pointer, fields=1, turn=turn).astype(int) - expected.pixels).max(axis=2)
     # the last bits of the numbers differ
@@ -185,11 +185,10 @@ def product(p: object, q: object) -> NDArray[np.float64]:
 def test_painted_on_another_background_inverted_and_larger(world: World) -> None:
     pointer = stored(world, SCENE)
     painted = [
-        replace(o, mesh=replace(o.mesh, colors=np.tile((1, 2, 250), (len(np.asarray(o.mesh.positions)), 1))))
-        for o in SCENE.objects
+        evolve(o, mesh=evolve(o.mesh, colors=np.tile((1, 2, 250), (len(o.mesh.positions), 1)))) for o in SCENE.objects
     ]
     expected = render(
-        replace(SCENE, objects=painted, background=Background("#010203", "#fefdfc"), invert=True, width=64, height=30)
+        evolve(SCENE, objects=painted, background=Background("#010203", "#fefdfc"), invert=True, width=64, height=30)
     )
     picture = changed(
         world, pointer, fields=30, color=0x0102FA, background=(0x010203, 0xFEFDFC), invert=1, canvas=(64, 30)
@@ -374,7 +373,7 @@ def test_what_is_refused_plain_is_refused_turned(
 @pytest.mark.parametrize("length", [1, 1 << 10, 1 << 32, 1 << 50])
 def test_turned_however_long_the_rotations_are(world: World, length: int) -> None:
     """Only the direction of a rotation counts, that of the object and that of the turn."""
-    tent = replace(SCENE, objects=[SCENE.objects[1]])
+    tent = evolve(SCENE, objects=[SCENE.objects[1]])
     struct = decode(
         [SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", stored(world, tent)))
     )[0]

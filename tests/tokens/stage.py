@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 
+from attrs import evolve
 from eth_utils.abi import collapse_if_tuple
 
 from shackled import Scene
@@ -72,7 +73,7 @@ def _deployed(chain_id: int) -> Stage:
 def icon_scene(name: str) -> Scene:
     """The scene of a piece of the dataset, 128 x 128 pixels."""
     (piece,) = (each for each in icons.pieces() if each.name == name)
-    return replace(piece.make(), width=128, height=128)
+    return evolve(piece.make(), width=128, height=128)
 
 
 def store_scene(studio: Contract, scene: Scene) -> str:

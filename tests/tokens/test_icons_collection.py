@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import Any
 
 import pytest
+from attrs import evolve
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
@@ -255,7 +255,7 @@ def small() -> tuple[Stage, Contract]:
     """A collection with an icon of 8 x 8 pixels."""
     s = stage()
     c = fresh(s)
-    tiny = store_scene(s.studio, replace(icon_scene("icons/lightning"), width=8, height=8))
+    tiny = store_scene(s.studio, evolve(icon_scene("icons/lightning"), width=8, height=8))
     c.send("add", "Tiny", tiny, 1, 0, 1, 1, sender=s.owner)
     return s, c
 

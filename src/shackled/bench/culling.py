@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields
 from statistics import fmean
 from typing import TYPE_CHECKING
 
 import numpy as np
+from attrs import evolve
 
 from ..datasets import require
 from ..datasets.common import builtin
@@ -74,12 +75,12 @@ def run(lab: Lab) -> Report:
 def measure(name: str) -> Pair:
     """One object."""
     scene = resize(require(name).make(), SIDE)
-    culled, open_ = (replace(scene, objects=[replace(o, cull=cull) for o in scene.objects]) for cull in (True, False))
+    culled, open_ = (evolve(scene, objects=[evolve(o, cull=cull) for o in scene.objects]) for cull in (True, False))
     a, b = cost(culled), cost(open_)
     pixels = [decode_bmp(evm().draw(each).bmp, SIDE, SIDE) for each in (culled, open_)]
     return Pair(
         name=name,
-        faces=sum(len(np.asarray(o.mesh.faces)) for o in scene.objects),
+        faces=scene.triangles,
         drawn=a.triangles,
         gas=a.gas,
         drawn_without=b.triangles,

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 
 from ..datasets import Piece
 from ..errors import InputError
@@ -74,8 +75,8 @@ def load_changed(source: Path | Piece, changes: Changes) -> Scene:
         if changes.rotation is not None:
             scene = turn(scene, changes.rotation)
     if changes.size is not None:
-        scene = replace(scene, width=changes.size[0], height=changes.size[1])
-    scene = replace(
+        scene = evolve(scene, width=changes.size[0], height=changes.size[1])
+    scene = evolve(
         scene,
         objects=[_change_object(o, changes) for o in scene.objects],
         camera=_change_camera(scene, changes),
@@ -101,27 +102,27 @@ def _look(changes: Changes) -> Look:
 
 
 def _change_object(o: Object, changes: Changes) -> Object:
-    material = replace(o.material, **_given(changes, "shading", "ambient", "diffuse", "specular", "shininess"))
+    material = evolve(o.material, **_given(changes, "shading", "ambient", "diffuse", "specular", "shininess"))
     mesh = o.mesh
     if changes.color is not None:
-        mesh = replace(mesh, colors=np.tile(changes.color, (len(np.asarray(mesh.positions)), 1)))
-    return replace(o, mesh=mesh, material=material, **_given(changes, "cull", "wireframe", "opacity"))
+        mesh = evolve(mesh, colors=np.tile(changes.color, (len(mesh.positions), 1)))
+    return evolve(o, mesh=mesh, material=material, **_given(changes, "cull", "wireframe", "opacity"))
 
 
 def _change_camera(scene: Scene, changes: Changes) -> Camera:
-    camera = replace(scene.camera, **_given(changes, "eye", "target", "up"))
+    camera = evolve(scene.camera, **_given(changes, "eye", "target", "up"))
     half_height, near = camera.half_height, camera.near
     projection = changes.projection or camera.projection
     if projection != camera.projection:
         # what the camera looks at keeps its size
         near = None
-        forward = np.asarray(camera.target) - np.asarray(camera.eye)
+        forward = camera.target - camera.eye
         length = np.linalg.norm(forward)
-        distance = (middle(scene) - np.asarray(camera.eye)) @ forward / length if length else 0.0
+        distance = float((middle(scene) - camera.eye) @ forward / length) if length else 0.0
         if distance > 0:
             half_height *= distance if projection == "orthographic" else 1 / distance
     chosen = _half_height(changes, projection)
-    return replace(
+    return evolve(
         camera,
         projection=projection,
         half_height=half_height if chosen is None else chosen,

@@ -47,7 +47,6 @@ def mint(
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
 ) -> None:
     """Put an object on a chain for ever, for every contract to draw. The price is told first."""
-    import numpy as np
 
     from ..chain.connection import Connection
     from ..datasets import Piece
@@ -79,7 +78,7 @@ def mint(
         say(source.notice)
     gas = 0
     if storage.missing or storage.parts.missing:
-        triangles = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+        triangles = scene.triangles
         say(
             f"{input}, {triangles:,} triangles, {sum(each.storing.size for each in storage.missing):,} bytes on chain "
             f"{connection.chain_id}; licence: {terms}"

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..animation import Animation
-from ..image import Image
 
 Pixels = NDArray[np.uint8]
 
@@ -18,8 +17,7 @@ Pixels = NDArray[np.uint8]
 def film(frames: Sequence[bytes], milliseconds: int, scale: int = 1) -> bytes:
     """A GIF of pictures of one size, given as PNG; each is shown so long. scale: each pixel becomes a square."""
     shown = [enlarged(np.asarray(PillowImage.open(io.BytesIO(frame)).convert("RGB")), scale) for frame in frames]
-    images = [Image(pixels, b"", None, None, "", 0.0) for pixels in shown]
-    return Animation(images, milliseconds).encode(".gif")
+    return Animation(shown, milliseconds).encode(".gif")
 
 
 def enlarged(pixels: Pixels, scale: int) -> Pixels:

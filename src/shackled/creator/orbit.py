@@ -44,7 +44,7 @@ def pan(camera: Orbit, dx: float, dy: float) -> Orbit:
     """What the camera looks at follows the finger."""
     right, up, _ = axes(camera.azimuth, camera.elevation, camera.roll)
     height = 2 * camera.distance * math.tan(math.radians(camera.fov) / 2)
-    return replace(camera, target=_target(np.asarray(camera.target) + height * (dy * up - dx * right)))
+    return replace(camera, target=_target(camera.target + height * (dy * up - dx * right)))
 
 
 def fit(camera: Orbit, pose: Pose | None = None, aspect: float = 1.0) -> Orbit:

@@ -14,8 +14,6 @@ from ..scene.scene import Scene
 from .scene import MATERIAL
 from .subject import Subject
 
-_CAMERA = ("eye", "target", "up", "projection", "half_height", "near")
-
 
 def python_program(subject: Subject, image: Image) -> str:
     """A program that makes the picture from its source, saves it, and stops if it is not this image."""
@@ -23,7 +21,7 @@ def python_program(subject: Subject, image: Image) -> str:
     with_size = subject.stored is not None  # it may have been brought down
     changes = [] if _is_packed(subject) else _changes(subject.source, subject.scene, with_size)
     if changes:
-        imports.append("from dataclasses import replace")
+        imports.append("from shackled import replace")
         loaded.append(f"scene = replace(\n    scene,\n{''.join(changes)})")
     if any("simplify_scene" in line for line in loaded):
         imports.append("from shackled.render import simplify_scene")
@@ -72,14 +70,14 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
     lines = [
         f"    {name}={getattr(scene, name)!r},\n"
         for name in ("width", "height", "invert")
-        if _differ(source, scene, name) or (with_size and name != "invert")
+        if getattr(source, name) != getattr(scene, name) or (with_size and name != "invert")
     ]
-    if _differ(source, scene, "ambient_light"):
+    if source.ambient_light != scene.ambient_light:
         lines.append(f"    ambient_light={_numbers(scene.ambient_light)},\n")
     if source.background != scene.background:
         top, bottom = _numbers(scene.background.top), _numbers(scene.background.bottom)
         lines.append(f"    background=shackled.Background({top}, {bottom}),\n")
-    if not _same(source.camera, scene.camera, _CAMERA):
+    if source.camera != scene.camera:
         camera = scene.camera
         near = "" if camera.near is None else f"        near={camera.near!r},\n"
         lines.append(
@@ -91,7 +89,7 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
             f"        half_height={camera.half_height!r},\n"
             f"{near}    ),\n"
         )
-    if not _all_same(source.lights, scene.lights, ("kind", "vector", "color")):
+    if source.lights != scene.lights:
         lights = "".join(
             f'        shackled.Light("{light.kind}", {_numbers(light.vector)}, {_numbers(light.color)}),\n'
             for light in scene.lights
@@ -105,7 +103,7 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
 
 def _object_changes(before: Any, after: Any) -> dict[str, str]:
     changes = {}
-    if before.mesh is not after.mesh and not np.array_equal(before.mesh.colors, after.mesh.colors):
+    if not np.array_equal(before.mesh.colors, after.mesh.colors):
         changes["mesh"] = f"replace({{o}}.mesh, colors=[{_numbers(after.mesh.colors[0])}] * len({{o}}.mesh.positions))"
     for name in ("position", "rotation"):
         if not np.array_equal(getattr(before, name), getattr(after, name)):
@@ -134,18 +132,6 @@ def _objects(objects: Sequence[dict[str, str]]) -> str:
 
 def _named(changes: dict[str, str], one: str) -> Iterable[tuple[str, str]]:
     return ((name, value.replace("{o}", one)) for name, value in changes.items())
-
-
-def _differ(a: Any, b: Any, name: str) -> bool:
-    return not np.array_equal(getattr(a, name), getattr(b, name))
-
-
-def _same(a: Any, b: Any, names: Sequence[str]) -> bool:
-    return not any(_differ(a, b, name) for name in names)
-
-
-def _all_same(a: Sequence[Any], b: Sequence[Any], names: Sequence[str]) -> bool:
-    return len(a) == len(b) and all(_same(x, y, names) for x, y in zip(a, b, strict=True))
 
 
 def _numbers(values: Any) -> str:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
+from attrs import evolve
 
+from ..checks import Color
 from ..render import simplify_scene
 from ..scene.background import Background
 from ..scene.light import Light
@@ -70,8 +71,8 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
         source=source,
         title=title,
         notice=notice,
-        triangles=sum(len(np.asarray(o.mesh.faces)) for o in objects),
-        vertices=sum(len(np.asarray(o.mesh.positions)) for o in objects),
+        triangles=sum(o.mesh.triangles for o in objects),
+        vertices=sum(len(o.mesh.positions) for o in objects),
         objects=len(objects),
         bounds=bounds,
         closed=all(is_closed(o.mesh) for o in objects),
@@ -124,7 +125,7 @@ def arranged(state: State, scene: Scene, bounds: Bounds) -> Scene:
         changes["invert"] = state.invert
     if state.size is not None:
         changes |= {"width": state.size.width, "height": state.size.height}
-    return replace(scene, **changes)
+    return evolve(scene, **changes)
 
 
 def _lights(lamps: Sequence[Lamp] | None, scene: Scene, bounds: Bounds) -> Sequence[Light]:
@@ -134,7 +135,7 @@ def _lights(lamps: Sequence[Lamp] | None, scene: Scene, bounds: Bounds) -> Seque
 def _object(o: Object, state: State, bounds: Bounds) -> Object:
     surface = state.surface
     given = {name: value for name in MATERIAL if (value := getattr(surface, name)) is not None}
-    changes: dict[str, Any] = {"material": replace(o.material, **given)} if given else {}
+    changes: dict[str, Any] = {"material": evolve(o.material, **given)} if given else {}
     if surface.color is not None:
         changes["mesh"] = painted(o.mesh, surface.color)
     if state.cull is not None:
@@ -143,12 +144,12 @@ def _object(o: Object, state: State, bounds: Bounds) -> Object:
         changes["wireframe"] = state.wireframe
     if state.pose != Pose():
         changes |= _posed(o, state.pose, bounds)
-    return replace(o, **changes) if changes else o
+    return evolve(o, **changes) if changes else o
 
 
 def _posed(o: Object, pose: Pose, bounds: Bounds) -> dict[str, Any]:
     rotation = from_euler(pose.rotation)
-    from_middle = np.asarray(o.position) - bounds.middle
+    from_middle = o.position - bounds.middle
     return {
         "position": bounds.outside(pose.position) + pose.scale * rotate(rotation, from_middle),
         "rotation": multiply(rotation, o.rotation),
@@ -156,6 +157,6 @@ def _posed(o: Object, pose: Pose, bounds: Bounds) -> dict[str, Any]:
     }
 
 
-def _hex(color: Any) -> str:
-    red, green, blue = (int(channel) for channel in np.asarray(color))
+def _hex(color: Color) -> str:
+    red, green, blue = color
     return f"#{red:02x}{green:02x}{blue:02x}"

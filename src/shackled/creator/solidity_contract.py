@@ -168,7 +168,7 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) 
             mesh = [f"    mesh: meshes[{i}],"]
         else:
             mesh = [*(f"    // {line}" for line in notices), "    mesh: bytes.concat(", *_literal(meshes[i]), "    ),"]
-        x, y, z, w = (_fixed(value) for value in np.asarray(o.rotation).tolist())
+        x, y, z, w = (_fixed(value) for value in o.rotation.tolist())
         lines += [
             f"s.objects[{i}] = Object({{",
             *mesh,
@@ -211,5 +211,5 @@ def _vector(values: Any) -> str:
 
 
 def _color(color: Any) -> str:
-    red, green, blue = (int(channel) for channel in np.asarray(color))
+    red, green, blue = color
     return f"0x{red:02x}{green:02x}{blue:02x}"

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 
 from ..chain.embedded import EmbeddedChain
 from ..errors import InputError
 from ..gas.exact import render_call
 from ..image import Image
 from ..render import render
-from ..scene.files.scene_file import write_scene
-from ..scene.scene import Scene
+from ..scene.files.scene_file import encode_scene_file
 from .cast_command import cast_command
 from .film import enlarged, png
 from .picture import File
@@ -89,7 +86,7 @@ def uploaded(stored: Stored | None) -> File:
 def _content(kind: Kind, subject: Subject, chain: EmbeddedChain, scale: int) -> bytes:
     name, scene = kind.name, subject.scene
     if name == "scene":
-        return scene_file(scene)
+        return encode_scene_file(scene)
     if name == "calldata":
         return f"0x{render_call(scene).hex()}\n".encode()
     if name in ("cast", "cast-anywhere"):
@@ -110,11 +107,3 @@ def _png(image: Image, scale: int) -> bytes:
     if max(image.width, image.height) * scale > MAX_PNG:
         raise InputError(f"a PNG can have up to {MAX_PNG:,} pixels a side: choose a smaller scale than {scale}")
     return png(enlarged(image.pixels, scale), 6)
-
-
-def scene_file(scene: Scene) -> bytes:
-    """The scene as JSON with its meshes inside; it loads again to the same picture, to the byte."""
-    with tempfile.TemporaryDirectory(prefix="shackled-") as folder:
-        path = Path(folder) / "scene.json"
-        write_scene(scene, path)
-        return path.read_bytes()

@@ -121,7 +121,7 @@ def _bounded(scene: Scene, title: str, limits: Limits, notes: list[str]) -> tupl
         raise InputError(f"{title} has {len(scene.objects):,} objects; up to {MAX_OBJECTS} are shown")
     if not scene.objects:
         raise InputError(f"{title} holds no object")
-    before = [len(np.asarray(o.mesh.faces)) for o in scene.objects]
+    before = [o.mesh.triangles for o in scene.objects]
     simplified_to = None
     if max(before) > limits.triangles:
         simplified_to = limits.triangles
@@ -129,7 +129,7 @@ def _bounded(scene: Scene, title: str, limits: Limits, notes: list[str]) -> tupl
             scene = simplify_scene(scene, limits.triangles)
         except InputError as error:
             raise InputError(f"{title}: {error}") from None
-    after = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+    after = scene.triangles
     if simplified_to is not None:
         notes.append(f"The mesh was simplified from {sum(before):,} to {after:,} triangles, the most that are shown.")
     if after > limits.all_triangles:

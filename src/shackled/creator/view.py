@@ -45,8 +45,8 @@ def axes(azimuth: float, elevation: float, roll: float = 0.0) -> Array:
 
 def camera_axes(camera: Camera) -> Array:
     """(3, 3): the same of a camera."""
-    back = _unit(np.asarray(camera.eye) - np.asarray(camera.target))
-    right = _unit(np.cross(_unit(np.asarray(camera.up)), back))
+    back = _unit(camera.eye - camera.target)
+    right = _unit(np.cross(_unit(camera.up), back))
     return np.stack([right, np.cross(back, right), back])
 
 
@@ -67,10 +67,10 @@ def orbit_of(camera: Camera, bounds: Bounds) -> Orbit:
     middle. Beyond the ranges of the controls, their nearest value.
     """
     own = camera_axes(camera)
-    eye, back = np.asarray(camera.eye), own[2]
+    eye, back = camera.eye, own[2]
     depth = float((eye - np.asarray(bounds.middle)) @ back)
     if depth < 0.01 * bounds.radius:
-        depth = float(np.linalg.norm(eye - np.asarray(camera.target)))
+        depth = float(np.linalg.norm(eye - camera.target))
     azimuth, elevation = angles(back)
     right, up, _ = axes(azimuth, elevation)
     slope = camera.half_height if camera.projection == "perspective" else camera.half_height / depth
@@ -100,8 +100,7 @@ def camera_of(orbit: Orbit, bounds: Bounds, near: float | None = None) -> Camera
 
 def lamp_of(light: Light, bounds: Bounds) -> Lamp:
     """A light as it is seen from the middle."""
-    red, green, blue = (int(channel) for channel in np.asarray(light.color))
-    color = f"#{red:02x}{green:02x}{blue:02x}"
+    color = "#{:02x}{:02x}{:02x}".format(*light.color)
     if light.kind == "directional":
         azimuth, elevation = angles(light.vector)
         return Lamp("directional", tidy(azimuth), tidy(elevation), color=color)
@@ -122,21 +121,16 @@ def carried(light: Light, before: Camera, after: Camera, bounds: Bounds) -> Ligh
     """A light that goes with the viewer about the middle, from one camera to another."""
     turn = camera_axes(after).T @ camera_axes(before)
     if light.kind == "directional":
-        return Light("directional", turn @ np.asarray(light.vector), light.color)
+        return Light("directional", turn @ light.vector, light.color)
     return Light("point", bounds.outside(turn @ bounds.inside(light.vector)), light.color)
 
 
 def bounds_of(scene: Scene) -> Bounds:
     """The bounds of a scene; a sphere of radius 1 about the origin where it holds nothing."""
-    from ..scene.rotation import rotate
-
-    points = [
-        np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions)) for o in scene.objects
-    ]
+    points = [o.world_positions() for o in scene.objects]
     if not points:
         return Bounds((0.0, 0.0, 0.0), 1.0)
-    low = np.min([each.min(axis=0) for each in points], axis=0)
-    high = np.max([each.max(axis=0) for each in points], axis=0)
+    low, high = scene.bounds
     middle = low / 2 + high / 2
     radius = max(float(np.linalg.norm(each - middle, axis=1).max()) for each in points)
     x, y, z = middle.tolist()

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-import numpy as np
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
@@ -46,7 +45,7 @@ class Drawing:
 def draw(piece: Piece, size: int = SIZE) -> Drawing:
     """The picture of a piece, size x size pixels: from the cache, or else by the contracts."""
     scene = resize(piece.make(), size)
-    triangles = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
+    triangles = scene.triangles
     path = cache_folder() / "drawings" / f"{_key(scene)}.png"
     kept = _read(path)
     if kept is None:

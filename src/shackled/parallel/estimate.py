@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import NDArray
 
 from ..chain.chain import ContractChain
@@ -52,13 +53,13 @@ class Estimate:
 
 def estimate(scene: Scene, chain: ContractChain) -> Estimate:
     """The cost of a scene, on a chain that is fast: it draws small pictures."""
-    small, large = (replace(scene, width=width, height=height) for width, height in _sizes(scene))
+    small, large = (evolve(scene, width=width, height=height) for width, height in _sizes(scene))
     drawings = [chain.draw(each) for each in (small, large)]
     pixels = [each.width * each.height for each in (small, large)]
     gas = [(drawing.gas or 0) - memory_gas(count) for drawing, count in zip(drawings, pixels, strict=True)]
     slope = max(1.0, (gas[1] - gas[0]) / max(1, pixels[1] - pixels[0]))
     corner = chain.draw(large, Rectangle(0, 0, 1, 1))
-    empty = chain.draw(replace(small, objects=[]))
+    empty = chain.draw(evolve(small, objects=[]))
     return Estimate(
         fixed=max(0.0, gas[0] - slope * pixels[0]),
         call=float(corner.gas or 0),

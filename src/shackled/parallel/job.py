@@ -12,7 +12,7 @@ import numpy as np
 
 from ..chain import Drawing, open_chain
 from ..chain.embedded import PyrevmChain
-from ..image import Image, decode_bmp
+from ..image import Image, decode_bmp, encode_bmp
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
 from .estimate import Estimate, estimate
@@ -166,8 +166,6 @@ def _bmp(pixels: np.ndarray, pieces: list[Drawing]) -> bytes:
     """The file: the one that the contract made, or, of tiles, the same as it would have made."""
     if len(pieces) == 1:
         return pieces[0].bmp
-    from ..reference.bmp import encode_bmp
-
     return encode_bmp(pixels)
 
 

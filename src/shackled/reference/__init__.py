@@ -7,10 +7,10 @@ integers where it computes vertices, faces and light, NumPy arrays where it walk
 from __future__ import annotations
 
 from ..artifacts import artifact
+from ..image import encode_bmp
 from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
 from . import coverage
-from .bmp import encode_bmp
 from .call import read_call
 from .pipeline import Picture, draw
 

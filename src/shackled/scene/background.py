@@ -2,24 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
 
+from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import color
-from .value import Value
+from ..checks import Color, color
+from .value import checked, with_names
 
 
-@dataclass(frozen=True, eq=False)
-class Background(Value):
-    """A vertical gradient from the colour of the top row to that of the bottom row; red, green, blue, 0..255,
-    or floats 0..1.
+def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
+    # None is replaced by the top right after
+    return value if value is None else color(value, name)  # type: ignore[return-value]
+
+
+@frozen(field_transformer=with_names)
+class Background:
+    """A vertical gradient from the colour of the top row to that of the bottom row, which is the same if it is None.
+
+    Colours are given as red, green, blue, 0..255, floats 0..1, "#rrggbb" or a name, and kept as the first.
     """
 
-    top: ArrayLike = (0, 0, 0)
-    bottom: ArrayLike | None = None
+    top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
+    bottom: Color = field(
+        default=None, converter=_bottom, metadata=checked("the colour at the bottom of the background")
+    )
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "top", color(self.top, "the background colour"))
-        bottom = self.top if self.bottom is None else self.bottom
-        object.__setattr__(self, "bottom", color(bottom, "the colour at the bottom of the background"))
+    def __attrs_post_init__(self) -> None:
+        """Take the top's colour where none is given for the bottom."""
+        if self.bottom is None:
+            object.__setattr__(self, "bottom", self.top)
+
+
+def background_of(value: Background | ArrayLike | str | Sequence[ArrayLike | str]) -> Background:
+    """Return the background that is meant: itself, of one colour, or of two, (top, bottom)."""
+    if isinstance(value, Background):
+        return value
+    if isinstance(value, list | tuple) and len(value) == 2:
+        return Background(*value)
+    return Background(value)  # type: ignore[arg-type]

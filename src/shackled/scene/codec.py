@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..checks import Color
 from ..errors import InputError
 from .fit import fit
 from .light import Light
@@ -139,9 +140,9 @@ def _q32(values: ArrayLike) -> list[int]:
     return [round(value * ONE) for value in np.asarray(values, dtype=np.float64).tolist()]
 
 
-def _rgb(color: ArrayLike | None) -> int:
-    red, green, blue = np.asarray(color).tolist()
-    return int(red << 16 | green << 8 | blue)
+def _rgb(color: Color) -> int:
+    red, green, blue = color
+    return red << 16 | green << 8 | blue
 
 
 def _words(values: Iterable[int]) -> bytes:

@@ -10,10 +10,10 @@ vertex takes three more bytes, where a step of that would show in the picture.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from attrs import evolve
+from numpy.typing import NDArray
 
 from ..errors import InputError
 from .camera import Camera
@@ -52,10 +52,10 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 def fit(scene: Scene) -> Scene:
     """The scene with all numbers in the ranges of the contracts, whole mesh coordinates, and the near plane chosen."""
     _check_view(scene.camera)
-    scene = replace(scene, objects=[_prepare(o) for o in scene.objects])
+    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
     objects: list[Object]
     if _is_exact(scene):
-        camera = replace(scene.camera, near=near_plane(scene, 1.0, most=1.0))
+        camera = evolve(scene.camera, near=near_plane(scene, 1.0, most=1.0))
         lights = list(scene.lights)
         objects = list(scene.objects)
     else:
@@ -63,20 +63,20 @@ def fit(scene: Scene) -> Scene:
         camera = _move_camera(scene, factor)
         lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
         objects = [_move_object(o, scene, factor) for o in scene.objects]
-    camera = replace(camera, up=_direction(camera.up))
-    objects = [replace(o, rotation=_direction(o.rotation)) for o in objects]
+    camera = evolve(camera, up=_direction(camera.up))
+    objects = [evolve(o, rotation=_direction(o.rotation)) for o in objects]
     lights = [_pointed(light) for light in lights]
-    return replace(scene, objects=objects, camera=camera, lights=lights)
+    return evolve(scene, objects=objects, camera=camera, lights=lights)
 
 
 def _pointed(light: Light) -> Light:
     if light.kind == "directional":
-        return replace(light, vector=_direction(light.vector))
-    return light if light.direction is None else replace(light, direction=_direction(light.direction))
+        return evolve(light, vector=_direction(light.vector))
+    return light if light.direction is None else evolve(light, direction=_direction(light.direction))
 
 
 def _check_view(camera: Camera) -> None:
-    eye, target, up = _floats(camera.eye), _floats(camera.target), _floats(camera.up)
+    eye, target, up = camera.eye, camera.target, camera.up
     if (eye == target).all():
         raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
     if not up.any():
@@ -88,40 +88,40 @@ def _check_view(camera: Camera) -> None:
 def _prepare(o: Object) -> Object:
     """Without vertices that no face names, and with the normals that smooth shading needs."""
     mesh = o.mesh
-    positions, faces = _floats(mesh.positions), np.asarray(mesh.faces, dtype=np.int64)
+    positions, faces = mesh.positions, mesh.faces
     normals = None
     if o.material.shading == "smooth":
         center, radius = _box(positions)
         # of any size: squares of its lengths stay within floats
         unit = (positions - center) / (radius or 1.0)
-        normals = vertex_normals(unit, faces) if mesh.normals is None else _floats(mesh.normals)
+        normals = vertex_normals(unit, faces) if mesh.normals is None else mesh.normals
     used, inverse = np.unique(faces, return_inverse=True)
     if len(used) < len(positions):
         positions, faces = positions[used], inverse.reshape(-1, 3)
         normals = None if normals is None else normals[used]
-        mesh = Mesh(positions, faces, np.asarray(mesh.colors)[used], normals)
+        mesh = Mesh(positions, faces, mesh.colors[used], normals)
     elif normals is not mesh.normals:
-        mesh = replace(mesh, normals=normals)
-    return o if mesh is o.mesh else replace(o, mesh=mesh)
+        mesh = evolve(mesh, normals=normals)
+    return o if mesh is o.mesh else evolve(o, mesh=mesh)
 
 
 def _is_exact(scene: Scene) -> bool:
     """Whether the contracts' numbers hold the scene as it is, well within their range."""
     camera = scene.camera
-    lengths = [*_floats(camera.eye), *_floats(camera.target), camera.near or 0.0]
+    lengths = [*camera.eye, *camera.target, camera.near or 0.0]
     if camera.projection == "orthographic":
         lengths.append(camera.half_height)
     for light in scene.lights:
         if light.kind != "directional":
-            lengths += list(_floats(light.vector))
+            lengths += list(light.vector)
     reach = max(map(abs, lengths))
     for o in scene.objects:
-        positions = _floats(o.mesh.positions)
+        positions = o.mesh.positions
         if not is_integral(positions) or o.scale > MAX_SCALE[_bits(positions)]:
             return False
-        lengths += [o.scale, *_floats(o.position)]
+        lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
-    view = np.cross(_unit(_floats(camera.target) - _floats(camera.eye)), _unit(_floats(camera.up)))
+    view = np.cross(_unit(camera.target - camera.eye), _unit(camera.up))
     return (
         EXACT_SIZES[0] <= reach <= EXACT_SIZES[1]
         and all(length % STEP == 0 for length in lengths)
@@ -138,7 +138,7 @@ def _factor(scene: Scene) -> float:
     for light in scene.lights:
         if light.kind != "directional":
             # what is a thousand times as far as all that is seen may come nearer: its direction hardly changes
-            distance = float(np.abs(_floats(light.vector) - _floats(scene.camera.eye)).max())
+            distance = float(np.abs(light.vector - scene.camera.eye).max())
             reach = max(reach, min(distance, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
     if size:
@@ -150,8 +150,8 @@ def _extent(scene: Scene) -> tuple[float, float]:
     """Half the largest side of an object, and how far any reaches from the eye along an axis."""
     sizes, reaches = [0.0], [0.0]
     for o in scene.objects:
-        center, radius = _box(_floats(o.mesh.positions))
-        place = _floats(o.position) + rotate(o.rotation, o.scale * center) - _floats(scene.camera.eye)
+        center, radius = _box(o.mesh.positions)
+        place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
         sizes.append(o.scale * radius)
         reaches.append(float(np.abs(place).max()) + o.scale * radius)
     if not np.isfinite(reaches).all():
@@ -161,14 +161,14 @@ def _extent(scene: Scene) -> tuple[float, float]:
 
 def _move_camera(scene: Scene, factor: float) -> Camera:
     camera = scene.camera
-    forward = _unit(_floats(camera.target) - _floats(camera.eye))
-    up = _unit(_floats(camera.up))
+    forward = _unit(camera.target - camera.eye)
+    up = _unit(camera.up)
     half_height = camera.half_height
     if camera.projection == "orthographic":
         half_height *= factor
         if half_height < MIN_HALF_HEIGHT:
             raise InputError(f"the camera's half_height {camera.half_height:g} is too small for the size of the scene")
-    return replace(
+    return evolve(
         camera,
         eye=(0, 0, 0),
         target=forward * 2.0**SIZE_EXPONENT,
@@ -194,25 +194,25 @@ def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> flo
     return max(min(farthest * factor * NEAR_PART, most), STEP) if farthest else 1.0
 
 
-def _move_light(light: Light, eye: ArrayLike, factor: float) -> Light:
+def _move_light(light: Light, eye: Array, factor: float) -> Light:
     if light.kind == "directional":
         return light
-    place = (_floats(light.vector) - _floats(eye)) * factor
+    place = (light.vector - eye) * factor
     # a light so far away keeps its direction
     largest = float(np.abs(place).max())
-    return replace(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
+    return evolve(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
 
 
 def _move_object(o: Object, scene: Scene, factor: float) -> Object:
-    positions = _floats(o.mesh.positions)
+    positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
     if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
         center, radius = _box(positions)
         step = radius / _steps(o, radius, scene, factor)
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
-        o = replace(o, mesh=replace(o.mesh, positions=grid))
-    place = _floats(o.position) + rotate(o.rotation, o.scale * center) - _floats(scene.camera.eye)
-    return replace(o, position=place * factor, scale=o.scale * step * factor)
+        o = evolve(o, mesh=evolve(o.mesh, positions=grid))
+    place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
+    return evolve(o, position=place * factor, scale=o.scale * step * factor)
 
 
 def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
@@ -220,8 +220,8 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
     camera = scene.camera
     pixels = scene.height / (2 * camera.half_height)
     if camera.projection == "perspective":
-        forward = _unit(_floats(camera.target) - _floats(camera.eye))
-        places = _floats(o.position) + rotate(o.rotation, o.scale * _floats(o.mesh.positions)) - _floats(camera.eye)
+        forward = _unit(camera.target - camera.eye)
+        places = o.world_positions() - camera.eye
         pixels /= max(float((places @ forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
     size = o.scale * radius
     if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
@@ -240,8 +240,7 @@ def _box(positions: Array) -> tuple[Array, float]:
     return low + high, float((high - low).max())
 
 
-def _direction(v: ArrayLike) -> Array:
-    v = _floats(v)
+def _direction(v: Array) -> Array:
     low, high = DIRECTION_LENGTHS
     return v if low <= np.abs(v).max() <= high else _unit(v)
 
@@ -249,10 +248,6 @@ def _direction(v: ArrayLike) -> Array:
 def _unit(v: Array) -> Array:
     v = v / np.abs(v).max()
     return np.asarray(v / np.linalg.norm(v))
-
-
-def _floats(values: ArrayLike | None) -> Array:
-    return np.asarray(values, dtype=np.float64)
 
 
 def _show(v: Array) -> str:

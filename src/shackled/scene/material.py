@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, cast
+
+from attrs import field, frozen
 
 from ..checks import choice, number
-from .value import Value
+from .value import checked, with_names
 
 Shading = Literal["unlit", "flat", "smooth"]
+SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
 
 
-@dataclass(frozen=True, eq=False)
-class Material(Value):
-    """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128.
+def _shading(value: str) -> Shading:
+    return cast(Shading, choice(value, "the shading of a material", SHADINGS))
+
+
+def _shininess(value: float) -> int:
+    return round(number(value, "the shininess of a material", 1, 128))
+
+
+@frozen(field_transformer=with_names)
+class Material:
+    """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
 
     shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
         vertices.
     """
 
-    shading: Shading = "flat"
-    ambient: float = 0.2
-    diffuse: float = 0.7
-    specular: float = 0.4
-    shininess: int = 20
-
-    def __post_init__(self) -> None:
-        choice(self.shading, "the shading of a material", ("unlit", "flat", "smooth"))
-        for name in ("ambient", "diffuse", "specular"):
-            value = number(getattr(self, name), f"the {name} coefficient of a material", 0, 4)
-            object.__setattr__(self, name, value)
-        shininess = number(self.shininess, "the shininess of a material", 1, 128)
-        object.__setattr__(self, "shininess", round(shininess))
+    shading: Shading = field(default="flat", converter=_shading)
+    ambient: float = field(
+        default=0.2, converter=number, metadata=checked("the ambient coefficient of a material", 0, 4)
+    )
+    diffuse: float = field(
+        default=0.7, converter=number, metadata=checked("the diffuse coefficient of a material", 0, 4)
+    )
+    specular: float = field(
+        default=0.4, converter=number, metadata=checked("the specular coefficient of a material", 0, 4)
+    )
+    shininess: int = field(default=20, converter=_shininess)

@@ -24,7 +24,7 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
 
     Coordinates take 16 bits where all fit, else 24.
     """
-    positions, faces = np.asarray(mesh.positions, dtype=np.float64), np.asarray(mesh.faces)
+    positions, faces = mesh.positions, mesh.faces
     if len(positions) > MAX_VERTICES or len(faces) > MAX_FACES:
         raise InputError(
             f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles, a contract takes {MAX_VERTICES:,}"
@@ -35,7 +35,7 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
     coordinates = np.ascontiguousarray(positions, dtype=">i4")
     wide = not fits(positions, MAX_SHORT)
     octets = coordinates.view(np.uint8).reshape(len(positions), 3, 4)[:, :, 1 if wide else 2 :]
-    columns = [octets.reshape(len(positions), -1), np.asarray(mesh.colors, dtype=np.uint8)]
+    columns = [octets.reshape(len(positions), -1), mesh.colors]
     if smooth:
         columns.append(_pack_normals(_normals(mesh)))
     header = np.array([len(positions), len(faces)], dtype=">u2").tobytes()
@@ -55,8 +55,8 @@ def fits(positions: NDArray[np.float64], largest: int) -> bool:
 
 def _normals(mesh: Mesh) -> NDArray[np.float64]:
     if mesh.normals is None:
-        return vertex_normals(np.asarray(mesh.positions, dtype=np.float64), np.asarray(mesh.faces, dtype=np.int64))
-    normals = np.asarray(mesh.normals, dtype=np.float64)
+        return vertex_normals(mesh.positions, mesh.faces)
+    normals = mesh.normals
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     unit: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     return unit

@@ -7,8 +7,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import number, vector
+from ..checks import Floats, number, vector
 from ..errors import InputError
+
+#: By how much the columns of a matrix may be from unit vectors at right angles.
+ORTHOGONAL = 1e-6
 
 
 def from_euler(degrees: ArrayLike) -> NDArray[np.float64]:
@@ -23,6 +26,11 @@ def from_euler(degrees: ArrayLike) -> NDArray[np.float64]:
         from_axis_angle((0, 0, 1), z),
     )
     return multiply(about_z, multiply(about_y, about_x))
+
+
+def euler(x: float, y: float, z: float) -> NDArray[np.float64]:
+    """Return the rotation about the x, then the y, then the z axis of the world, each in degrees, as a quaternion."""
+    return from_euler((x, y, z))
 
 
 def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
@@ -51,3 +59,43 @@ def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
     q = q / np.linalg.norm(q)
     t = 2 * np.cross(q[:3], p)
     return np.asarray(p + q[3] * t + np.cross(q[:3], t))
+
+
+def quaternion_of(matrix: ArrayLike) -> NDArray[np.float64]:
+    """Return the rotation of a matrix, (3, 3), whose columns are unit vectors at right angles, right-handed.
+
+    InputError for any other matrix.
+    """
+    try:
+        m = np.array(matrix, dtype=np.float64)
+    except (TypeError, ValueError):
+        m = np.zeros(0)
+    if m.shape != (3, 3) or not np.isfinite(m).all():
+        raise InputError(f"a rotation must be a matrix of 3 x 3 finite numbers, not {matrix!r:.60}")
+    if np.abs(m.T @ m - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(m) < 0:
+        raise InputError("the matrix of a rotation must have unit columns at right angles, and must not mirror")
+    # 4 q q^T, whose largest column has no small divisor
+    trace = np.trace(m)
+    squares = np.zeros((4, 4))
+    squares[:3, :3] = m + m.T + (1 - trace) * np.eye(3)
+    squares[3, :3] = squares[:3, 3] = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
+    squares[3, 3] = 1 + trace
+    largest = squares[:, np.argmax(np.diag(squares))]
+    quaternion: NDArray[np.float64] = largest / np.linalg.norm(largest)
+    return quaternion if quaternion[3] >= 0 else -quaternion
+
+
+def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
+    """Return the rotation that is meant, as a read-only quaternion (x, y, z, w).
+
+    value: a quaternion of any length but zero, three angles in degrees about x, then y, then z, or a matrix, (3, 3).
+    """
+    shape = np.shape(value) if isinstance(value, list | tuple | np.ndarray) else None
+    if shape == (3,):
+        value = from_euler(value)
+    elif shape == (3, 3):
+        value = quaternion_of(value)
+    quaternion = vector(value, name, 4)
+    if not quaternion.any():
+        raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")
+    return quaternion

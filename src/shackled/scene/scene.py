@@ -2,68 +2,136 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import os
+from collections.abc import Iterable, Sequence
+from typing import TypeVar
 
 import numpy as np
+from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import color, instance, integer
+from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
-from .background import Background
+from .background import Background, background_of
 from .camera import Camera
-from .light import Light
+from .light import WHITE, Light
+from .mesh import Mesh
 from .object import Object
-from .value import Value, plural
+from .value import checked, plural, with_names
 
 MAX_SIDE = 2048
 MAX_LIGHTS = 4
+#: Width and height of a picture, in pixels, where none are given.
+DEFAULT_SIDE = 128
+
+Part = TypeVar("Part")
 
 
-@dataclass(frozen=True, eq=False)
-class Scene(Value):
+def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ...]:
+    parts = _list([value] if isinstance(value, Object | Mesh) else value, "objects")
+    objects = [Object(part) if isinstance(part, Mesh) else part for part in parts]
+    for number, part in enumerate(objects):
+        instance(part, f"objects[{number}] of a scene", Object)
+    return tuple(objects)
+
+
+def _lights(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
+    if value is None:  # it is replaced right after
+        return value  # type: ignore[return-value]
+    lights = _list([value] if isinstance(value, Light) else value, "lights")
+    for number, part in enumerate(lights):
+        instance(part, f"lights[{number}] of a scene", Light)
+    if len(lights) > MAX_LIGHTS:
+        raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(lights)}")
+    return tuple(lights)
+
+
+def _list(parts: Iterable[Part], name: str) -> list[Part]:
+    try:
+        return list(parts)
+    except TypeError:
+        raise InputError(f"the {name} of a scene must be a list, not {parts!r:.60}") from None
+
+
+def _camera(value: Camera | None) -> Camera:
+    if value is not None:
+        instance(value, "the camera of a scene", Camera)
+    return value  # type: ignore[return-value]
+
+
+def _background(value: Background | ArrayLike | str | Sequence[ArrayLike | str] | None) -> Background:
+    return value if value is None else background_of(value)  # type: ignore[return-value]
+
+
+def _side(value: int, name: str = "side") -> int:
+    side = integer(value)
+    if side is None or not 1 <= side <= MAX_SIDE:
+        raise InputError(f"the {name} of a picture must be from 1 to {MAX_SIDE} pixels, not {value!r:.60}")
+    return side
+
+
+@frozen(field_transformer=with_names, repr=False)
+class Scene:
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
-    width, height: of the picture in pixels, 1..2048.
-    invert: every byte v of the picture becomes 255 - v.
+    objects: also a Mesh in place of an Object, or one alone.
+    background: also a colour, or two, (top, bottom).
+    camera, lights, background: where none of the three is given, objects are staged: the camera comes as near as it can
+        with all of them in the picture, from a little above and to the side, and a white light shines from the upper
+        left. Otherwise None is `Camera()`, no light, or black.
     ambient_light: the colour of the light that comes from everywhere.
+    invert: every byte v of the picture becomes 255 - v.
+    width, height: of the picture in pixels, 1..2048.
     """
 
-    objects: Sequence[Object]
-    camera: Camera = field(default_factory=Camera)
-    lights: Sequence[Light] = ()
-    background: Background = field(default_factory=Background)
-    ambient_light: ArrayLike = (255, 255, 255)
-    invert: bool = False
-    width: int = 128
-    height: int = 128
+    objects: tuple[Object, ...] = field(converter=_objects)
+    camera: Camera = field(default=None, converter=_camera)
+    lights: tuple[Light, ...] = field(default=None, converter=_lights)
+    background: Background = field(default=None, converter=_background)
+    ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
+    invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
+    width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))
+    height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
 
-    def __post_init__(self) -> None:
-        for name, kind in (("objects", Object), ("lights", Light)):
-            try:
-                parts = tuple(getattr(self, name))
-            except TypeError:
-                raise InputError(f"the {name} of a scene must be a list, not {getattr(self, name)!r:.60}") from None
-            for number, part in enumerate(parts):
-                instance(part, f"{name}[{number}] of a scene", kind)
-            object.__setattr__(self, name, parts)
-        instance(self.camera, "the camera of a scene", Camera)
-        instance(self.background, "the background of a scene", Background)
-        object.__setattr__(self, "ambient_light", color(self.ambient_light, "the ambient light"))
-        if len(self.lights) > MAX_LIGHTS:
-            raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(self.lights)}")
-        for name in ("width", "height"):
-            side = integer(getattr(self, name))
-            if side is None or not 1 <= side <= MAX_SIDE:
-                raise InputError(
-                    f"the {name} of a picture must be from 1 to {MAX_SIDE} pixels, not {getattr(self, name)!r}"
-                )
-            object.__setattr__(self, name, side)
+    def __attrs_post_init__(self) -> None:
+        """Choose what is not given."""
+        camera, background = Camera(), Background()
+        lights: tuple[Light, ...] = ()
+        if self.objects and self.camera is None and self.lights is None and self.background is None:
+            from .staging import staged
+
+            with np.errstate(over="ignore", invalid="ignore"):
+                points = np.concatenate([each.world_positions() for each in self.objects])
+            camera, lights, background = staged(points, self.width, self.height)
+        for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, chosen)
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles of all objects."""
+        return sum(each.mesh.triangles for each in self.objects)
+
+    @property
+    def bounds(self) -> Floats:
+        """The box around all objects in the world, (2, 3): its lowest and its highest corner; zeros without objects."""
+        corners = [(points.min(axis=0), points.max(axis=0)) for points in map(Object.world_positions, self.objects)]
+        if not corners:
+            return np.zeros((2, 3))
+        return np.stack([np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a scene file, .json, with its meshes inside, such that loading it gives the same scene.
+
+        InputError where the path is wrong, OutputError where the disk is full or fails.
+        """
+        from .files.scene_file import write_scene
+
+        write_scene(self, path)
 
     def __repr__(self) -> str:
-        """A line."""
-        triangles = sum(len(np.asarray(each.mesh.faces)) for each in self.objects)
+        """Count in one line."""
         return (
-            f"<Scene {self.width} x {self.height}, {plural(len(self.objects), 'object')}, "
-            f"{plural(triangles, 'triangle')}, {plural(len(self.lights), 'light')}>"
+            f"<Scene {self.width}x{self.height}, {plural(len(self.objects), 'object')}, "
+            f"{plural(self.triangles, 'triangle')}, {plural(len(self.lights), 'light')}>"
         )

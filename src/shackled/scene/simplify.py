@@ -32,14 +32,14 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
         raise InputError(
             f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
         )
-    if len(np.asarray(mesh.faces)) <= most:
+    if mesh.triangles <= most:
         return mesh
     positions, faces, colors = _simplified(mesh, most, tries)
     if not 0 < len(faces) <= most:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
         if len(faces) and len(_simplified(mesh, len(faces), tries)[1]) <= len(faces):
             found += f"; {len(faces)} would do"
-        raise InputError(f"a mesh of {len(np.asarray(mesh.faces))} triangles cannot be simplified to {most}: {found}")
+        raise InputError(f"a mesh of {mesh.triangles} triangles cannot be simplified to {most}: {found}")
     return Mesh(positions, faces, colors)
 
 
@@ -60,10 +60,10 @@ def _connect(mesh: Mesh) -> _Surface:
     """The mesh with one vertex for each position, whatever its colour, so that edges between colours can be collapsed
     too.
     """
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
-    faces = number.reshape(-1)[np.asarray(mesh.faces)]
-    return unique, _without_slivers(faces), np.asarray(mesh.colors)[first]
+    faces = number.reshape(-1)[mesh.faces]
+    return unique, _without_slivers(faces), mesh.colors[first]
 
 
 def _without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -5,33 +5,46 @@ front.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
 
 import numpy as np
+from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks
+from ..checks import Color, Floats
 from ..errors import InputError
-from .background import Background
+from .background import Background, background_of
 from .camera import DEFAULT_HALF_HEIGHT, Camera, Projection
-from .light import Light
+from .light import WHITE, Light
 from .material import Material
 from .mesh import Mesh
 from .object import Object
-from .rotation import rotate
-from .scene import Scene
+from .rotation import rotate, rotation_of
+from .scene import DEFAULT_SIDE, Scene
+from .value import array_key
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 
 #: Toward the light, in the directions right, up and toward the viewer. Contracts are fastest with one white light.
 KEY_LIGHT = (-0.4, 0.7, 0.8)
 
+#: Degrees: where the viewer stands, to the right of the front (+z) and above the horizon.
+AZIMUTH, ELEVATION = 30.0, 20.0
+#: The part of the picture's half width and half height that stays free around a mesh.
+MARGIN = 0.08
+#: Coordinates of objects at most, so that a float holds those of a camera that sees them all.
+LARGEST = 1e305
 
-@dataclass(frozen=True)
+
+def _color(value: ArrayLike | str | None) -> Color | None:
+    return None if value is None else checks.color(value, "the colour of a mesh")
+
+
+@frozen
 class Look:
     """What may be chosen about the picture of a mesh.
 
-    rotation: of the mesh, a quaternion (x, y, z, w); for instance `from_euler((-90, 0, 0))` for a file with z up.
+    rotation: of the mesh, as that of an `Object`; for instance (-90, 0, 0) for a file with z up.
     azimuth, elevation: where the viewer stands, in degrees: to the right of the front (+z), and above the horizon.
     half_height: as in `Camera`, for the perspective camera; the orthographic one takes what the mesh needs.
     margin: the part of the picture's half width and half height that stays free around the mesh, 0..0.9.
@@ -40,19 +53,19 @@ class Look:
     cull: None leaves out the faces that turn away where the mesh is closed, so that this cannot be seen.
     """
 
-    width: int = 128
-    height: int = 128
-    rotation: ArrayLike = (0, 0, 0, 1)
-    azimuth: float = 30
-    elevation: float = 20
+    width: int = DEFAULT_SIDE
+    height: int = DEFAULT_SIDE
+    rotation: Floats = field(default=(0, 0, 0, 1), converter=rotation_of, eq=array_key)
+    azimuth: float = AZIMUTH
+    elevation: float = ELEVATION
     projection: Projection = "perspective"
     half_height: float = DEFAULT_HALF_HEIGHT
-    margin: float = 0.08
-    color: ArrayLike | None = None
-    material: Material = field(default_factory=lambda: Material("flat", 0.3, 0.75, 0.3, 24))
+    margin: float = MARGIN
+    color: Color | None = field(default=None, converter=_color)
+    material: Material = field(factory=lambda: Material("flat", 0.3, 0.75, 0.3, 24))
     lights: Sequence[Light] | None = None
-    background: Background = BACKGROUND
-    ambient_light: ArrayLike = (255, 255, 255)
+    background: Background = field(default=BACKGROUND, converter=background_of)
+    ambient_light: Color = field(default=WHITE, converter=checks.color)
     cull: bool | None = None
     wireframe: bool = False
     invert: bool = False
@@ -65,7 +78,7 @@ def stage(mesh: Mesh, look: Look | None = None) -> Scene:
     """
     look = look or Look()
     Scene([], width=look.width, height=look.height)  # a wrong size is told before anything is divided by it
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     with np.errstate(over="ignore"):
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
         radius = float(np.linalg.norm(positions - center, axis=1).max())
@@ -95,10 +108,24 @@ def stage(mesh: Mesh, look: Look | None = None) -> Scene:
     )
 
 
-def painted(mesh: Mesh, color: ArrayLike) -> Mesh:
-    """The mesh in one colour, red, green and blue 0..255."""
-    channels = checks.color(color, "the colour of a mesh")
-    return replace(mesh, colors=np.tile(channels, (len(np.asarray(mesh.positions)), 1)))
+def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
+    """Return the camera, the light and the background with which points of the world, (n, 3), fill a picture.
+
+    InputError where a float does not hold their coordinates, or those of the camera.
+    """
+    look = Look(width=width, height=height)
+    # of any size: squares of its lengths stay within floats
+    largest = float(np.abs(points).max()) or 1.0
+    if not largest < LARGEST:
+        raise InputError("the coordinates of the objects are too large for a camera to be placed")
+    camera = frame(points / largest, look)
+    camera = evolve(camera, eye=largest * camera.eye, target=largest * camera.target)
+    return camera, (key_light(look),), BACKGROUND
+
+
+def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
+    """Return the mesh in one colour."""
+    return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
 
 
 def frame(points: NDArray[np.float64], look: Look) -> Camera:
@@ -147,9 +174,9 @@ def view_axes(look: Look) -> tuple[NDArray[np.float64], NDArray[np.float64], NDA
 
 def is_closed(mesh: Mesh) -> bool:
     """Whether each edge has a face on either side, wound alike, and the mesh bounds a volume from outside."""
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     number = np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
-    faces = number[np.asarray(mesh.faces)]
+    faces = number[mesh.faces]
     edges = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     edges = edges[edges[:, 0] != edges[:, 1]]
     keys = np.sort(edges[:, 0] * len(positions) + edges[:, 1])
@@ -159,6 +186,6 @@ def is_closed(mesh: Mesh) -> bool:
 
 def signed_volume(mesh: Mesh) -> float:
     """The volume that a closed mesh bounds, negative if its faces are seen from inside."""
-    positions = np.asarray(mesh.positions)
-    corners = (positions - positions.mean(axis=0))[np.asarray(mesh.faces)]
+    positions = mesh.positions
+    corners = (positions - positions.mean(axis=0))[mesh.faces]
     return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6)

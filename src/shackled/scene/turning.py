@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from ..checks import number
@@ -27,12 +27,12 @@ def turn(scene: Scene, degrees: ArrayLike) -> Scene:
     The meshes are left as they are: the contract turns them, by the rotations of the objects.
     """
     rotation, center = from_euler(degrees), middle(scene)
-    return replace(
+    return evolve(
         scene,
         objects=[
-            replace(
+            evolve(
                 o,
-                position=center + rotate(rotation, np.asarray(o.position) - center),
+                position=center + rotate(rotation, o.position - center),
                 rotation=multiply(rotation, o.rotation),
             )
             for o in scene.objects
@@ -50,27 +50,24 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
         raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
     turned = [scene, *(turn(scene, (0, 360 * step / frames, 0)) for step in range(1, int(frames)))]
     camera = _holding(scene.camera, [_points(each) for each in turned], scene.width / scene.height)
-    return [replace(each, camera=camera) for each in turned]
+    return [evolve(each, camera=camera) for each in turned]
 
 
 def middle(scene: Scene) -> Points:
     """The middle of the box around all objects."""
-    points = _points(scene)
-    return (points.min(axis=0) + points.max(axis=0)) / 2 if len(points) else np.zeros(3)
+    return np.asarray(scene.bounds.mean(axis=0))
 
 
 def _points(scene: Scene) -> Points:
     """All vertices, (n, 3), in the world."""
-    placed = [
-        np.asarray(o.position) + rotate(o.rotation, o.scale * np.asarray(o.mesh.positions)) for o in scene.objects
-    ]
+    placed = [o.world_positions() for o in scene.objects]
     return np.concatenate(placed) if placed else np.zeros((0, 3))
 
 
 def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
     """The camera, so far back that all points are within the picture, with a margin unless the first ones have none."""
-    forward = np.asarray(camera.target) - np.asarray(camera.eye)
-    right = np.cross(forward, np.asarray(camera.up))
+    forward = camera.target - camera.eye
+    right = np.cross(forward, camera.up)
     if not len(turned[0]) or not forward.any() or not right.any():
         return camera
     forward = forward / np.linalg.norm(forward)
@@ -80,7 +77,7 @@ def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
 
     def reach(points: Points) -> tuple[Points, Points]:
         """How far points are from the line of sight, in halves of the picture at distance 1; and their distance."""
-        x, y, z = ((points - np.asarray(camera.eye)) @ axes).T
+        x, y, z = ((points - camera.eye) @ axes).T
         return np.maximum(np.abs(x), np.abs(y)) / camera.half_height, z if perspective else np.ones_like(z)
 
     beside, distance = reach(turned[0])
@@ -89,8 +86,8 @@ def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
     share = max(float((beside / distance).max()), FILLED)
     if not perspective:
         most = max(float(reach(points)[0].max()) for points in turned)
-        return replace(camera, half_height=camera.half_height * max(1.0, most / share))
+        return evolve(camera, half_height=camera.half_height * max(1.0, most / share))
     back = max(float((a / share - z).max()) for a, z in map(reach, turned))
     if back <= 1e-9 * float(distance.max()):
         return camera
-    return replace(camera, eye=np.asarray(camera.eye) - back * forward)
+    return evolve(camera, eye=camera.eye - back * forward)

@@ -1,38 +1,38 @@
-"""What the parts of a scene have in common."""
+"""What the values of a scene have in common: checked fields, and arrays that are compared number by number."""
 
 from __future__ import annotations
 
-from dataclasses import fields
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from attrs import Attribute
 
 
-class Value:
-    """A dataclass whose instances are equal if all their fields are; arrays are compared number by number."""
+def checked(name: str, *limits: object) -> dict[str, Any]:
+    """Return the metadata of a field whose converter is called with this name, for its messages, and the limits."""
+    return {"checked": (name, *limits)}
 
-    def __eq__(self, other: object) -> bool:
-        """Compares all fields."""
-        if type(self) is not type(other):
-            return NotImplemented
-        return all(_same(own, its) for own, its in zip(_values(self), _values(other), strict=True))
 
-    def __hash__(self) -> int:
-        """Of all fields."""
-        # + 0.0: -0.0 equals 0.0
-        return hash(tuple((each + 0.0).tobytes() if isinstance(each, np.ndarray) else each for each in _values(self)))
+def with_names(_: type, fields: list[Attribute[Any]]) -> list[Attribute[Any]]:
+    """Hand the names and limits of `checked` to the converters of fields; a transformer of fields for attrs."""
+    return [_named(field) if "checked" in field.metadata else field for field in fields]
+
+
+def _named(field: Attribute[Any]) -> Attribute[Any]:
+    convert: Callable[..., Any] = field.converter  # type: ignore[assignment]
+    arguments = field.metadata["checked"]
+    return field.evolve(converter=lambda value: convert(value, *arguments))
+
+
+def array_key(array: np.ndarray | None) -> object:
+    """Return what is compared and hashed in place of an array: arrays of the same numbers have the same key."""
+    if array is None:
+        return None
+    # + 0.0: -0.0 equals 0.0
+    return array.shape, (array + 0.0 if array.dtype.kind == "f" else array).tobytes()
 
 
 def plural(count: int, one: str, many: str = "") -> str:
-    """Such as "1 light" or "2,000 lights"."""
+    """Return a count with its noun, such as "1 light" or "2,000 lights"."""
     return f"{count:,} {one if count == 1 else many or one + 's'}"
-
-
-def _values(value: Any) -> list[Any]:
-    return [getattr(value, field.name) for field in fields(value)]
-
-
-def _same(one: Any, other: Any) -> bool:
-    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-        return np.array_equal(one, other)
-    return bool(one == other)

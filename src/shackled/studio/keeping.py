@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from attrs import evolve
 from Crypto.Hash import keccak
 
 from ..artifacts import artifact
@@ -85,7 +86,7 @@ def store_scene(
     """
     check_address(studio)
     if position_bits is not None:
-        scene = replace(scene, objects=[on_grid(o, position_bits) for o in scene.objects])
+        scene = evolve(scene, objects=[on_grid(o, position_bits) for o in scene.objects])
     fitted = fit(scene)
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[Storing] = []
@@ -142,13 +143,13 @@ def on_grid(o: Object, bits: int) -> Object:
     """
     if not 4 <= bits <= 16:
         raise InputError(f"a grid has 4 to 16 bits a side, not {bits}")
-    positions = np.asarray(o.mesh.positions, dtype=np.float64)
+    positions = o.mesh.positions
     low, high = positions.min(axis=0), positions.max(axis=0)
     center = (low + high) / 2
     step = float((high - low).max()) / ((1 << bits) - 2) or 1.0
-    mesh = replace(o.mesh, positions=np.rint((positions - center) / step))
-    place = np.asarray(o.position) + rotate(o.rotation, center * o.scale)
-    return replace(o, mesh=mesh, position=place, scale=o.scale * step)
+    mesh = evolve(o.mesh, positions=np.rint((positions - center) / step))
+    place = o.position + rotate(o.rotation, center * o.scale)
+    return evolve(o, mesh=mesh, position=place, scale=o.scale * step)
 
 
 def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:

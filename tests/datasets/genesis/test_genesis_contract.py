@@ -11,11 +11,11 @@ import argparse
 import re
 import statistics
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from attrs import evolve
 
 from shackled import Light, render
 from shackled.artifacts import artifact
@@ -117,14 +117,14 @@ def test_other_formats_are_those_of_the_renderer(function: str) -> None:
 def test_light_comes_from_the_left() -> None:
     scene = generate(seed_of(15)).scene()
     image = picture_on_chain(generate(seed_of(15)))
-    brightened = image.pixels.astype(int) - render(replace(scene, lights=[])).pixels
+    brightened = image.pixels.astype(int) - render(evolve(scene, lights=[])).pixels
     assert brightened.min() == 0
     # black and green prisms, and a white light: black faces turn grey
     red, green, blue = brightened.reshape(-1, 3).T
     lit = (red > 20) & (green == red) & (blue == red)
     assert lit.sum() > 100
     # from the right, it is other faces that are lit
-    mirrored = render(replace(scene, lights=[Light("directional", (50, 0, 0))])).pixels.astype(int)
+    mirrored = render(evolve(scene, lights=[Light("directional", (50, 0, 0))])).pixels.astype(int)
     assert ((mirrored - image.pixels).reshape(-1, 3)[lit] < 0).all()
 
 

@@ -42,11 +42,11 @@ WANTED = {
 def whole(scene: Scene) -> Mesh:
     """The meshes of a scene as one."""
     meshes = [o.mesh for o in scene.objects]
-    starts = np.cumsum([0, *(len(np.asarray(mesh.positions)) for mesh in meshes)])
+    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     return Mesh(
-        np.vstack([np.asarray(mesh.positions) for mesh in meshes]),
-        np.vstack([np.asarray(mesh.faces) + start for mesh, start in zip(meshes, starts, strict=False)]),
-        np.vstack([np.asarray(mesh.colors) for mesh in meshes]),
+        np.vstack([mesh.positions for mesh in meshes]),
+        np.vstack([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
+        np.vstack([mesh.colors for mesh in meshes]),
     )
 
 
@@ -73,7 +73,7 @@ def test_finding() -> None:
 def test_model(icon: Icon) -> None:
     scene = icon.scene()
     mesh = whole(scene)
-    positions, faces = np.asarray(mesh.positions), np.asarray(mesh.faces)
+    positions, faces = mesh.positions, mesh.faces
     assert 20 <= len(faces) <= 600
     # closed, so that culling is right
     assert is_closed(mesh)
@@ -85,7 +85,7 @@ def test_model(icon: Icon) -> None:
     a, b, c = positions[faces].transpose(1, 0, 2)
     heights = np.linalg.norm(np.cross(b - a, c - a), axis=1) / np.linalg.norm([b - a, c - b, a - c], axis=2).max(axis=0)
     assert heights.min() > 1e-4 * np.ptp(positions, axis=0).max()
-    assert len(np.unique(np.asarray(mesh.colors), axis=0)) >= (1 if icon.name in {"heart", "key"} else 2)
+    assert len(np.unique(mesh.colors, axis=0)) >= (1 if icon.name in {"heart", "key"} else 2)
 
 
 @pytest.mark.parametrize("icon", icons.ICONS, ids=lambda icon: icon.name)

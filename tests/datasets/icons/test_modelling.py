@@ -127,20 +127,20 @@ def test_painting() -> None:
 def test_vertices_are_shared_where_colours_are_equal() -> None:
     assert len(np.asarray(m.box(1, 1, 1).mesh().positions)) == 8
     two = m.box(1, 1, 1).painted("#ff0000", m.above(0.4)).mesh()
-    assert len(np.asarray(two.positions)) == 12
-    positions = np.asarray(two.positions)
+    assert len(two.positions) == 12
+    positions = two.positions
     assert (positions % 1 == 0).all()
     assert np.abs(positions).max() == m.STEPS / 2
 
 
 def test_creases() -> None:
     sharp = m.cylinder(1, 2, 16).mesh(crease=30)
-    positions, normals = np.asarray(sharp.positions), np.asarray(sharp.normals)
+    positions, normals = sharp.positions, np.asarray(sharp.normals)
     assert len(positions) == 64  # each rim twice: for the side and for the end
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=1e-6)
     side = np.abs(normals[:, 1]) < 0.5
     np.testing.assert_allclose(normals[side][:, [0, 2]], positions[side][:, [0, 2]] / m.STEPS, atol=1e-3)
     np.testing.assert_allclose(np.abs(normals[~side]), [(0, 1, 0)] * 32, atol=1e-6)
     faceted = m.cylinder(1, 2, 16).mesh(crease=10)
-    assert len(np.asarray(faceted.positions)) == 16 * 4 + 32
+    assert len(faceted.positions) == 16 * 4 + 32
     assert len(np.asarray(m.cylinder(1, 2, 16).mesh(crease=100).positions)) == 32

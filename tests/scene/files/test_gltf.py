@@ -18,12 +18,12 @@ POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
     return colors
 
 
 def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
+    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
     return positions
 
 
@@ -151,7 +151,7 @@ def test_nodes_put_parts_in_their_places(tmp_path: Path) -> None:
     ]
     mesh = read_mesh(model.glb(tmp_path / "model.glb"))
     positions = np.array(corner_positions(mesh))
-    normals = np.asarray(mesh.normals)[np.asarray(mesh.faces)]
+    normals = np.asarray(mesh.normals)[mesh.faces]
     order = np.argsort(positions[:, 2, 1])
     wanted = [[[10, 0, 0], [10, 0, -1], [10, 1, 0]], [[10, 0, 0], [12, 0, 0], [10, 2, 0]]]
     np.testing.assert_allclose(positions[order], wanted, atol=1e-6)
@@ -163,7 +163,7 @@ def test_a_mirrored_part_is_still_seen_from_outside(tmp_path: Path) -> None:
     model.attribute("NORMAL", np.array([[0, 0, 1]] * 3, dtype=np.float32))
     model.document["nodes"] = [{"mesh": 0, "scale": [-1, 1, 1]}]
     mesh = read_mesh(model.glb(tmp_path / "model.glb"))
-    a, b, c = np.asarray(mesh.positions)[np.asarray(mesh.faces)][0]
+    a, b, c = mesh.positions[mesh.faces][0]
     assert np.cross(b - a, c - a).tolist() == [0, 0, 1]
     assert np.asarray(mesh.normals).tolist() == [[0, 0, 1]] * 3
 

@@ -177,19 +177,19 @@ def test_both_readers_see_the_same(tmp_path: Path, seed: int) -> None:
     path = writer.write(tmp_path)
     wanted = gltf_reader.read(path.read_bytes())
     mesh = read_mesh(path)
-    faces = np.asarray(mesh.faces)
+    faces = mesh.faces
     positions = np.array([triangle[0] for triangle in wanted])
     grey = np.array(DEFAULT_COLOR) / 255
     colors = np.array([[grey if color is None else color for color in triangle[1]] for triangle in wanted])
-    found = np.asarray(mesh.positions)[faces]
+    found = mesh.positions[faces]
     assert found.shape == positions.shape
     scale = np.abs(positions).max()
     np.testing.assert_allclose(found / scale, positions / scale, atol=1e-6)
-    assert np.abs(np.asarray(mesh.colors)[faces] - 255.0 * colors).max() <= 1.01
+    assert np.abs(mesh.colors[faces] - 255.0 * colors).max() <= 1.01
     assert (mesh.normals is not None) == writer.with_normals
     if mesh.normals is not None:
         np.testing.assert_allclose(
-            np.asarray(mesh.normals)[faces], np.array([triangle[2] for triangle in wanted], dtype=float), atol=1e-6
+            mesh.normals[faces], np.array([triangle[2] for triangle in wanted], dtype=float), atol=1e-6
         )
 
 

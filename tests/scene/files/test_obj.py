@@ -20,12 +20,12 @@ def read(folder: Path, text: str) -> Mesh:
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
     return colors
 
 
 def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
+    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
     return positions
 
 
@@ -65,8 +65,8 @@ def test_polygons_groups_comments_tabs_and_continued_lines(tmp_path: Path) -> No
     mesh = read(
         tmp_path, "# a square\no one\n" + SQUARE + "g side # here\ns off\nf\t1 2 \\\n3 4 # all\ng other\nf 4 3 2\n"
     )
-    assert len(np.asarray(mesh.faces)) == 3
-    assert len(np.asarray(mesh.positions)) == 4
+    assert mesh.triangles == 3
+    assert len(mesh.positions) == 4
 
 
 def test_normals_of_the_file_are_kept(tmp_path: Path) -> None:
@@ -82,7 +82,7 @@ def test_materials_color_their_faces(tmp_path: Path) -> None:
     (tmp_path / "two colours.mtl").write_text("newmtl warm\nKd 1 0.5 0\nNs 3\n\nnewmtl cold one\n\tKd 0 0 1\n")
     mesh = read(tmp_path, "mtllib two colours.mtl\n" + SQUARE + "usemtl warm\nf 1 2 3\nusemtl cold one\nf 1 3 4\n")
     assert corner_colors(mesh) == [[[255, 128, 0]] * 3, [[0, 0, 255]] * 3]
-    assert len(np.asarray(mesh.positions)) == 6
+    assert len(mesh.positions) == 6
 
 
 def test_faces_before_a_material_and_missing_materials_are_grey(tmp_path: Path) -> None:
@@ -176,10 +176,10 @@ def test_written_files_read_back(tmp_path: Path) -> None:
     )
     write_obj(mesh, tmp_path / "out.obj")
     back = read_mesh(tmp_path / "out.obj")
-    np.testing.assert_allclose(np.asarray(back.positions), np.asarray(mesh.positions), rtol=1e-8)
-    assert np.asarray(back.colors).tolist() == colors
+    np.testing.assert_allclose(back.positions, mesh.positions, rtol=1e-8)
+    assert back.colors.tolist() == colors
     assert np.asarray(back.normals).tolist() == np.asarray(mesh.normals).tolist()
-    assert np.asarray(back.faces).tolist() == [[0, 1, 2]]
+    assert back.faces.tolist() == [[0, 1, 2]]
 
 
 @pytest.mark.parametrize(

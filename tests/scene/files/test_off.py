@@ -17,13 +17,13 @@ def read(folder: Path, text: str) -> Mesh:
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
     return colors
 
 
 def test_plain(tmp_path: Path) -> None:
     mesh = read(tmp_path, "OFF\n# a square\n\n4 1 0\n" + SQUARE + "4 0 1 2 3\n")
-    assert np.asarray(mesh.faces).tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert mesh.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
 
 
@@ -37,7 +37,7 @@ def test_the_first_count_may_stand_in_the_header(tmp_path: Path) -> None:
 
 def test_a_concave_polygon_is_filled_as_it_is(tmp_path: Path) -> None:
     mesh = read(tmp_path, "OFF\n4 1 0\n0 2 0\n-1 0 0\n0 1 0\n1 0 0\n4 1 2 3 0\n")
-    a, b, c = np.moveaxis(np.asarray(mesh.positions)[np.asarray(mesh.faces)], 1, 0)
+    a, b, c = np.moveaxis(mesh.positions[mesh.faces], 1, 0)
     assert sorted((np.cross(b - a, c - a)[:, 2] / 2).tolist()) == [0.5, 0.5]
 
 

@@ -52,19 +52,19 @@ def test_what_carries_over_exactly() -> None:
     thing = scene.objects[0]
     assert (scene.width, scene.height, scene.invert) == (64, 64, True)
     assert (scene.background.top, scene.background.bottom) == ((0, 0, 40), (0, 0, 160))
-    assert np.asarray(thing.mesh.positions).tolist() == [[0, 0, 0], [10, 0, 0], [0, 10, 0]]
-    assert np.asarray(thing.mesh.faces).tolist() == [[0, 1, 2]]
-    assert np.asarray(thing.mesh.colors).tolist() == [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
-    assert np.asarray(thing.position).tolist() == [1, 2, -500]
-    assert np.asarray(thing.rotation).tolist() == [0, 0, 0, 1]
+    assert thing.mesh.positions.tolist() == [[0, 0, 0], [10, 0, 0], [0, 10, 0]]
+    assert thing.mesh.faces.tolist() == [[0, 1, 2]]
+    assert thing.mesh.colors.tolist() == [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
+    assert thing.position.tolist() == [1, 2, -500]
+    assert thing.rotation.tolist() == [0, 0, 0, 1]
     assert (thing.scale, thing.cull, thing.wireframe) == (3, False, True)
 
 
 def test_perspective_camera() -> None:
     camera = original_scene(document()).camera
     assert (camera.projection, camera.half_height, camera.near) == ("perspective", DEFAULT_HALF_HEIGHT, None)
-    assert np.asarray(camera.eye).tolist() == [0, 0, 0]
-    assert np.asarray(camera.target).tolist() == [0, 0, -1]
+    assert camera.eye.tolist() == [0, 0, 0]
+    assert camera.target.tolist() == [0, 0, -1]
 
 
 def test_orthographic_camera_spans_500_units_a_pixel() -> None:
@@ -83,7 +83,7 @@ def test_light() -> None:
     material, light = scene.objects[0].material, scene.lights[0]
     assert (material.shading, material.ambient, material.shininess) == ("flat", 1, 10)
     assert (material.diffuse, material.specular) == pytest.approx((0.8, 1.2))
-    assert (light.kind, light.color, np.asarray(light.vector).tolist()) == ("directional", (255, 255, 255), [-50, 0, 0])
+    assert (light.kind, light.color, light.vector.tolist()) == ("directional", (255, 255, 255), [-50, 0, 0])
     assert scene.ambient_light == (255, 255, 255)
 
 
@@ -135,7 +135,7 @@ def test_rotation_in_degrees_about_x_then_y_then_z() -> None:
 def test_negative_scale_mirrors_the_mesh() -> None:
     thing = original_scene(document(objScale=-2)).objects[0]
     assert thing.scale == 2
-    assert np.asarray(thing.mesh.positions).tolist() == [[0, 0, 0], [-10, 0, 0], [0, -10, 0]]
+    assert thing.mesh.positions.tolist() == [[0, 0, 0], [-10, 0, 0], [0, -10, 0]]
 
 
 def test_more_or_fewer_colors_than_vertices() -> None:

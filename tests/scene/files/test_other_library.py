@@ -77,8 +77,8 @@ def in_order(positions: Array, colors: Array) -> Array:
 
 def seen_here(path: Path) -> Array:
     mesh = read_mesh(path)
-    faces = np.asarray(mesh.faces)
-    return in_order(np.asarray(mesh.positions)[faces], np.asarray(mesh.colors)[faces].astype(float))
+    faces = mesh.faces
+    return in_order(mesh.positions[faces], mesh.colors[faces].astype(float))
 
 
 def seen_by_trimesh(path: Path, colored: bool) -> Array:

@@ -97,7 +97,7 @@ def test_every_key_in_toml(folder: Path) -> None:
     ]
     assert (camera.projection, camera.near) == ("perspective", 0.25)
     assert camera.half_height == pytest.approx(1)
-    assert [(light.kind, np.asarray(light.vector).tolist(), light.color) for light in scene.lights] == [
+    assert [(light.kind, light.vector.tolist(), light.color) for light in scene.lights] == [
         ("directional", [-1, 2, 3], (255, 204, 0)),
         ("point", [4, 5, 6], (255, 255, 255)),
         ("spot", [7, 8, 9], (255, 255, 255)),
@@ -107,7 +107,7 @@ def test_every_key_in_toml(folder: Path) -> None:
     assert np.asarray(first.position).tolist() == [1, 2, 3]
     np.testing.assert_allclose(rotate(first.rotation, [0, 1, 0]), [0, 0, 1], atol=1e-12)
     np.testing.assert_allclose(rotate(second.rotation, [1, 0, 0]), [0, 1, 0], atol=1e-12)
-    assert np.asarray(first.mesh.colors).tolist() == [[9, 8, 7]] * 3
+    assert first.mesh.colors.tolist() == [[9, 8, 7]] * 3
     assert (first.scale, first.cull, first.wireframe) == (2.5, False, True)
     assert first.material == Material("smooth", 0.1, 0.2, 0.3, 44)
     assert (first.opacity, second.opacity) == (0.25, 1)
@@ -165,12 +165,12 @@ def test_defaults_show_all_that_is_there(folder: Path) -> None:
     scene = scene_of(folder, objects=[thing(), thing(position=[40, 0, 0], scale=3)])
     assert (scene.width, scene.height, scene.background) == (128, 128, BACKGROUND)
     assert len(scene.lights) == 1
-    points = np.concatenate([np.asarray(o.position) + o.scale * np.asarray(o.mesh.positions) for o in scene.objects])
-    back = np.asarray(scene.camera.eye) - np.asarray(scene.camera.target)
+    points = np.concatenate([o.position + o.scale * o.mesh.positions for o in scene.objects])
+    back = scene.camera.eye - scene.camera.target
     back /= np.linalg.norm(back)
-    right = np.cross(np.asarray(scene.camera.up), back)
+    right = np.cross(scene.camera.up, back)
     right /= np.linalg.norm(right)
-    seen = points - np.asarray(scene.camera.eye)
+    seen = points - scene.camera.eye
     depth = -seen @ back
     assert (depth > 0).all()
     assert (np.abs(seen @ right) < DEFAULT_HALF_HEIGHT * depth).all()
@@ -209,7 +209,7 @@ def test_rotation_as_quaternion(folder: Path) -> None:
          "unknown key 'colour' in objects[0]; known are mesh, position, rotation, scale, "
          "color, material, cull, wireframe, opacity"),
         ({"objects": [thing(color="#fff")]},
-         "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, not '#fff'"),
+         "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not '#fff'"),
         ({"objects": [thing(color=[1, 2, 256])]},
          "objects[0].color must be red, green and blue from 0 to 255, not [1, 2, 256]"),
         ({"objects": [thing(scale="2")]}, "objects[0].scale must be a number, not '2'"),

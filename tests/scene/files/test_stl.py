@@ -1,7 +1,6 @@
 import struct
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from shackled.errors import InputError
@@ -13,12 +12,12 @@ ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendso
 
 
 def corner_colors(mesh: Mesh) -> list[list[list[int]]]:
-    colors: list[list[list[int]]] = np.asarray(mesh.colors)[np.asarray(mesh.faces)].tolist()
+    colors: list[list[list[int]]] = mesh.colors[mesh.faces].tolist()
     return colors
 
 
 def corner_positions(mesh: Mesh) -> list[list[list[float]]]:
-    positions: list[list[list[float]]] = np.asarray(mesh.positions)[np.asarray(mesh.faces)].tolist()
+    positions: list[list[list[float]]] = mesh.positions[mesh.faces].tolist()
     return positions
 
 
@@ -28,7 +27,7 @@ def test_stl_in_binary(tmp_path: Path) -> None:
     path.write_bytes(bytes(80) + struct.pack("<I", 2) + 2 * triangle)
     mesh = read_mesh(path)
     assert corner_positions(mesh) == [[list(p) for p in POINTS]] * 2
-    assert len(np.asarray(mesh.positions)) == 3
+    assert len(mesh.positions) == 3
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3] * 2
     assert mesh.normals is None
 
@@ -38,8 +37,8 @@ def test_stl_as_text_with_two_solids(tmp_path: Path) -> None:
     one = ASCII_STL.format("".join(f"vertex {x} {y} {z}\n" for x, y, z in POINTS))
     path.write_text(one + one.replace("vertex 1 0 0", "vertex 2 0 0"))
     mesh = read_mesh(path)
-    assert len(np.asarray(mesh.faces)) == 2
-    assert len(np.asarray(mesh.positions)) == 4
+    assert mesh.triangles == 2
+    assert len(mesh.positions) == 4
 
 
 def test_line_ends_of_an_old_mac_and_names_of_any_words(tmp_path: Path) -> None:

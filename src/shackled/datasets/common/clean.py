@@ -47,7 +47,7 @@ def prepare(
     if cap:
         mesh = capped(mesh)
     if turn_inside_out:
-        mesh = Mesh(mesh.positions, np.asarray(mesh.faces)[:, ::-1], mesh.colors)
+        mesh = Mesh(mesh.positions, mesh.faces[:, ::-1], mesh.colors)
     # simplified in a space of its own, so that the units of the file do not matter
     mesh = without_crumbs(reduce(placed(mesh, rotation), max_triangles))
     return placed(mesh)
@@ -55,10 +55,8 @@ def prepare(
 
 def clean(mesh: Mesh) -> Mesh:
     """One vertex for each position, no triangle twice, none back to back with another, and none without area."""
-    positions, first, number = np.unique(
-        np.asarray(mesh.positions) + 0.0, axis=0, return_index=True, return_inverse=True
-    )
-    faces = number.reshape(-1)[np.asarray(mesh.faces)]
+    positions, first, number = np.unique(mesh.positions + 0.0, axis=0, return_index=True, return_inverse=True)
+    faces = number.reshape(-1)[mesh.faces]
     faces = _without_doubles(faces)
     a, b, c = positions[faces].transpose(1, 0, 2)
     # of the indices too, for the area of a sliver may be rounded to more than zero
@@ -66,7 +64,7 @@ def clean(mesh: Mesh) -> Mesh:
     faces = faces[different & np.cross(b - a, c - a).any(axis=1)]
     if not len(faces):
         raise InputError("the mesh has no triangle with an area")
-    return _compact(positions, faces, np.asarray(mesh.colors)[first])
+    return _compact(positions, faces, mesh.colors[first])
 
 
 def _without_doubles(faces: Faces) -> Faces:
@@ -86,14 +84,14 @@ def _without_doubles(faces: Faces) -> Faces:
 
 def capped(mesh: Mesh) -> Mesh:
     """The mesh with a fan of triangles over each simple hole."""
-    positions, faces = np.asarray(mesh.positions), np.asarray(mesh.faces)
+    positions, faces = mesh.positions, mesh.faces
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     inner = set(map(tuple, edges[:, ::-1].tolist()))
     following: dict[int, int] = {}
     for a, b in edges.tolist():
         if (a, b) not in inner:
             following[b] = a  # a cap's edges run against those of the faces
-    colors, points, caps = list(np.asarray(mesh.colors)), list(positions), []
+    colors, points, caps = list(mesh.colors), list(positions), []
     while following:
         start, at = following.popitem()
         loop = [start]
@@ -111,12 +109,12 @@ def capped(mesh: Mesh) -> Mesh:
 
 def without_crumbs(mesh: Mesh) -> Mesh:
     """The mesh without parts, held together by no vertex, of a few triangles."""
-    faces = np.asarray(mesh.faces)
-    part = parts(faces, len(np.asarray(mesh.positions)))[faces[:, 0]]
+    faces = mesh.faces
+    part = parts(faces, len(mesh.positions))[faces[:, 0]]
     count = np.bincount(part)[part]
     least = min(CRUMB, count.max())
     kept = (count >= least) | (_size_of_parts(mesh, part) > CRUMB_SHARE**0.5)
-    return _compact(np.asarray(mesh.positions), faces[kept], np.asarray(mesh.colors))
+    return _compact(mesh.positions, faces[kept], mesh.colors)
 
 
 def parts(faces: Faces, count: int) -> NDArray[np.int64]:
@@ -154,7 +152,7 @@ def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
 
 def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
     """Turned, with the middle of its box at the origin, and its farthest vertex at the distance 1."""
-    positions = rotate(from_euler(rotation), np.asarray(mesh.positions))
+    positions = rotate(from_euler(rotation), mesh.positions)
     positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
     return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
 
@@ -163,7 +161,7 @@ def creased(mesh: Mesh, degrees: float) -> Mesh:
     """The mesh with normals that are smooth but across edges at which its faces turn by more than `degrees`: each
     corner takes the mean, weighted by area, of the faces around it that turn away from its own by less.
     """
-    positions, faces = np.asarray(mesh.positions), np.asarray(mesh.faces)
+    positions, faces = mesh.positions, mesh.faces
     a, b, c = positions[faces].transpose(1, 0, 2)
     areas = np.cross(b - a, c - a)
     units = areas / np.linalg.norm(areas, axis=1, keepdims=True)
@@ -179,30 +177,30 @@ def creased(mesh: Mesh, degrees: float) -> Mesh:
             mean = areas[near[units[near] @ units[number] >= least]].sum(axis=0)
             length = np.linalg.norm(mean)
             normals[number, corner] = mean / length if length else units[number]
-    return weld(positions, faces, np.asarray(mesh.colors)[faces], np.round(normals, 6))
+    return weld(positions, faces, mesh.colors[faces], np.round(normals, 6))
 
 
 def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
     """For each face, how large its part is across, as a share of the whole mesh."""
-    corners = np.asarray(mesh.positions)[np.asarray(mesh.faces)]
+    corners = mesh.positions[mesh.faces]
     low = np.full((part.max() + 1, 3), np.inf)
     high = -low
     np.minimum.at(low, part, corners.min(axis=1))
     np.maximum.at(high, part, corners.max(axis=1))
-    whole = np.linalg.norm(np.ptp(np.asarray(mesh.positions), axis=0))
+    whole = np.linalg.norm(np.ptp(mesh.positions, axis=0))
     return np.asarray(np.linalg.norm(high[part] - low[part], axis=1) / whole)
 
 
 def _clustered(mesh: Mesh, cells: int) -> Mesh:
     """The vertices in each cell of a grid, `cells` along its longest side, as one in their mean place."""
-    positions = np.asarray(mesh.positions)
+    positions = mesh.positions
     cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / cells))
     _, first, number = np.unique(cell, axis=0, return_index=True, return_inverse=True)
     number = number.reshape(-1)
     sums = np.zeros((len(first), 3))
     np.add.at(sums, number, positions)
     means = sums / np.bincount(number)[:, None]
-    return Mesh(means, number[np.asarray(mesh.faces)], np.asarray(mesh.colors)[first])
+    return Mesh(means, number[mesh.faces], mesh.colors[first])
 
 
 def _compact(positions: NDArray[np.float64], faces: Faces, colors: NDArray[np.uint8]) -> Mesh:

@@ -93,7 +93,7 @@ class Model:
 
     def staged(self, mesh: Mesh) -> Scene:
         """The scene of a prepared mesh, in the colours of its file if there are any."""
-        if self.color is not None and len(np.unique(np.asarray(mesh.colors), axis=0)) == 1:
+        if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
         return stage(
             mesh if self.crease is None else creased(mesh, self.crease),

@@ -273,7 +273,7 @@ def menger_sponge(depth: int = 2) -> Mesh:
 
 def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
     """The mesh in colours from `low` to `high` along an axis."""
-    height = np.asarray(mesh.positions) @ np.asarray(axis, dtype=np.float64)
+    height = mesh.positions @ np.asarray(axis, dtype=np.float64)
     share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
     ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
     colors = np.rint((1 - share) * ends[0] + share * ends[1]).astype(np.uint8)
@@ -282,12 +282,12 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
 
 def joined(*meshes: Mesh) -> Mesh:
     """All of them as one mesh, with the normals if all have some."""
-    starts = np.cumsum([0, *(len(np.asarray(mesh.positions)) for mesh in meshes)])
+    starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
     return Mesh(
-        np.concatenate([np.asarray(mesh.positions) for mesh in meshes]),
-        np.concatenate([np.asarray(mesh.faces) + start for mesh, start in zip(meshes, starts, strict=False)]),
-        np.concatenate([np.asarray(mesh.colors) for mesh in meshes]),
+        np.concatenate([mesh.positions for mesh in meshes]),
+        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
+        np.concatenate([mesh.colors for mesh in meshes]),
         np.concatenate(normals) if len(normals) == len(meshes) else None,
     )
 

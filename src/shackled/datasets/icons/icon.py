@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from ...scene.background import Background
@@ -15,7 +16,7 @@ from ...scene.material import Material
 from ...scene.mesh import Mesh
 from ...scene.object import Object
 from ...scene.packed_mesh import NORMAL_UNIT
-from ...scene.rotation import from_euler, rotate
+from ...scene.rotation import from_euler
 from ...scene.scene import Scene
 from ...scene.staging import Look, stage, view_axes
 from ..piece import Piece
@@ -52,7 +53,7 @@ class Icon:
         """The scene, 128 x 128 pixels unless it is rendered otherwise."""
         smooth = self.look.material.shading == "smooth"
         scene = stage(self.model().mesh(self.crease if smooth else None), self.look)
-        return replace(scene, objects=_cheaper(scene.objects[0], scene.camera))
+        return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
 
     def piece(self) -> Piece:
         """The icon as a piece of the dataset."""
@@ -88,7 +89,7 @@ def icon(
         background=Background(top, bottom),
         cull=True,
     )
-    look = replace(look, lights=[Light("directional", np.asarray(light) @ np.stack(view_axes(look)))])
+    look = evolve(look, lights=[Light("directional", np.asarray(light) @ np.stack(view_axes(look)))])
     return lambda model: Icon(model.__name__, title, model, look, licence, crease)
 
 
@@ -96,28 +97,27 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
     """Objects that look the same and cost less: the nearest triangles first, for what they hide is not lit; and those
     that are flat apart from the others, for they need no normals.
     """
-    positions, faces = np.asarray(o.mesh.positions), np.asarray(o.mesh.faces)
-    world = np.asarray(o.position) + rotate(o.rotation, o.scale * positions)
-    distance = np.linalg.norm(world - np.asarray(camera.eye), axis=1)[faces].mean(axis=1)
+    faces = o.mesh.faces
+    distance = np.linalg.norm(o.world_positions() - camera.eye, axis=1)[faces].mean(axis=1)
     order = np.argsort(distance, kind="stable")
     if o.mesh.normals is None:
-        return [replace(o, mesh=replace(o.mesh, faces=faces[order]))]
-    normals = np.asarray(o.mesh.normals)[faces[order]]
+        return [evolve(o, mesh=evolve(o.mesh, faces=faces[order]))]
+    normals = o.mesh.normals[faces[order]]
     flat = np.abs(normals - normals[:, :1]).max(axis=(1, 2)) < 1 / NORMAL_UNIT
     parts = []
     if flat.any():
-        material = replace(o.material, shading="flat")
-        parts.append(replace(o, mesh=_part(o.mesh, faces[order[flat]], smooth=False), material=material))
+        material = evolve(o.material, shading="flat")
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[flat]], smooth=False), material=material))
     if not flat.all():
-        parts.append(replace(o, mesh=_part(o.mesh, faces[order[~flat]], smooth=True)))
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[~flat]], smooth=True)))
     flat_is_nearer = flat.any() and distance[order[flat]].mean() < distance.mean()
     return parts if flat_is_nearer else parts[::-1]
 
 
 def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
     """Some of the faces, in that order, with the vertices that they need."""
-    columns = [np.asarray(mesh.positions), np.asarray(mesh.colors)]
-    if smooth:
-        columns.append(np.asarray(mesh.normals))
+    columns: list[NDArray[np.float64]] = [mesh.positions, mesh.colors.astype(np.float64)]
+    if smooth and mesh.normals is not None:
+        columns.append(mesh.normals)
     table, numbers = np.unique(np.hstack(columns)[faces.reshape(-1)], axis=0, return_inverse=True)
     return Mesh(table[:, :3], numbers.reshape(-1, 3), table[:, 3:6].astype(np.uint8), table[:, 6:] if smooth else None)

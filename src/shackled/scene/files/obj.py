@@ -51,14 +51,14 @@ def read_obj(path: Path) -> Mesh:
 def write_obj(mesh: Mesh, path: str | Path) -> None:
     """Writes positions, colours and, if there are any, normals."""
     lines = ["# Shackled"]
-    fractions = np.asarray(mesh.colors) / 255
-    for (x, y, z), (r, g, b) in zip(np.asarray(mesh.positions).tolist(), fractions.tolist(), strict=True):
+    fractions = mesh.colors / 255
+    for (x, y, z), (r, g, b) in zip(mesh.positions.tolist(), fractions.tolist(), strict=True):
         lines.append(f"v {x:.9g} {y:.9g} {z:.9g} {r:.4g} {g:.4g} {b:.4g}")
     corner = "{0}"
     if mesh.normals is not None:
         corner = "{0}//{0}"
-        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in np.asarray(mesh.normals).tolist()]
-    for face in (np.asarray(mesh.faces) + 1).tolist():
+        lines += [f"vn {x:.6g} {y:.6g} {z:.6g}" for x, y, z in mesh.normals.tolist()]
+    for face in (mesh.faces + 1).tolist():
         lines.append("f " + " ".join(corner.format(number) for number in face))
     Path(path).write_text("\n".join(lines) + "\n", encoding="ascii")
 

@@ -24,7 +24,7 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
     about its first corner where that fills it, as it does a convex one, else by ear clipping. InputError as in `Mesh`.
     """
     triangles, vertices = fans(sizes), np.asarray(vertices)
-    points = np.asarray(Mesh(positions, vertices[triangles[:, :3]]).positions)
+    points = Mesh(positions, vertices[triangles[:, :3]]).positions
     sizes = np.asarray(sizes, dtype=np.int64)
     polygon = triangles[:, 3]
     if not (sizes > 3).any():

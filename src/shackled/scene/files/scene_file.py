@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
+from attrs import evolve
 from numpy.typing import ArrayLike
 
 from ...errors import InputError
+from ...whole_file import check_output_file, write_output
 from ..background import Background
 from ..camera import DEFAULT_HALF_HEIGHT, Camera, half_height_of
 from ..light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, Light, LightKind
 from ..material import Material, Shading
 from ..mesh import Mesh
 from ..object import Object
-from ..rotation import from_axis_angle, from_euler, rotate
-from ..scene import Scene
-from ..staging import BACKGROUND, Look, frame, key_light, painted
+from ..rotation import from_axis_angle, from_euler
+from ..scene import DEFAULT_SIDE, Scene
+from ..staging import AZIMUTH, BACKGROUND, ELEVATION, MARGIN, Look, frame, key_light, painted
 from .mesh_file import read_mesh
 from .table import Table, about
 
@@ -48,9 +50,9 @@ def scene_of(document: Mapping[str, Any], folder: Path) -> Scene:
     look = Look(
         width=width,
         height=height,
-        azimuth=keys.number("azimuth", Look.azimuth),
-        elevation=keys.number("elevation", Look.elevation),
-        margin=keys.number("margin", Look.margin),
+        azimuth=keys.number("azimuth", AZIMUTH),
+        elevation=keys.number("elevation", ELEVATION),
+        margin=keys.number("margin", MARGIN),
     )
     return Scene(
         objects=objects,
@@ -66,8 +68,19 @@ def scene_of(document: Mapping[str, Any], folder: Path) -> Scene:
     )
 
 
-def write_scene(scene: Scene, path: str | Path) -> None:
-    """Writes a scene as JSON, with its meshes inside, such that loading it gives the same scene."""
+def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Write a scene as JSON, with its meshes inside, such that loading it gives the same scene.
+
+    InputError where the path is wrong, OutputError where the disk is full or fails.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".json":
+        raise InputError(f"the scene {path} must end in .json")
+    write_output(check_output_file(path, "scene"), encode_scene_file(scene))
+
+
+def encode_scene_file(scene: Scene) -> bytes:
+    """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
     camera = scene.camera
     document = {
         "size": [scene.width, scene.height],
@@ -103,7 +116,7 @@ def write_scene(scene: Scene, path: str | Path) -> None:
         ],
     }
     text = json.dumps(document, default=lambda array: array.tolist())
-    Path(path).write_text(text + "\n", encoding="ascii")
+    return f"{text}\n".encode("ascii")
 
 
 def _lamp(light: Light) -> dict[str, Any]:
@@ -118,7 +131,7 @@ def _lamp(light: Light) -> dict[str, Any]:
 def _size(table: Table) -> tuple[int, int]:
     size = table.get("size")
     if size is None:
-        return Scene.width, Scene.height
+        return DEFAULT_SIDE, DEFAULT_SIDE
     sides = size if isinstance(size, list) else [size, size]
     if len(sides) != 2 or not all(type(side) is int for side in sides):
         raise InputError(f"size must be a number of pixels, or width and height, not {size!r:.60}")
@@ -169,22 +182,17 @@ def _camera(keys: Table, look: Look, objects: list[Object]) -> Camera:
                 "orthographic" if orthographic else "perspective",
                 half_height,
             )
-            if not np.any(np.asarray(camera.up)):
+            if not camera.up.any():
                 raise InputError("up must not be (0, 0, 0)")
-            if np.array_equal(np.asarray(camera.eye), np.asarray(camera.target)):
+            if np.array_equal(camera.eye, camera.target):
                 raise InputError("eye and target are the same point")
         else:
-            placed = replace(
-                look, projection="orthographic" if orthographic else "perspective", half_height=half_height
-            )
-            points = [
-                np.asarray(thing.position) + rotate(thing.rotation, np.asarray(thing.mesh.positions) * thing.scale)
-                for thing in objects
-            ]
+            placed = evolve(look, projection="orthographic" if orthographic else "perspective", half_height=half_height)
+            points = [thing.world_positions() for thing in objects]
             camera = frame(np.concatenate(points) if points else np.zeros((1, 3)), placed)
             if orthographic and "half_height" in keys:
-                camera = replace(camera, half_height=half_height)
-        return replace(camera, near=keys.number("near", 0)) if "near" in keys else camera
+                camera = evolve(camera, half_height=half_height)
+        return evolve(camera, near=keys.number("near", 0)) if "near" in keys else camera
 
 
 def _light(value: object, where: str) -> Light:

@@ -23,7 +23,7 @@ def weld(
     as in `Mesh`.
     """
     checked = Mesh(positions, faces)
-    points, corners = np.asarray(checked.positions), np.asarray(checked.faces)
+    points, corners = checked.positions, checked.faces
     columns: list[NDArray[np.float64]] = [points[corners]]
     if colors is not None:
         columns.append(np.asarray(colors, dtype=np.float64))
