@@ -26,7 +26,7 @@ from shackled.datasets.genesis import generate, seed_of
 from shackled.datasets.genesis.contract import picture_on_chain
 from shackled.datasets.icons import pieces as icons
 from shackled.datasets.teapot import teapot
-from shackled.render import resize
+from shackled.scene.look import resize
 from shackled.scene.rotation import from_euler
 from shackled.scene.staging import Look, stage
 from shackled.stages import draw_stages

@@ -20,7 +20,7 @@ from shackled.animation import check_animation
 from shackled.artifacts import artifact
 from shackled.chain import CallResult, ContractChain, open_chain
 from shackled.chain.embedded import PyEvmChain, PyrevmChain
-from shackled.image import check_output, decode_bmp
+from shackled.image import FORMATS, check_output, decode_bmp
 from shackled.scene.codec import encode
 
 SCENE = Scene(
@@ -150,10 +150,51 @@ def test_images_are_values(image: Image) -> None:
             Image(wrong)
 
 
-def test_what_is_no_path(image: Image) -> None:
-    for save in (image.save, Animation([image]).save):
-        with pytest.raises(InputError, match=r"saved to a path, not to <_io\.BytesIO"):
-            save(io.BytesIO())  # type: ignore[arg-type]
+def test_open_files(image: Image, tmp_path: Path) -> None:
+    for made in (image, Animation([image])):
+        stream = io.BytesIO()
+        made.save(stream, "png")
+        assert stream.getvalue() == made.encode(".png")
+        with (tmp_path / "a.gif").open("wb") as file:
+            made.save(file)
+        assert (tmp_path / "a.gif").read_bytes() == made.encode(".gif")
+        with pytest.raises(InputError, match=r"^the format must be one of .*, not ''$"):
+            made.save(io.BytesIO())
+        with pytest.raises(InputError, match=r"^a picture is saved to a path or an open file, not to 5$"):
+            made.save(5)  # type: ignore[arg-type]
+
+
+def test_for_other_libraries(image: Image, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert (np.asarray(image) == image.pixels).all()
+    assert np.asarray(image, np.float32).dtype == np.float32
+    assert np.array(image).flags.writeable
+    assert np.asarray(Animation([image, image])).shape == (2, *image.pixels.shape)
+    assert (np.array(image.to_pil()) == image.pixels).all()
+    assert len(Animation([image, image]).to_pil()) == 2
+    for made, kinds in ((image, ("png", "bmp", "svg+xml", "gif")), (Animation([image]), ("png", "gif"))):
+        for kind in kinds:
+            head, _, data = made.data_uri(kind.partition("+")[0]).partition(",")
+            assert head == f"data:image/{kind};base64"
+            assert b64decode(data) == made.encode(kind.partition("+")[0])
+    shown: list[Any] = []
+    monkeypatch.setattr("PIL.Image.Image.show", lambda picture: shown.append(picture.size))
+    monkeypatch.setattr("webbrowser.open", lambda uri: shown.append(Path(uri.removeprefix("file://"))))
+    image.show()
+    Animation([image]).show()
+    assert shown[0] == (image.width, image.height)
+    assert shown[1].read_bytes() == Animation([image]).encode(".png")
+    shown[1].unlink()
+
+
+def test_each_format_holds_the_pixels(image: Image) -> None:
+    """Of few colours, so that all formats can."""
+    few = evolve(image, pixels=image.pixels & np.uint8(0xC0), bmp=b"")
+    for extension in FORMATS:
+        data = few.encode(extension)
+        if extension == ".svg":
+            data = b64decode(ElementTree.fromstring(data.decode())[0].attrib["href"].partition(",")[2])
+        with PillowImage.open(io.BytesIO(data)) as picture:
+            assert (np.array(picture.convert("RGB")) == few.pixels).all()
 
 
 def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -168,11 +209,11 @@ def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
     expected = chain.count(SCENE)
     run = chain._run
     monkeypatch.setattr(chain, "_run", counted)
-    image = render(SCENE, chain=chain)
+    image = render(SCENE, on=chain)
     assert (image.triangles, image.lit_pixels) == expected
     assert made == [artifact("Renderer").selectors["render"]]
     made.clear()
-    image = render(SCENE, chain=chain, tile=(37, 7))
+    image = render(SCENE, on=chain, tile=(37, 7))
     assert (image.triangles, image.lit_pixels) == expected
     assert [each for each in made if each == artifact("Renderer").selectors["renderTile"]] == made
     assert len(made) == 3

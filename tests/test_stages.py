@@ -55,12 +55,12 @@ def test_a_triangle_becomes_a_picture() -> None:
     assert inside[18, 12]
     assert drawn(triangles, of)[8:24, 7:9].any(axis=1).all()
     # 16 x 16 / 2, by the fill rule
-    assert inside.sum() == render(of, chain=REFERENCE).lit_pixels
+    assert inside.sum() == render(of, on=REFERENCE).lit_pixels
     assert (drawn(lit, of) == inside).all()
     # light darkens, and the picture is light over the background
     assert lit.pixels[inside].sum() < filled.pixels[inside].sum() * 2.3
     assert (picture.pixels[inside] == lit.pixels[inside]).all()
-    assert (picture.pixels[~inside] == render(scene(objects=[]), chain=REFERENCE).pixels[~inside]).all()
+    assert (picture.pixels[~inside] == render(scene(objects=[]), on=REFERENCE).pixels[~inside]).all()
 
 
 def test_the_picture_is_the_one_that_render_makes() -> None:

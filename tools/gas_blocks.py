@@ -13,11 +13,11 @@ from __future__ import annotations
 import argparse
 import sys
 
+from shackled import load
 from shackled.errors import InputError, RenderError
 from shackled.gas.blocks import blocks, functions
 from shackled.gas.exact import render_call
 from shackled.gas.trace import Frame, trace
-from shackled.load import load
 
 
 def main() -> int:

@@ -4,11 +4,12 @@ from importlib.metadata import PackageNotFoundError, version
 
 from attrs import evolve as replace
 
+from ._load import load
+from ._on import Cluster, Nodes, Processes
+from ._render import render, turntable
 from .animation import Animation
 from .errors import InputError, OutputError, RenderError
 from .image import Image
-from .load import load
-from .render import render, turntable
 from .scene.background import Background
 from .scene.camera import Camera
 from .scene.light import Light
@@ -27,13 +28,16 @@ __all__ = [
     "Animation",
     "Background",
     "Camera",
+    "Cluster",
     "Image",
     "InputError",
     "Light",
     "Material",
     "Mesh",
+    "Nodes",
     "Object",
     "OutputError",
+    "Processes",
     "RenderError",
     "Scene",
     "__version__",
@@ -43,3 +47,8 @@ __all__ = [
     "replace",
     "turntable",
 ]
+
+
+def __dir__() -> list[str]:
+    """Name what is meant to be used, and not the modules in which it stands."""
+    return __all__

@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-import io
 import os
+import tempfile
+import webbrowser
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from attrs import field, frozen
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 
 from .checks import number
 from .errors import InputError
-from .image import Image, as_path, check_extension, gas_in_short
+from .image import (
+    Format,
+    Image,
+    as_array,
+    check_extension,
+    data_uri,
+    gas_in_short,
+    one_of,
+    pillow_bytes,
+    write_open,
+)
 from .palette import indexed
 from .scene.value import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
-#: What `Animation.save` can write, by extension; a name without one is a folder.
-FORMATS = (".gif", ".png")
 #: Milliseconds that a frame is shown.
 DURATION = 80
 
@@ -68,41 +77,80 @@ class Animation:
         return _sum([frame.intrinsic_gas for frame in self.frames])
 
     @property
+    def calls(self) -> int:
+        """How many made all frames."""
+        return sum(frame.calls for frame in self.frames)
+
+    @property
     def pixels(self) -> NDArray[np.uint8]:
         """(n, H, W, 3): n frames."""
         return np.stack([frame.pixels for frame in self.frames])
 
     def encode(self, extension: str) -> bytes:
-        """The bytes of a file: ".gif" (256 colours for all frames together, the nearest where there are more) or ".png"
-        (an APNG, exact). InputError for any other.
+        """Return the bytes of a file: ".gif" (256 colours for all frames together, the nearest where there are more) or
+        ".png" (an APNG, exact). InputError for any other.
         """
-        extension = check_extension(extension, FORMATS)
-        stream = io.BytesIO()
-        if extension == ".gif":
-            pictures = indexed([frame.pixels for frame in self.frames])
-            options: dict[str, Any] = {"format": "GIF", "optimize": False, "disposal": 1}
-        else:
-            pictures = [PillowImage.fromarray(frame.pixels) for frame in self.frames]
-            options = {"format": "PNG", "default_image": False}
-        durations = [self.duration] * len(pictures)
-        pictures[0].save(stream, save_all=True, append_images=pictures[1:], loop=0, duration=durations, **options)
-        return stream.getvalue()
+        return FORMATS[check_extension(extension, FORMATS)].encode(self)
 
-    def save(self, path: str | Path) -> None:
-        """Writes a file, in the format of its extension, whole or not at all; or a folder of numbered PNG files.
+    def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
+        """Write a file in the format of its extension, whole or not at all, or to an open file, in that of `extension`.
 
-        InputError where the path is wrong, OutputError where the disk is full or fails.
+        A path without an extension is a folder of numbered PNG files.
+        InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
         """
-        path = check_animation(path)
+        if not isinstance(file, str | os.PathLike):
+            write_open(file, extension, FORMATS, self.encode)
+            return
+        path = check_animation(file)
         if path.suffix:
-            write_output(path, self.encode(path.suffix))
+            write_output(path, self.encode(extension or path.suffix))
             return
         make_output_folder(path)
         for name, frame in zip(frame_names(len(self.frames)), self.frames, strict=True):
             write_output(path / name, frame.encode(".png"))
 
+    def data_uri(self, extension: str = ".png") -> str:
+        """Return a URI that holds a file, for HTML and JSON."""
+        return data_uri(FORMATS[check_extension(extension, FORMATS)].media_type, self.encode(extension))
+
+    def to_pil(self) -> list[PillowImage.Image]:
+        """Return the frames as images of Pillow."""
+        return [frame.to_pil() for frame in self.frames]
+
+    def show(self) -> None:
+        """Open the animation in the browser of the system."""
+        with tempfile.NamedTemporaryFile(prefix="shackled-", suffix=".png", delete=False) as file:
+            self.save(file, ".png")
+        webbrowser.open(Path(file.name).as_uri())
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        """Return the pixels, (n, H, W, 3), for functions of NumPy and those who use it."""
+        return as_array(self.pixels, dtype, copy)
+
     def _repr_mimebundle_(self, **_: Any) -> dict[str, bytes]:
         return {"image/png": self.encode(".png")}
+
+
+def _encode(animation: Animation, pictures: Sequence[PillowImage.Image], name: str, **options: Any) -> bytes:
+    durations = [animation.duration] * len(pictures)
+    more = {"save_all": True, "append_images": pictures[1:], "loop": 0, "duration": durations}
+    return pillow_bytes(pictures[0], name, **more, **options)
+
+
+def _encode_gif(animation: Animation) -> bytes:
+    pictures = indexed([frame.pixels for frame in animation.frames])
+    return _encode(animation, pictures, "GIF", optimize=False, disposal=1)
+
+
+def _encode_apng(animation: Animation) -> bytes:
+    return _encode(animation, animation.to_pil(), "PNG", default_image=False)
+
+
+#: What `Animation.save` can write, by extension; a name without one is a folder.
+FORMATS: dict[str, Format[Animation]] = {
+    ".gif": Format("image/gif", _encode_gif),
+    ".png": Format("image/png", _encode_apng),
+}
 
 
 def frame_names(count: int) -> list[str]:
@@ -111,11 +159,11 @@ def frame_names(count: int) -> list[str]:
     return [f"{frame:0{digits}}.png" for frame in range(count)]
 
 
-def check_animation(path: str | Path) -> Path:
+def check_animation(path: str | os.PathLike[str]) -> Path:
     """The path, if an animation can be saved there."""
-    path = as_path(path)
+    path = Path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
-        raise InputError(f"the turntable {path} must end in .gif or .png, or in nothing for a folder of pictures")
+        raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or in nothing for a folder of pictures")
     is_file = path.suffix or not os.path.lexists(path)
     return check_output_file(path, "turntable") if is_file else check_output_folder(path)
 

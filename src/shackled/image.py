@@ -6,12 +6,14 @@ import base64
 import io
 import os
 import struct
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
+from typing import Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
 from attrs import field, frozen
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 
 from .checks import fixed
@@ -20,9 +22,6 @@ from .palette import indexed
 from .scene.scene import Scene
 from .scene.value import array_key, plural
 from .whole_file import check_output_file, write_output
-
-#: What `Image.save` can write, by extension.
-FORMATS = (".png", ".bmp", ".svg", ".gif")
 
 Pixels = NDArray[np.uint8]
 
@@ -45,7 +44,7 @@ class Image:
         given.
     gas, intrinsic_gas: of the execution, and what a transaction costs before it; None where none is counted.
     chain: where it was made. seconds: how long the call took; this alone is not compared by ==.
-    scene: what it shows; None if that is not known.
+    scene: what it shows; None if that is not known. calls: how many made it.
     """
 
     pixels: Pixels = field(converter=_pixels, eq=array_key)
@@ -55,6 +54,7 @@ class Image:
     chain: str = ""
     seconds: float = field(default=0.0, eq=False)
     scene: Scene | None = None
+    calls: int = 1
 
     def __attrs_post_init__(self) -> None:
         """Encode the pixels where the file is not given."""
@@ -89,35 +89,37 @@ class Image:
         return (None, None) if self.scene is None else count(self.scene)
 
     def encode(self, extension: str) -> bytes:
-        """The bytes of a file: ".png", ".bmp" (as the contract made it), ".svg" (the BMP in a frame that scales without
-        smoothing) or ".gif" (at most 256 colours; the nearest where there are more). InputError for any other.
+        """Return the bytes of a file: ".png", ".bmp" (as the contract made it), ".svg" (the BMP in a frame that scales
+        without smoothing) or ".gif" (at most 256 colours; the nearest where there are more). InputError for any other.
         """
-        extension = check_extension(extension, FORMATS)
-        if extension == ".bmp":
-            return self.bmp
-        if extension == ".svg":
-            return self._svg().encode()
-        picture = indexed([self.pixels])[0] if extension == ".gif" else PillowImage.fromarray(self.pixels)
-        stream = io.BytesIO()
-        picture.save(stream, extension.removeprefix("."))
-        return stream.getvalue()
+        return FORMATS[check_extension(extension, FORMATS)].encode(self)
 
-    def save(self, path: str | Path) -> None:
-        """Writes a file, in the format of its extension; it is there whole or not at all.
+    def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
+        """Write a file in the format of its extension, whole or not at all; or to an open file, in that of `extension`.
 
-        InputError where the path is wrong, OutputError where the disk is full or fails.
+        InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
         """
-        path = check_output(path)
-        write_output(path, self.encode(path.suffix))
+        if not isinstance(file, str | os.PathLike):
+            write_open(file, extension, FORMATS, self.encode)
+            return
+        path = check_output(file)
+        write_output(path, self.encode(extension or path.suffix))
 
-    def _svg(self) -> str:
-        # character by character what the contract's renderSVG returns
-        data = base64.b64encode(self.bmp).decode()
-        return (
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}">'
-            f'<image width="{self.width}" height="{self.height}" style="image-rendering:pixelated"'
-            f' href="data:image/bmp;base64,{data}"/></svg>'
-        )
+    def data_uri(self, extension: str = ".png") -> str:
+        """Return a URI that holds a file, for HTML and JSON."""
+        return data_uri(FORMATS[check_extension(extension, FORMATS)].media_type, self.encode(extension))
+
+    def to_pil(self) -> PillowImage.Image:
+        """Return the picture as an image of Pillow."""
+        return PillowImage.fromarray(self.pixels)
+
+    def show(self) -> None:
+        """Open the picture in the viewer of the system."""
+        self.to_pil().show()
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        """Return the pixels, (H, W, 3), for functions of NumPy and those who use it."""
+        return as_array(self.pixels, dtype, copy)
 
     def __repr__(self) -> str:
         triangles = "" if self.triangles is None else f", {plural(self.triangles, 'triangle')}"
@@ -127,26 +129,93 @@ class Image:
         return self.encode(".png")
 
 
-def check_output(path: str | Path) -> Path:
-    """The path, if a picture can be saved there."""
-    path = as_path(path)
+Encoded = TypeVar("Encoded")
+
+
+@frozen
+class Format(Generic[Encoded]):
+    """A format of files: its media type, and how something is encoded in it."""
+
+    media_type: str
+    encode: Callable[[Encoded], bytes]
+
+
+def _encode_png(image: Image) -> bytes:
+    return pillow_bytes(image.to_pil(), "PNG")
+
+
+def _encode_svg(image: Image) -> bytes:
+    # character by character what the contract's renderSVG returns
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {image.width} {image.height}">'
+        f'<image width="{image.width}" height="{image.height}" style="image-rendering:pixelated"'
+        f' href="{data_uri("image/bmp", image.bmp)}"/></svg>'
+    ).encode()
+
+
+def _encode_gif(image: Image) -> bytes:
+    return pillow_bytes(indexed([image.pixels])[0], "GIF")
+
+
+#: What `Image.save` can write, by extension.
+FORMATS: dict[str, Format[Image]] = {
+    ".png": Format("image/png", _encode_png),
+    ".bmp": Format("image/bmp", lambda image: image.bmp),
+    ".svg": Format("image/svg+xml", _encode_svg),
+    ".gif": Format("image/gif", _encode_gif),
+}
+
+
+def one_of(formats: Iterable[str]) -> str:
+    """Return extensions in words, such as ".png .bmp or .gif"."""
+    *others, last = formats
+    return f"{' '.join(others)} or {last}"
+
+
+def pillow_bytes(picture: PillowImage.Image, name: str, **options: Any) -> bytes:
+    """Return the bytes of a file as Pillow writes it in a format of that name."""
+    stream = io.BytesIO()
+    picture.save(stream, name, **options)
+    return stream.getvalue()
+
+
+def data_uri(media_type: str, data: bytes) -> str:
+    """Return a URI that holds the bytes of a file."""
+    return f"data:{media_type};base64,{base64.b64encode(data).decode()}"
+
+
+def as_array(pixels: Pixels, dtype: DTypeLike | None, copy: bool | None) -> NDArray[Any]:
+    """Return what `__array__` gives for pixels; ValueError where that would be a copy and none is wanted."""
+    changed = dtype is not None and np.dtype(dtype) != pixels.dtype
+    if changed and copy is False:
+        raise ValueError(f"pixels are {pixels.dtype}: an array of another type is a copy")
+    return pixels.astype(dtype) if changed else pixels.copy() if copy else pixels
+
+
+def write_open(
+    file: object, extension: str | None, formats: Mapping[str, object], encode: Callable[[str], bytes]
+) -> None:
+    """Write to an open file, in the format of `extension` or else of its name. InputError if it is neither."""
+    if not hasattr(file, "write"):
+        raise InputError(f"a picture is saved to a path or an open file, not to {file!r:.60}")
+    name = getattr(file, "name", "")
+    file.write(encode(extension or check_extension(Path(name if isinstance(name, str) else "").suffix, formats)))
+
+
+def check_output(path: str | os.PathLike[str]) -> Path:
+    """Return the path, if a picture can be saved there. InputError if not."""
+    path = Path(path)
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"the picture {path} must end in one of {' '.join(FORMATS)}")
     return check_output_file(path, "picture")
 
 
-def as_path(path: object) -> Path:
-    """A path. InputError for anything else, such as a stream."""
-    if not isinstance(path, str | os.PathLike):
-        raise InputError(f"a picture is saved to a path, not to {path!r:.60}; encode() gives the bytes")
-    return Path(path)
-
-
-def check_extension(extension: object, formats: tuple[str, ...]) -> str:
-    """One of the formats, given as "png", ".png" or ".PNG"."""
+def check_extension(extension: object, formats: Iterable[str]) -> str:
+    """Return one of the formats, given as "png", ".png" or ".PNG". InputError for any other."""
+    known = tuple(formats)
     found = f".{extension.removeprefix('.').lower()}" if isinstance(extension, str) else None
-    if found not in formats:
-        raise InputError(f"the format must be one of {' '.join(formats)}, not {extension!r:.60}")
+    if found not in known:
+        raise InputError(f"the format must be one of {' '.join(known)}, not {extension!r:.60}")
     return found
 
 

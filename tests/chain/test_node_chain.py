@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
-from shackled import Background, Camera, Light, Material, Object, Scene, render
+from shackled import Background, Camera, Light, Material, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
 from shackled.bench.anvil import Anvil
 from shackled.chain import Drawing, open_chain, open_node
@@ -350,7 +350,7 @@ def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> N
     scene = large_scene(1500)
     words = r"allows a call too little gas for this: [\d,]+, and it knows no state overrides: to bring the"
     with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
-        for draw in (open_node(other).draw, lambda scene: render(scene, rpc=other)):
+        for draw in (open_node(other).draw, lambda scene: render(scene, on=Nodes(other))):
             with pytest.raises(OutOfGasError, match=words) as error:
                 draw(scene)
             assert "run shackled deploy" in str(error.value)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import xml.etree.ElementTree as ElementTree
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +18,11 @@ pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
 
 from shackled import load, render
 from shackled.cli.app import app, run
-from shackled.cli.look_options import chosen_look
+from shackled.cli.look_options import option_of
 from shackled.datasets import Piece
 from shackled.gas import trace
 from shackled.gas.stages import STAGES
+from shackled.scene.look import SETTINGS
 
 
 def report(capsys: pytest.CaptureFixture[str], *options: str) -> dict[str, Any]:
@@ -104,7 +104,7 @@ def test_the_look_is_that_of_render(capsys: pytest.CaptureFixture[str], options:
 def test_the_options_of_a_look_are_the_same_everywhere() -> None:
     commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]
     options = {name: {o for p in commands[name].params for o in p.opts} for name in ("render", "gas", "stages")}
-    look = {"--" + name.replace("_", "-") for name in signature(chosen_look).parameters}
+    look = {option_of(setting).partition("/")[0] for setting in SETTINGS}
     assert len(look) > 20
     for given in options.values():
         assert look <= given
@@ -112,7 +112,7 @@ def test_the_options_of_a_look_are_the_same_everywhere() -> None:
 
 def test_who_made_a_piece_is_said_once(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     piece = Piece("set/shape", "set", "A shape", "CC BY 4.0", lambda: load("shape.obj"), credit="Somebody")
-    monkeypatch.setattr("shackled.cli.gas.locate", lambda _: piece)
+    monkeypatch.setattr("shackled.cli.look_options.locate", lambda _: piece)
     assert run(["gas", "set/shape", "--json", "--no-stages", "--size", "8"]) == 0
     assert capsys.readouterr().err == "set/shape: A shape by Somebody; licence: CC BY 4.0\n"
 

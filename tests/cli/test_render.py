@@ -96,6 +96,11 @@ def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) 
         ["--wireframe"],
         ["--opacity", "0.5"],
         ["--invert"],
+        ["--azimuth", "-60"],
+        ["--elevation", "70"],
+        ["--margin", "0.5"],
+        ["--ambient-light", "#ff0000"],
+        ["--color", "tomato"],
     ],
     ids=" ".join,
 )
@@ -183,19 +188,22 @@ WRONG = [
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),
     (["render", "shape.obj", "--eye", "0,0,0", "--target", "0,0,0"], "same point"),
     (["render", "shape.obj", "--eye", "0,5,0", "--target", "0,0,0"], "choose another up"),
-    (["render", "shape.obj", "--fov", "180"], "field of view"),
+    (["render", "shape.obj", "--fov", "180"], "--fov must be a finite number from 0.2 to 179.8"),
     (["render", "shape.obj", "--fov", "wide"], "--fov"),
     (["render", "shape.obj", "--fov", "40", "--half-height", "1"], "give one of them"),
     (["render", "shape.obj", "--fov", "40", "--orthographic"], "--half-height instead"),
     (["render", "shape.obj", "--near", "-1"], "near"),
+    (["render", "shape.obj", "--azimuth", "5", "--eye", "1,2,3"], "--azimuth and --eye exclude each other"),
+    (["render", "shape.obj", "--margin", "1"], "--margin must be a finite number from 0 to 0.9"),
+    (["render", "shape.obj", "--ambient-light", "dim"], "--ambient-light must be red, green and blue"),
     (["render", "shape.obj", "--light", "lamp:1,2,3"], "--light must be directional:x,y,z"),
     (["render", "shape.obj", "--light", "directional:0,0,0"], "must not be zero"),
-    (["render", "shape.obj", "--light", "point:1,2,3:red"], "#rrggbb"),
+    (["render", "shape.obj", "--light", "point:1,2,3:reddish"], "#rrggbb"),
     (["render", "shape.obj", "--light", "spot:1,2,3"], "spot:position:direction:angle"),
     (["render", "shape.obj", "--light", "spot:1,2,3:0,0,1:wide"], "--light spot needs the angle in degrees"),
     (["render", "shape.obj", "--light", "spot:1,2,3:0,0,1:1,2,3"], "--light spot needs the angle in degrees"),
     (["render", "shape.obj", "--light", "spot:1,2,3:0,0,1:200"], "from 0 to 180"),
-    (["render", "shape.obj", "--opacity", "1.5"], "opacity of an object"),
+    (["render", "shape.obj", "--opacity", "1.5"], "--opacity must be"),
     (["render", "shape.obj", *(["--light", "point:1,2,3"] * 5)], "up to 4 lights"),
     (["render", "shape.obj", "--ambient", "-1"], "ambient"),
     (["render", "shape.obj", "--shininess", "0"], "shininess"),
@@ -291,7 +299,7 @@ def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) 
     faces = "\n".join(f"f {a} {b} {c}" for a, b, c in rng.permutation(70000)[:69999].reshape(-1, 3) + 1)
     Path("large.obj").write_text(f"{vertices}\n{faces}\n", "utf-8")
     assert run(["render", "large.obj"]) == 2
-    assert "use --max-triangles N" in capsys.readouterr().err
+    assert "simplify them with --max-triangles" in capsys.readouterr().err
 
 
 def test_refusals_and_interrupts_exit_with_1(
@@ -299,7 +307,7 @@ def test_refusals_and_interrupts_exit_with_1(
 ) -> None:
     from shackled.chain.embedded import EmbeddedChain, PyrevmChain
 
-    monkeypatch.setattr("shackled.cli.render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled._render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
 

@@ -9,7 +9,7 @@ from shackled.creator.fits import by_trying, headline, places
 from shackled.gas.exact import measure, render_call
 from shackled.gas.limits import limits
 from shackled.gas.search import search, suffices
-from shackled.render import resize
+from shackled.scene.look import resize
 
 
 def test_a_small_picture_fits_everywhere() -> None:

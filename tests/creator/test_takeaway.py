@@ -35,7 +35,7 @@ from shackled.creator.store import Stored
 from shackled.creator.subject import Subject
 from shackled.creator.takeaway import KINDS, make
 from shackled.gas.exact import render_call
-from shackled.render import simplify_scene
+from shackled.scene.simplify import simplify_scene
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SOLC = ROOT / "contracts" / "node_modules" / "solc"
@@ -264,7 +264,7 @@ def test_the_python_snippet_of_an_upload(tmp_path: Path) -> None:
     assert file.name == "a-b-c.py"
     (tmp_path / "a.py").write_bytes(file.data)
     subprocess.run([sys.executable, "a.py"], cwd=tmp_path, check=True, capture_output=True)
-    changed = (tmp_path / "a.py").read_text().replace("scene, 90", "scene, 80")
+    changed = (tmp_path / "a.py").read_text().replace("max_triangles=90", "max_triangles=80")
     (tmp_path / "b.py").write_text(changed)
     assert subprocess.run([sys.executable, "b.py"], cwd=tmp_path, check=False, capture_output=True).returncode != 0
 

@@ -12,7 +12,8 @@ import pytest
 from attrs import evolve
 
 import shackled
-from shackled import Image, InputError, RenderError, Scene, load
+from shackled import Image, InputError, Nodes, Processes, RenderError, Scene, load
+from shackled._render import render_whole
 from shackled.chain import open_chain
 from shackled.chain.embedded import PyrevmChain
 from shackled.parallel import Where, referee, render_frames
@@ -23,7 +24,6 @@ from shackled.parallel.place import ChainPlace
 from shackled.parallel.processes import ProcessPlace
 from shackled.parallel.referee import Referee
 from shackled.parallel.store import Store
-from shackled.render import render_whole
 from shackled.scene.codec import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)
@@ -122,7 +122,7 @@ def test_errors_of_a_worker_are_told() -> None:
 def test_the_interface_of_python(tmp_path: Path) -> None:
     picture = shackled.render("cube", 40)
     assert (shackled.render("cube", 40, tile=(40, 9)).pixels == picture.pixels).all()
-    assert (shackled.render("cube", 40, tile=16, jobs=2).pixels == picture.pixels).all()
+    assert (shackled.render("cube", 40, tile=16, on=Processes(2)).pixels == picture.pixels).all()
     spin = shackled.turntable("cube", 4, size=24, duration=50)
     assert spin.pixels.shape == (4, 24, 24, 3)
     assert spin.gas == sum(frame.gas or 0 for frame in spin.frames)
@@ -134,24 +134,29 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"jobs": 0}, "--jobs must be from 1 to 256, not 0"),
-        ({"jobs": 1.5}, "--jobs must be from 1 to 256"),
-        ({"gas_limit": 0}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000, not 0"),
-        ({"gas_limit": 10**30}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000"),
-        ({"tile": 0}, "sides of a --tile must be whole numbers from 1"),
-        ({"tile": "big"}, "the size of a tile must be one number"),
-        ({"rpc": "http://127.0.0.1:1", "cluster": ""}, "give --rpc or --cluster"),
-        ({"rpc": "http://127.0.0.1:1", "chain": "pyrevm"}, "leave out --chain"),
-        ({"rpc": ["nowhere"]}, "must be the address of a node"),
-        ({"address": "0x00"}, "--address is about a node"),
-        ({"verify": "all"}, "--verify is about nodes or a cluster: give --rpc or --cluster too"),
-        ({"rpc": "http://127.0.0.1:1", "verify": "most"}, "--verify must be all, some or none, not 'most'"),
-        ({"chain": open_chain("reference"), "jobs": 2}, "give its name"),
+        ({"on": Processes(0)}, "jobs= must be from 1 to 256, not 0"),
+        ({"on": Processes(1.5)}, "jobs= must be from 1 to 256"),  # type: ignore[arg-type]
+        ({"gas_limit": 0}, "gas_limit= must be a whole number of gas from 1 to 30,000,000,000, not 0"),
+        ({"gas_limit": 10**30}, "gas_limit= must be a whole number of gas from 1 to 30,000,000,000"),
+        ({"tile": 0}, "sides of a tile= must be whole numbers from 1"),
+        ({"tile": "big"}, r"tile= must be one number or \(width, height\)"),
+        ({"on": "http://127.0.0.1:1"}, r"a node is Nodes\('http://127.0.0.1:1'\), not its address alone"),
+        ({"on": "moon"}, "the chains are pyrevm, pyevm, reference"),
+        ({"on": 5}, "on= must be one of pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
+        ({"on": Nodes("nowhere")}, "must be the address of a node"),
+        ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "verify= must be all, some or none, not 'most'"),
+        ({"on": Processes(2, open_chain("reference"))}, "give its name"),  # type: ignore[arg-type]
     ],
 )
 def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
     with pytest.raises(InputError, match=message):
         shackled.render("cube", 16, **options)  # type: ignore[arg-type]
+
+
+def test_nodes_need_addresses() -> None:
+    for urls in ((), (5,), (["http://127.0.0.1:1"],)):
+        with pytest.raises(InputError, match=r"^the addresses of nodes are needed, such as http://127\.0\.0\.1:8545"):
+            Nodes(*urls)
 
 
 def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, whole: Image) -> None:

@@ -12,12 +12,12 @@ from attrs import evolve
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, each_third, proxy
 from shackled import Image, RenderError, load
+from shackled._render import render_whole
 from shackled.chain import open_chain
 from shackled.chain.addresses import PROXY
 from shackled.errors import NodeError
 from shackled.parallel import Listener, Outline, Where, render_frames, scheduler
 from shackled.parallel import job as job_module
-from shackled.render import render_whole
 from shackled.scene.turning import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)

@@ -13,7 +13,6 @@ from shackled import Background, Camera, InputError, Light, Material, Mesh, Obje
 from shackled.parallel import Where
 from shackled.scene.rotation import rotate
 from shackled.scene.simplify import simplify
-from shackled.scene.staging import Look
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]
 MESH = Mesh(CORNERS, FACES)
@@ -315,10 +314,10 @@ def test_scenes_are_saved(tmp_path: Any) -> None:
         (lambda: scene(camera=MESH), "the camera of a scene must be a shackled.Camera, not <Mesh 3 vertices"),
         (lambda: scene(background=MESH), "the background colour must be red, green and blue from 0 to 255, not <Mesh"),
         (lambda: Object(MESH, cull="no"), "cull of an object must be True or False, not 'no'"),
-        (lambda: render(MESH), "a Scene, the path of a file or the name of a piece is needed, not <Mesh 3 vertices"),  # type: ignore[arg-type]
-        (lambda: load((CORNERS, FACES)), "a Scene, the path of a file or the name of a piece is needed, not ([("),  # type: ignore[arg-type]
-        (lambda: load("x.obj", look=5), "the look of a mesh must be a shackled.Look, not 5"),  # type: ignore[arg-type]
-        (lambda: load("cube", Look()), "cube says itself how it looks: leave out the look, which is for mesh files"),
+        (lambda: render(5), "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is "),
+        (lambda: load([]), "vertices and faces are needed, not 0 parts: []"),
+        (lambda: load((CORNERS,)), "vertices and faces are needed, not 1 parts: ([("),
+        (lambda: load((CORNERS, 5)), "the faces of a mesh must be rows of 3 numbers, not of shape ()"),
     ],
 )
 def test_wrong_kinds_are_one_clear_error(make: Any, message: str) -> None:

@@ -95,7 +95,7 @@ def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, sh
         (("show", 0, "--collection", "0x" + "12" * 20), 2, "there is no collection of ours at 0x1212"),
         (("show", 0, "--collection", "0x12"), 2, "--collection must be an address"),
         (("show", 0, "--collection", "punks"), 2, "--collection must be genesis, icons or an address, not 'punks'"),
-        (("show", 0, "-o", "picture.gif"), 2, "must end in one of .png .bmp"),
+        (("show", 0, "-o", "picture.tif"), 2, "must end in one of .png .bmp"),
         (("mint", "--yes"), 2, "nothing was sent; say whose account it is"),
         (("mint", "--private-key-env", "NO_SUCH", "--yes"), 2, "NO_SUCH"),
         (("phase", "open"), 2, "the phase must be one of closed, allow-list, public"),

@@ -37,7 +37,7 @@ def test_the_picture_is_that_of_the_model_in_python(revealed: Stage) -> None:
     for token in range(4):
         seed = s.genesis.call("seedOf", token)
         found = document(s.genesis.call("tokenURI", token))
-        expected = np.asarray(render(generate(seed).scene(), chain="reference").pixels)
+        expected = np.asarray(render(generate(seed).scene(), on="reference").pixels)
         assert np.array_equal(pixels(found["image"]), expected.repeat(SCALE, 0).repeat(SCALE, 1))
 
 

@@ -52,7 +52,7 @@ def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shack
     said = shackled("mint", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
     assert "is not known to allow commercial use" in said.error
     shackled("mint", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)
-    np.testing.assert_array_equal(pixels(picture.read_bytes()), render(load(mesh), (40, 20)).pixels)
+    np.testing.assert_array_equal(pixels(picture.read_bytes()), render(mesh, (40, 20)).pixels)
 
 
 def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled: Shackled) -> None:

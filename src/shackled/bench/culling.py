@@ -12,7 +12,7 @@ from attrs import evolve
 from ..datasets import require
 from ..datasets.common import builtin
 from ..image import decode_bmp
-from ..render import resize
+from ..scene.look import resize
 from .lab import Lab
 from .measure import cost, evm
 from .original import PAPER_CULLED, PAPER_CULLING_RATIO, PAPER_UNCULLED, original

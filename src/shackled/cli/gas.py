@@ -19,12 +19,10 @@ from ..gas.profile import Profile
 from ..gas.report import make_report
 from ..gas.speedscope import speedscope
 from ..gas.trace import TRACER, can_trace
-from ..load import locate
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_profile, print_report
-from .look import Changes, load_changed
-from .look_options import with_look
+from .look_options import load_with, with_look
 from .option import option
 
 #: What --profile writes, by extension.
@@ -37,7 +35,7 @@ def gas(
         str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
     ],
     *,
-    changes: Changes,
+    look: dict[str, Any],
     chain: Annotated[
         str | None, option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
     ] = None,
@@ -89,7 +87,7 @@ def gas(
         raise InputError(f"--profile needs {TRACER}")
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
-    scene = load_changed(locate(input), changes)
+    scene = load_with(input, look)
     with Progress(quiet=as_json) as progress:
         report = make_report(scene, place, lower, upper, traced, progress.step, progress.traced, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))

@@ -10,6 +10,7 @@ import typer
 
 from ..datasets.genesis.piece import GenesisPiece
 from ..errors import InputError
+from ..image import FORMATS, one_of
 
 
 def genesis(
@@ -20,7 +21,7 @@ def genesis(
     as_json: Annotated[bool, typer.Option("--json", help="A JSON object a line: seed, traits, mesh, colours.")] = False,
     output: Annotated[
         str | None,
-        typer.Option("-o", "--output", help="The picture of one SEED: .png .bmp .svg or .gif.", metavar="FILE"),
+        typer.Option("-o", "--output", help=f"The picture of one SEED: {one_of(FORMATS)}.", metavar="FILE"),
     ] = None,
     sheet: Annotated[
         str | None, typer.Option("--sheet", help="All 1024 pieces in one picture, .png.", metavar="FILE")

@@ -1,28 +1,52 @@
-"""The options of a look, declared once for all commands that draw."""
+"""The options of a look, made of the table of settings, for all commands that draw."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import wraps
 from inspect import Parameter, Signature, signature
 from typing import Annotated, Any
 
-from .look import Changes
+from .._load import load, locate
+from ..datasets import Piece
+from ..scene.look import SETTINGS, Kind, Setting, checked_look
+from ..scene.scene import Scene
 from .option import option
-from .parse import parse_background, parse_color, parse_light, parse_shading, parse_size, parse_vector
+from .parse import parse_background, parse_light, parse_size, parse_vector
+
+#: What typer makes of a value, what stands for it in the help, and what is then made of it.
+_KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
+    "size": (str, "SIZE", lambda text, name: parse_size(text)),
+    "whole": (int, "N", lambda value, name: value),
+    "number": (float, "NUMBER", lambda value, name: value),
+    "vector": (str, "X,Y,Z", parse_vector),
+    "rotation": (str, "X,Y,Z", parse_vector),
+    "flag": (bool, None, lambda value, name: value),
+    "color": (str, "COLOR", lambda text, name: text),
+    "background": (str, "COLOR[,COLOR]", lambda text, name: parse_background(text)),
+    "choice": (str, "KIND", lambda text, name: text),
+    "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
+}
+
+#: What is added to the help, as values are written in another way than in Python.
+_MORE = {
+    "size": " As 128 or 320x200.",
+    "lights": " As directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, each with :color if wanted.",
+}
 
 
 def with_look(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with all options of a look where it has its parameter `changes`, which is what they say."""
-    look = _parameters(chosen_look)
+    """Return the command with all options of a look in place of its parameter `look`, which is what they say."""
+    given = signature(command, eval_str=True).parameters.values()
     parameters: list[Parameter] = []
-    for name, parameter in _parameters(command).items():
-        parameters += look.values() if name == "changes" else [parameter]
+    for each in given:
+        parameters += map(_parameter, SETTINGS) if each.name == "look" else [each.replace(kind=Parameter.KEYWORD_ONLY)]
 
     @wraps(command)
-    def whole(**given: Any) -> None:
-        changes = chosen_look(**{name: given.pop(name) for name in look})
-        command(**given, changes=changes)
+    def whole(**values: Any) -> None:
+        look = _look({setting.name: values.pop(setting.name) for setting in SETTINGS})
+        command(**values, look=look)
 
     # typer reads both
     whole.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
@@ -30,86 +54,37 @@ def with_look(command: Callable[..., None]) -> Callable[..., None]:
     return whole
 
 
-def _parameters(function: Callable[..., Any]) -> dict[str, Parameter]:
-    found = signature(function, eval_str=True).parameters
-    return {name: parameter.replace(kind=Parameter.KEYWORD_ONLY) for name, parameter in found.items()}
+def load_with(input: str, look: dict[str, Any]) -> Scene:
+    """Return the scene of a file or piece, with a look.
+
+    Whom to name for a piece, and on what terms it may be used, is printed on stderr where that matters.
+    """
+    source = locate(input)
+    scene = load(source, **look)
+    if isinstance(source, Piece) and source.notice:
+        print(source.notice, file=sys.stderr)
+    return scene
 
 
-def chosen_look(
-    size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200, up to 2048 a side.", "SIZE")] = None,
-    max_triangles: Annotated[int | None, option("--max-triangles", "Simplify meshes of more.", "N")] = None,
-    rotate: Annotated[
-        str | None,
-        option("--rotate", "Turn the scene about x, then y, then z, in degrees.", "X,Y,Z", "Camera"),
-    ] = None,
-    eye: Annotated[str | None, option("--eye", "Where the eye is.", "X,Y,Z", "Camera")] = None,
-    target: Annotated[str | None, option("--target", "What it looks at.", "X,Y,Z", "Camera")] = None,
-    up: Annotated[str | None, option("--up", "What appears upward in the picture.", "X,Y,Z", "Camera")] = None,
-    fov: Annotated[
-        float | None, option("--fov", "Vertical field of view in degrees, perspective only.", "DEGREES", "Camera")
-    ] = None,
-    half_height: Annotated[
-        float | None,
-        option("--half-height", "Half the height of what is seen, perspective: at distance 1.", "H", "Camera"),
-    ] = None,
-    near: Annotated[float | None, option("--near", "Distance of the near plane.", "DISTANCE", "Camera")] = None,
-    orthographic: Annotated[
-        bool | None, option("--orthographic/--perspective", "How the camera projects.", None, "Camera")
-    ] = None,
-    light: Annotated[
-        list[str] | None,
-        option(
-            "--light",
-            "In place of the scene's, up to four: directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, then "
-            ":#rrggbb if wanted.",
-            "LIGHT",
-            "Look",
-        ),
-    ] = None,
-    ambient: Annotated[float | None, option("--ambient", "Share of ambient light, 0..4.", "K", "Look")] = None,
-    diffuse: Annotated[float | None, option("--diffuse", "Share of diffuse light, 0..4.", "K", "Look")] = None,
-    specular: Annotated[float | None, option("--specular", "Strength of highlights, 0..4.", "K", "Look")] = None,
-    shininess: Annotated[int | None, option("--shininess", "Exponent of highlights, 1..128.", "N", "Look")] = None,
-    color: Annotated[str | None, option("--color", "One colour for all meshes.", "#RRGGBB", "Look")] = None,
-    background: Annotated[
-        str | None, option("--background", "A colour, or two from top to bottom.", "#RRGGBB[,#RRGGBB]", "Look")
-    ] = None,
-    shading: Annotated[str | None, option("--shading", "unlit, flat or smooth.", "KIND", "Look")] = None,
-    smooth: Annotated[bool, option("--smooth", "As --shading smooth.", None, "Look")] = False,
-    unlit: Annotated[bool, option("--unlit", "As --shading unlit.", None, "Look")] = False,
-    cull: Annotated[bool | None, option("--cull/--no-cull", "Leave out faces that turn away.", None, "Look")] = None,
-    wireframe: Annotated[
-        bool | None, option("--wireframe/--filled", "Draw the edges only, or whole faces.", None, "Look")
-    ] = None,
-    opacity: Annotated[
-        float | None, option("--opacity", "What objects hide of what is behind them, 0..1.", "K", "Look")
-    ] = None,
-    invert: Annotated[
-        bool | None, option("--invert/--no-invert", "Turn each value v into 255 - v.", None, "Look")
-    ] = None,
-) -> Changes:
-    """What the options say. InputError names the one that is wrong."""
-    return Changes(
-        size=None if size is None else parse_size(size),
-        max_triangles=max_triangles,
-        rotation=None if rotate is None else parse_vector(rotate, "--rotate"),
-        eye=None if eye is None else parse_vector(eye, "--eye"),
-        target=None if target is None else parse_vector(target, "--target"),
-        up=None if up is None else parse_vector(up, "--up"),
-        projection=None if orthographic is None else "orthographic" if orthographic else "perspective",
-        fov=fov,
-        half_height=half_height,
-        near=near,
-        lights=[parse_light(text) for text in light or []],
-        shading=parse_shading(shading, smooth, unlit),
-        ambient=ambient,
-        diffuse=diffuse,
-        specular=specular,
-        shininess=shininess,
-        color=None if color is None else parse_color(color, "--color"),
-        background=None if background is None else parse_background(background),
-        cull=cull,
-        wireframe=wireframe,
-        opacity=opacity,
-        invert=invert,
-    )
+def option_of(setting: Setting) -> str:
+    """Return the option of a setting, such as "--max-triangles" or "--cull/--no-cull"."""
+    return setting.option or f"--{setting.name.replace('_', '-')}"
+
+
+def _look(values: dict[str, Any]) -> dict[str, Any]:
+    look: dict[str, Any] = {}
+    for setting in SETTINGS:
+        value = values[setting.name]
+        if value is not None:
+            look[setting.name] = _KINDS[setting.kind][2](value, option_of(setting))
+    checked_look(look)
+    return look
+
+
+def _parameter(setting: Setting) -> Parameter:
+    kind, metavar, _ = _KINDS[setting.kind]
+    if setting.kind == "number" and setting.unit:
+        metavar = setting.unit.upper()
+    text = f"{setting.help}{_MORE.get(setting.name, '')}"
+    declared = option(option_of(setting), text, metavar, setting.group)
+    return Parameter(setting.name, Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, declared])

@@ -11,6 +11,7 @@ import typer
 
 from ..chain.addresses import show_address
 from ..errors import InputError
+from ..image import FORMATS, one_of
 from .option import option
 from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
 from .telling import say, tell
@@ -34,7 +35,7 @@ def mint(
     max_fee: MaxFee = None,
     licence: Annotated[str | None, option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
     output: Annotated[
-        str | None, option("-o --output", "The picture as the chain draws it: .png .bmp .svg or .gif.", "FILE")
+        str | None, option("-o --output", f"The picture as the chain draws it: {one_of(FORMATS)}.", "FILE")
     ] = None,
     size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
     max_triangles: Annotated[int | None, option("--max-triangles", "Simplify meshes of more.", "N")] = None,
@@ -48,13 +49,12 @@ def mint(
 ) -> None:
     """Put an object on a chain for ever, for every contract to draw. The price is told first."""
 
+    from .._load import load, locate
     from ..chain.connection import Connection
     from ..datasets import Piece
     from ..deploy import Transactor
     from ..deploy.quote import current_fees
     from ..image import check_output
-    from ..load import load, locate
-    from ..render import resize, simplify_scene
     from ..tokens.licence import licence_of
     from ..tokens.storage import Wanted, plan_storage, read_back, store
     from .parse import parse_size
@@ -65,9 +65,7 @@ def mint(
     terms = licence_of(source, licence)
     if rpc is None:
         raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
-    scene = source.make() if isinstance(source, Piece) else load(source)
-    scene = scene if pixels is None else resize(scene, pixels)
-    scene = scene if max_triangles is None else simplify_scene(scene, max_triangles)
+    scene = load(source, pixels, max_triangles=max_triangles)
     wanted = Wanted(input, scene, position_bits)
     connection = Connection(rpc, attempts=4)
     connection.expect_chain(chain_id)

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import re
 
-from ..checks import choice
 from ..errors import InputError
-from ..scene.background import Background
-from ..scene.light import INNER_ANGLE, LIGHT_KINDS, Light
-from ..scene.material import Shading
+from ..scene.light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
 from ..scene.scene import MAX_SIDE
-
-Color = tuple[int, int, int]
 
 
 def parse_size(text: str) -> tuple[int, int]:
@@ -42,20 +37,12 @@ def parse_vector(text: str, name: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def parse_color(text: str, name: str) -> Color:
-    """Red, green and blue, of "#rrggbb"."""
-    if not re.fullmatch(r"#?[0-9a-fA-F]{6}", text):
-        raise InputError(f"{name} must be a colour #rrggbb such as #ff8800, not {text!r}")
-    red, green, blue = bytes.fromhex(text.removeprefix("#"))
-    return red, green, blue
-
-
-def parse_background(text: str) -> Background:
-    """A colour, or the top and the bottom of a gradient, of "#rrggbb" or "#rrggbb,#rrggbb"."""
-    parts = text.split(",")
+def parse_background(text: str) -> str | tuple[str, str]:
+    """Return a colour, or those of the top and the bottom of a gradient, of "#rrggbb" or "#rrggbb,#rrggbb" or names."""
+    parts = [part.strip() for part in text.split(",")]
     if len(parts) > 2:
         raise InputError(f"--background must be one colour or two, #rrggbb,#rrggbb, not {text!r}")
-    return Background(*(parse_color(part.strip(), "--background") for part in parts))
+    return parts[0] if len(parts) == 1 else (parts[0], parts[1])
 
 
 def parse_light(text: str) -> Light:
@@ -69,7 +56,7 @@ def parse_light(text: str) -> Light:
             "--light must be directional:x,y,z, point:x,y,z or spot:position:direction:angle, with :#rrggbb if wanted, "
             f"not {text!r}"
         )
-    color = parse_color(rest[needed], "--light") if len(rest) > needed else (255, 255, 255)
+    color = rest[needed] if len(rest) > needed else WHITE
     vector = parse_vector(rest[0], "--light")
     if kind != "spot":
         return Light(kind, vector, color)
@@ -82,13 +69,3 @@ def parse_light(text: str) -> Light:
             f"not {rest[2]!r}"
         ) from None
     return Light(kind, vector, color, parse_vector(rest[1], "--light"), inner, outer)
-
-
-def parse_shading(shading: str | None, smooth: bool, unlit: bool) -> Shading | None:
-    """The shading, of --shading, --smooth and --unlit; None if none of them was given."""
-    chosen = {name for name, wanted in (("smooth", smooth), ("unlit", unlit)) if wanted}
-    if shading is not None:
-        chosen.add(choice(shading, "--shading", ("unlit", "flat", "smooth")))
-    if len(chosen) > 1:
-        raise InputError(f"the shading cannot be {' and '.join(sorted(chosen))} at once")
-    return chosen.pop() if chosen else None  # type: ignore[return-value]

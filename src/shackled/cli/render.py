@@ -7,29 +7,28 @@ import json
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from .._load import locate
+from .._on import Cluster, Nodes, On, Processes, where_of
+from .._render import render as draw
+from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_animation, check_duration
+from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, open_chain
 from ..datasets import Piece
 from ..errors import InputError
-from ..image import Image, check_output
-from ..load import locate
-from ..palette import MOST_COLORS, colors
-from ..parallel import Where, render_frames
+from ..image import FORMATS, Image, check_output, one_of
+from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel.store import folder_of, remove_parts
 from ..parallel.where import VERIFY
-from ..render import render_whole
-from ..scene.scene import Scene
-from ..scene.turning import full_turn
 from .job_progress import JobProgress
 from .late_bar import LateBar
-from .look import Changes, load_changed
-from .look_options import with_look
+from .look_options import load_with, with_look
 from .option import option
 from .parse import parse_tile
 
@@ -44,7 +43,7 @@ def render(
         str | None,
         option(
             "-o --output",
-            ".png .bmp .svg or .gif, of a turntable .gif, .png or a folder; else INPUT's name, in this folder.",
+            f"{one_of(FORMATS)}, of a turntable {one_of(FILMS)} or a folder; else INPUT's name, in this folder.",
             "FILE",
         ),
     ] = None,
@@ -102,7 +101,7 @@ def render(
         ),
     ] = None,
     *,
-    changes: Changes,
+    look: dict[str, Any],
 ) -> None:
     """Render a mesh file, a scene file or a piece of a dataset to a picture."""
     source = locate(input)
@@ -116,29 +115,65 @@ def render(
         path = check_animation(output if output is not None else f"{stem}.gif")
     if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
         rpc = None  # what is typed goes before what is set for all commands
-    where = Where(
-        chain=chain,
-        jobs=jobs,
-        rpc=rpc or (),
-        address=address,
-        timeout=rpc_timeout,
-        cluster=cluster,
-        gas_limit=gas_limit,
-        tile=None if tile is None else parse_tile(tile),
-        verify=verify,
-    )
+    on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
+    sides = None if tile is None else parse_tile(tile)
+    in_parts = turntable is not None or not where_of(on, gas_limit, sides).alone
     if chain is not None:
         open_chain(chain)
-    scene = load_changed(source, changes)
-    made = _made(scene, where, turntable, shown, path)
-    if not any(frame.lit_pixels for frame in made.frames):
+    scene = load_with(input, look)
+    started = time.perf_counter()
+    listener = JobProgress()
+    keep = folder_of(path) if in_parts else None
+    told: dict[str, Any] = {"gas_limit": gas_limit, "tile": sides, "listener": listener, "keep": keep}
+    with nullcontext() if in_parts else LateBar("rendering"):
+        made: Image | Animation
+        if turntable is None:
+            made = draw(scene, on=on, **told)
+        else:
+            made = turn(scene, turntable, duration=shown, on=on, **told)
+        counts = (made.triangles, made.lit_pixels) if isinstance(made, Image) else (None, None)
+    try:
+        with LateBar("writing"):
+            made.save(path)
+    except BaseException:
+        if keep is not None and keep.is_dir():
+            listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
+        raise
+    if keep is not None:
+        remove_parts(keep)
+    report = _report(made, input, path, time.perf_counter() - started, counts, in_parts)
+    frames = [made] if isinstance(made, Image) else made.frames
+    if not any(frame.lit_pixels for frame in frames):
         print("nothing of the scene is seen: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
-        _warn_of_palette(made)
-    if as_json:
-        print(json.dumps(_report(made, input, path)))
-    else:
-        print(_words(made, path))
+        _warn_of_palette([frame.pixels for frame in frames])
+    print(json.dumps(report) if as_json else _words(report))
+
+
+def _on(
+    chain: str | None,
+    jobs: int | None,
+    rpc: Sequence[str],
+    address: str | None,
+    timeout: float | None,
+    cluster: str | None,
+    verify: str | None,
+) -> On | None:
+    """Return where to render. InputError for options that exclude or need each other."""
+    if verify is not None and not rpc and cluster is None:
+        raise InputError("--verify is about nodes or a cluster: give --rpc or --cluster too, or leave it out")
+    if rpc and cluster is not None:
+        raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
+    if rpc and chain is not None:
+        raise InputError("--rpc is a place of its own: leave out --chain")
+    for name, value in (("--address", address), ("--rpc-timeout", timeout)):
+        if value is not None and not rpc:
+            raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+    if cluster is not None:
+        return Cluster(cluster or None, jobs, chain, verify)
+    if rpc:
+        return Nodes(*rpc, address=address, timeout=timeout, jobs=1 if jobs is None else jobs, verify=verify)
+    return chain if jobs is None else Processes(jobs, chain)
 
 
 def _from_environment(context: typer.Context, parameter: str) -> bool:
@@ -146,94 +181,53 @@ def _from_environment(context: typer.Context, parameter: str) -> bool:
     return source is not None and source.name == "ENVIRONMENT"
 
 
-@dataclass(frozen=True)
-class Made:
-    """A picture, or the frames of a turntable.
-
-    calls: how many made it; None for a picture by a single call here. seconds: from the scene to the file.
-    triangles, lit_pixels: None for a turntable.
-    """
-
-    frames: Sequence[Image]
-    calls: int | None
-    seconds: float
-    triangles: int | None = None
-    lit_pixels: int | None = None
-
-    def total(self, name: str) -> int | None:
-        """The sum of a number over all frames; None if one does not have it."""
-        values = [getattr(frame, name) for frame in self.frames]
-        return None if None in values else sum(values)
-
-
-def _made(scene: Scene, where: Where, turntable: int | None, duration: int, path: Path) -> Made:
-    """Renders the scene, and writes the file."""
-    started = time.perf_counter()
-    if turntable is None and where.alone:
-        with LateBar("rendering"):
-            image = render_whole(scene, open_chain(where.chain))  # type: ignore[arg-type]
-            triangles, lit_pixels = image.triangles, image.lit_pixels
-        image.save(path)
-        return Made([image], None, time.perf_counter() - started, triangles, lit_pixels)
-    scenes = [scene] if turntable is None else full_turn(scene, turntable)
-    keep = folder_of(path)
-    listener = JobProgress()
-    job = render_frames(scenes, where, listener=listener, keep=keep)
-    try:
-        with LateBar("writing"):
-            if turntable is None:
-                job.images[0].save(path)
-            else:
-                Animation(job.images, duration).save(path)
-    except BaseException:
-        if keep.is_dir():
-            listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
-        raise
-    remove_parts(keep)
-    image = job.images[0]
-    counts = (image.triangles, image.lit_pixels) if turntable is None else (None, None)
-    return Made(job.images, job.calls, time.perf_counter() - started, *counts)
-
-
-def _report(made: Made, input: str, path: Path) -> dict[str, Any]:
-    image, digest = made.frames[0], hashlib.sha256()
-    for frame in made.frames:
+def _report(
+    made: Image | Animation,
+    input: str,
+    path: Path,
+    seconds: float,
+    counts: tuple[int | None, int | None],
+    in_parts: bool,
+) -> dict[str, Any]:
+    """Return what --json prints; of a picture in parts, or of several, also how many frames and calls there were."""
+    frames = [made] if isinstance(made, Image) else made.frames
+    digest = hashlib.sha256()
+    for frame in frames:
         digest.update(frame.pixels.tobytes())
     report = {
         "input": input,
-        "width": image.width,
-        "height": image.height,
-        "triangles": made.triangles,
-        "lit_pixels": made.lit_pixels,
-        "gas": made.total("gas"),
-        "intrinsic_gas": made.total("intrinsic_gas"),
-        "seconds": round(made.seconds, 6),
-        "chain": image.chain,
+        "width": frames[0].width,
+        "height": frames[0].height,
+        "triangles": counts[0],
+        "lit_pixels": counts[1],
+        "gas": made.gas,
+        "intrinsic_gas": made.intrinsic_gas,
+        "seconds": round(seconds, 6),
+        "chain": frames[0].chain,
         "output": str(path),
         "sha256": digest.hexdigest(),
     }
-    return report if made.calls is None else report | {"frames": len(made.frames), "calls": made.calls}
+    return report | {"frames": len(frames), "calls": made.calls} if in_parts else report
 
 
-def _words(made: Made, path: Path) -> str:
-    image, count = made.frames[0], len(made.frames)
-    gas, intrinsic_gas = made.total("gas"), made.total("intrinsic_gas")
-    rows = {
-        "picture": f"{path}, {f'{count} frames of ' if count > 1 else ''}{image.width} x {image.height} pixels",
-    }
-    if made.triangles is not None and made.lit_pixels is not None:
-        rows["drawn"] = f"{made.triangles:,} triangles, {made.lit_pixels:,} lit pixels"
+def _words(report: dict[str, Any]) -> str:
+    """Return the same for people to read."""
+    frames, calls = report.get("frames", 1), report.get("calls", 1)
+    several = f"{frames} frames of " if frames > 1 else ""
+    rows = {"picture": f"{report['output']}, {several}{report['width']} x {report['height']} pixels"}
+    if report["triangles"] is not None and report["lit_pixels"] is not None:
+        rows["drawn"] = f"{report['triangles']:,} triangles, {report['lit_pixels']:,} lit pixels"
     rows["gas"] = "none is counted"
-    if gas is not None and intrinsic_gas is not None:
-        sent = "the scene" if made.calls in (None, 1) else f"the scene {made.calls} times"
-        rows["gas"] = f"{gas:,} (and {intrinsic_gas:,} to send {sent})"
-    rows |= {"chain": image.chain, "time": f"{made.seconds:.3f} s"}
+    if report["gas"] is not None and report["intrinsic_gas"] is not None:
+        sent = "the scene" if calls == 1 else f"the scene {calls} times"
+        rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+    rows |= {"chain": report["chain"], "time": f"{report['seconds']:.3f} s"}
     return "\n".join(f"{name:8} {value}" for name, value in rows.items())
 
 
-def _warn_of_palette(made: Made) -> None:
-    found = colors([frame.pixels for frame in made.frames])
+def _warn_of_palette(frames: Sequence[Pixels]) -> None:
+    found = colors(frames)
     if found > MOST_COLORS:
-        whose = "picture" if len(made.frames) == 1 else "frames"
+        whose = "picture" if len(frames) == 1 else "frames"
         text = f"a GIF holds {MOST_COLORS} colours; the {found:,} of the {whose} were brought to the nearest"
         print(text, file=sys.stderr)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from PIL import Image as PillowImage
 
 from ..chain import CHAINS, open_chain
-from ..load import locate
 from ..whole_file import check_output_folder, make_output_folder, write_output
-from .look import Changes, load_changed
-from .look_options import with_look
+from .look_options import load_with, with_look
 
 
 @with_look
@@ -21,7 +19,7 @@ def stages(
     input: Annotated[str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT")],
     output: Annotated[str, typer.Option("--output", "-o", help="The folder for the pictures.", metavar="DIR")],
     *,
-    changes: Changes,
+    look: dict[str, Any],
     chain: Annotated[
         str | None, typer.Option("--chain", help=f"Where it is computed: {', '.join(CHAINS)}.", metavar="NAME")
     ] = None,
@@ -30,7 +28,7 @@ def stages(
     from ..stages import draw_stages, strip
 
     folder = check_output_folder(Path(output))
-    made = draw_stages(load_changed(locate(input), changes), open_chain(chain))
+    made = draw_stages(load_with(input, look), open_chain(chain))
     pictures = {stage.name: PillowImage.fromarray(stage.pixels) for stage in made} | {"strip": strip(made)}
     make_output_folder(folder)
     for name, picture in pictures.items():

@@ -23,8 +23,6 @@ def python_program(subject: Subject, image: Image) -> str:
     if changes:
         imports.append("from shackled import replace")
         loaded.append(f"scene = replace(\n    scene,\n{''.join(changes)})")
-    if any("simplify_scene" in line for line in loaded):
-        imports.append("from shackled.render import simplify_scene")
     ours = [line for line in imports if "shackled" in line]
     sha256 = hashlib.sha256(image.pixels.tobytes()).hexdigest()
     return "\n".join(
@@ -57,7 +55,7 @@ def _loaded(subject: Subject) -> list[str]:
     else:
         lines = [f"scene = shackled.load({json.dumps(stored.name)})  # SHA-256 {state.source.name}"]
         bounds = [stored.simplified_to, state.max_triangles]
-    return lines + [f"scene = simplify_scene(scene, {most})" for most in bounds if most is not None]
+    return lines + [f"scene = shackled.load(scene, max_triangles={most})" for most in bounds if most is not None]
 
 
 def _is_packed(subject: Subject) -> bool:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .._render import render
 from ..chain.embedded import EmbeddedChain
 from ..errors import InputError
 from ..gas.exact import render_call
 from ..image import Image
-from ..render import render
 from ..scene.files.scene_file import encode_scene_file
 from .cast_command import cast_command
 from .film import enlarged, png
@@ -91,7 +91,7 @@ def _content(kind: Kind, subject: Subject, chain: EmbeddedChain, scale: int) -> 
         return f"0x{render_call(scene).hex()}\n".encode()
     if name in ("cast", "cast-anywhere"):
         return cast_command(subject, chain, everything=name == "cast-anywhere").encode()
-    image = render(scene, chain=chain)
+    image = render(scene, on=chain)
     if name == "png":
         return _png(image, scale)
     if name == "python":

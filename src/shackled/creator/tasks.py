@@ -16,8 +16,9 @@ from ..datasets import require
 from ..errors import InputError, RenderError
 from ..gas.exact import render_call
 from ..image import decode_bmp
-from ..render import resize, simplify_scene
+from ..scene.look import resize
 from ..scene.scene import Scene
+from ..scene.simplify import simplify_scene
 from ..scene.turning import full_turn
 from .film import film, png
 from .fits import by_trying, places

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, InputWarning
-from ..render import resize, simplify_scene
 from ..scene.files.load import SCENES, load
 from ..scene.files.mesh_file import READERS
+from ..scene.look import resize
 from ..scene.scene import Scene
+from ..scene.simplify import simplify_scene
 from .archive import unpack
 from .controls import MAX_SIDE
 from .gltf import check_gltf

@@ -19,8 +19,8 @@ from PIL.PngImagePlugin import PngInfo
 from ..artifacts import RENDERER, artifact
 from ..chain import open_chain
 from ..image import decode_bmp
-from ..render import resize
 from ..scene.codec import encode
+from ..scene.look import resize
 from ..scene.scene import Scene
 from . import require
 from .cache import cache_folder, keep

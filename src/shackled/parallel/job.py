@@ -159,6 +159,7 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str
         chain=chain,
         seconds=seconds,
         scene=scene,
+        calls=len(own),
     )
 
 

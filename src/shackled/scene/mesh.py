@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from attrs import field, frozen
@@ -136,6 +137,16 @@ class Mesh:
             raise InputError(f"a mesh of {count} vertices needs as many colours, not {len(self.colors)}")
         if self.normals is not None and (len(self.normals) != count or not np.isfinite(self.normals).all()):
             raise InputError(f"a mesh needs a finite normal for each of its {count} vertices, not {len(self.normals)}")
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any) -> Mesh:
+        """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
+
+        InputError if it is something else, or empty.
+        """
+        from .from_trimesh import mesh_of
+
+        return mesh_of(mesh)
 
     @property
     def triangles(self) -> int:

@@ -35,8 +35,9 @@ def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ..
     return tuple(objects)
 
 
-def _lights(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
-    if value is None:  # it is replaced right after
+def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
+    """Return the lights that are meant: one alone, or up to four in a list; None is replaced by a Scene."""
+    if value is None:
         return value  # type: ignore[return-value]
     lights = _list([value] if isinstance(value, Light) else value, "lights")
     for number, part in enumerate(lights):
@@ -86,7 +87,7 @@ class Scene:
 
     objects: tuple[Object, ...] = field(converter=_objects)
     camera: Camera = field(default=None, converter=_camera)
-    lights: tuple[Light, ...] = field(default=None, converter=_lights)
+    lights: tuple[Light, ...] = field(default=None, converter=lights_of)
     background: Background = field(default=None, converter=_background)
     ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
     invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))

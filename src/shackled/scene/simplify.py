@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from attrs import evolve
 from fast_simplification import replay_simplification
 from fast_simplification import simplify as collapse_edges
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from ..checks import integer
 from ..errors import InputError
 from .mesh import Mesh
+from .scene import Scene
 
 #: Tries at a collapse, one after the other until one is enough: how forceful it is, and its target as a share of the
 #: one that was asked for, for it may stop a little above its target, or far above it if it is not forceful enough.
@@ -41,6 +43,11 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
             found += f"; {len(faces)} would do"
         raise InputError(f"a mesh of {mesh.triangles} triangles cannot be simplified to {most}: {found}")
     return Mesh(positions, faces, colors)
+
+
+def simplify_scene(scene: Scene, max_triangles: int) -> Scene:
+    """Return the scene with every mesh of more triangles simplified to `max_triangles`."""
+    return evolve(scene, objects=[evolve(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
 
 
 _Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]

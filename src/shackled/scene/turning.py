@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import number
 from ..errors import InputError
 from .camera import Camera
-from .rotation import from_euler, multiply, rotate
+from .rotation import multiply, rotate, rotation_of
 from .scene import Scene
 
 Points = NDArray[np.float64]
@@ -21,12 +21,13 @@ MOST_FRAMES = 720
 FILLED = 0.92
 
 
-def turn(scene: Scene, degrees: ArrayLike) -> Scene:
-    """The scene with all objects turned together about their middle, about x, then y, then z; camera and lights stay.
+def turn(scene: Scene, rotation: ArrayLike) -> Scene:
+    """Return the scene with all objects turned together about their middle; camera and lights stay.
 
+    rotation: degrees about x, then y, then z; a quaternion (x, y, z, w); or a (3, 3) matrix.
     The meshes are left as they are: the contract turns them, by the rotations of the objects.
     """
-    rotation, center = from_euler(degrees), middle(scene)
+    rotation, center = rotation_of(rotation), middle(scene)
     return evolve(
         scene,
         objects=[

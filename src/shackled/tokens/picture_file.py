@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
-from PIL import Image as PillowImage
-
 from ..errors import InputError
+from ..image import FORMATS, Image
 from ..whole_file import write_output
 from .metadata import Metadata
-
-FORMATS = (".png", ".bmp")
 
 
 def check_picture_file(path: Path) -> None:
@@ -28,9 +24,7 @@ def save_picture(metadata: Metadata, path: Path) -> None:
     """Writes the picture: the very bytes of the token where the format is that of the token, else the same pixels."""
     content = metadata.picture
     if content is None or path.suffix.lower() != metadata.extension:
-        stream = io.BytesIO()
-        PillowImage.fromarray(metadata.pixels).save(stream, path.suffix.lower().removeprefix("."))
-        content = stream.getvalue()
+        content = Image(metadata.pixels).encode(path.suffix)
     write_picture(path, content)
 
 

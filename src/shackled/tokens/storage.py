@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from .._render import render
 from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor
@@ -14,7 +15,6 @@ from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import RenderError
 from ..image import Image, decode_bmp
-from ..render import render
 from ..scene.scene import Scene
 from ..studio.keeping import STUDIO, Storing, store_scene
 from .contract import Contract

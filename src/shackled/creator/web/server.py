@@ -26,10 +26,10 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
+from ..._load import locate
 from ...chain import open_node
 from ...datasets import Piece
 from ...errors import InputError, RenderError
-from ...load import locate
 from ..link import from_link, is_local
 from ..pool import Pool
 from ..state import Source, State

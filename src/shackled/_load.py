@@ -1,0 +1,92 @@
+"""A scene of whatever is given: a file, a piece of a dataset, a mesh, arrays, or something of trimesh."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Unpack
+
+from .datasets import Piece, find, require
+from .errors import InputError
+from .scene.files.load import SCENES
+from .scene.files.load import load as load_file
+from .scene.files.mesh_file import READERS, read_mesh
+from .scene.files.table import about
+from .scene.from_trimesh import is_trimesh, mesh_of, objects_of
+from .scene.look import LookOptions, checked_look, look_at
+from .scene.mesh import Mesh
+from .scene.object import Object
+from .scene.scene import Scene
+
+#: What a scene can be made of. `Any`: vertices and faces as arrays, or a mesh or scene of trimesh, which need not be
+#: installed.
+Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
+
+
+def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
+    """Return the scene of a file, a piece of a dataset, a mesh or anything else that can be drawn.
+
+    thing: the path of a mesh or scene file; the name of a piece, such as "teapot" or "genesis/12" (a file wins over a
+    piece of the same name); a Mesh; an Object, or a list of these; (vertices, faces) or (vertices, faces, colors), (n,
+    3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene. A mesh is set up so that it fills the picture; what
+    says itself how it looks keeps that, but for what is set.
+    size: side of a square picture, or (width, height), in pixels; None takes the scene's, or 128.
+    look: what is to be different, by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30,
+    0), background="white", fov=40.
+    InputError, one line, if there is no such thing or anything is wrong with it.
+    """
+    chosen = checked_look({"size": size, **look})
+    found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
+    if isinstance(found, Path):
+        if found.suffix.lower() not in READERS:
+            return look_at(load_file(found), chosen)
+        mesh = read_mesh(found)
+        with about(str(found)):
+            return look_at(mesh, chosen)
+    return look_at(_made(found, chosen), chosen)
+
+
+def locate(input: str | os.PathLike[str]) -> Path | Piece:
+    """Return the file, or else the piece, that is meant. InputError if there is neither."""
+    path = Path(input)
+    name = input if isinstance(input, str) else path.as_posix()
+    if path.suffix.lower() in (*READERS, *SCENES) or os.path.isfile(path):
+        return path
+    piece = find(name)
+    if piece is not None:
+        return piece
+    if path.suffix or os.path.exists(path):
+        return path  # whose extension or kind is the mistake
+    try:
+        return require(name)
+    except InputError as error:
+        raise InputError(f"{name} does not exist, and {error}") from None
+
+
+def _made(thing: Any, look: dict[str, Any]) -> Mesh | Scene:
+    """Return the mesh or scene of what is no file."""
+    if isinstance(thing, Mesh | Scene):
+        return thing
+    if isinstance(thing, Piece):
+        return thing.make()
+    objects: list[Object | Mesh] = []
+    if isinstance(thing, Object):
+        objects = [thing]
+    elif is_trimesh(thing):
+        if not hasattr(thing, "graph"):
+            return mesh_of(thing)
+        objects = list(objects_of(thing))
+    elif isinstance(thing, list | tuple):
+        if not thing or not all(isinstance(part, Mesh | Object) for part in thing):
+            if 2 <= len(thing) <= 4:
+                return Mesh(*thing)
+            raise InputError(f"vertices and faces are needed, not {len(thing)} parts: {thing!r:.60}")
+        objects = list(thing)
+    else:
+        raise InputError(
+            "a path, the name of a piece, a Mesh, (vertices, faces), a Scene or a mesh of trimesh is needed, not "
+            f"{thing!r:.60}"
+        )
+    width, height = look.get("size", (None, None))
+    return Scene(objects) if width is None else Scene(objects, width=width, height=height)

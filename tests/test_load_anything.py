@@ -1,0 +1,248 @@
+"""Everything that can be handed in to `load` and `render`, and what can be set of its look."""
+
+from __future__ import annotations
+
+import runpy
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+import shackled
+from shackled import Background, Camera, InputError, Light, Mesh, Object, Scene, load, render
+from shackled.datasets import require
+from shackled.errors import InputWarning
+from shackled.scene.files import read_mesh, write_obj
+from shackled.scene.look import SETTINGS, LookOptions
+from shackled.scene.rotation import rotate
+from shackled.scene.staging import signed_volume, stage
+
+BALL = trimesh.creation.icosphere(subdivisions=1)
+MESH = Mesh(BALL.vertices, BALL.faces)
+
+
+def same(one: Scene, other: Scene) -> bool:
+    return one == other and (render(one, 16).pixels == render(other, 16).pixels).all()
+
+
+# ---- what is drawn ----
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: MESH,
+        lambda: (BALL.vertices, BALL.faces),
+        lambda: [BALL.vertices.tolist(), BALL.faces.tolist()],
+        lambda: (BALL.vertices, BALL.faces, "#c8c8c8"),
+        lambda: trimesh.Trimesh(BALL.vertices, BALL.faces, process=False),
+        lambda: stage(MESH),
+    ],
+    ids=["mesh", "arrays", "lists", "colours", "trimesh", "scene"],
+)
+def test_a_mesh_in_many_forms(make: Callable[[], Any]) -> None:
+    assert same(load(make()), stage(MESH))
+
+
+def test_a_mesh_file(tmp_path: Path) -> None:
+    write_obj(MESH, tmp_path / "ball.obj")
+    expected = render(stage(read_mesh(tmp_path / "ball.obj")))
+    assert render(tmp_path / "ball.obj") == expected
+    assert render(str(tmp_path / "ball.obj")) == expected
+
+
+def test_objects_and_pieces() -> None:
+    pair = [Object(MESH), Object(MESH, position=(3, 0, 0), rotation=(0, 20, 0))]
+    assert load(pair) == load(tuple(pair)) == Scene(pair)
+    assert load([MESH, MESH]) == Scene([Object(MESH), Object(MESH)])
+    assert load(pair[0]) == Scene(pair[0])
+    assert load(pair, (64, 32)) == Scene(pair, width=64, height=32)
+    assert load(require("cube")) == load("cube") == require("cube").make()
+    scene = load("cube")
+    assert load(scene) is scene
+
+
+def test_scenes_of_trimesh() -> None:
+    turned = np.eye(4)
+    turned[:3, :3], turned[:3, 3] = rotate(shackled.euler(30, -50, 70), np.eye(3)).T, (1, 0, 0)
+    stretched = np.diag([1.0, 2.0, -1.0, 1.0])
+    scene = trimesh.Scene()
+    scene.add_geometry(trimesh.creation.box(), transform=turned)
+    scene.add_geometry(BALL, transform=stretched)
+    objects = load(scene).objects
+    expected = [each.bounds for each in scene.dump()]
+    assert len(objects) == 2
+    for found, box in zip(objects, expected, strict=True):
+        points = found.world_positions()
+        np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], box, atol=1e-12)
+    # the mirrored one is seen from outside still
+    assert signed_volume(objects[1].mesh) > 0
+
+
+def test_colours_of_trimesh() -> None:
+    rng = np.random.default_rng(3)
+    colors = rng.integers(0, 256, (len(BALL.vertices), 4)).astype(np.uint8)
+    colors[:, 3] = 255
+    painted = trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=colors, process=False)
+    assert Mesh.from_trimesh(painted).colors.tolist() == colors[:, :3].tolist()
+    faces = rng.integers(0, 256, (len(BALL.faces), 4)).astype(np.uint8)
+    faces[:, 3] = 255
+    mesh = Mesh.from_trimesh(trimesh.Trimesh(BALL.vertices, BALL.faces, face_colors=faces, process=False))
+    assert mesh.triangles == len(BALL.faces)
+    assert (mesh.colors[mesh.faces] == faces[:, None, :3]).all()
+    colors[0, 3] = 7
+    painted = trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=colors, process=False)
+    with pytest.warns(InputWarning, match="not opaque"):
+        Mesh.from_trimesh(painted)
+    with pytest.raises(InputError, match=r"^a trimesh\.Trimesh is needed, not 5"):
+        Mesh.from_trimesh(5)
+
+
+# ---- its look ----
+
+
+def test_the_keywords_are_those_of_the_table() -> None:
+    assert [setting.name for setting in SETTINGS] == ["size", *LookOptions.__annotations__]
+    for setting in SETTINGS:
+        assert setting.text.endswith(".")
+        assert setting.text[0].isupper()
+    with pytest.raises(TypeError, match="'colour' is no keyword of a look; known are size, max_triangles, "):
+        render(MESH, colour="red")  # type: ignore[call-arg]
+
+
+def test_the_page_lists_all_settings() -> None:
+    found = runpy.run_path(str(Path(__file__).parent.parent / "docs" / "look_table.py"))
+    page = found["PAGE"].read_text("utf-8")
+    assert found["with_table"](page) == page, "run docs/look_table.py"
+    assert all(f"| `{setting.name}` |" in page for setting in SETTINGS)
+
+
+#: A value for each setting with which the picture of a ball is another.
+VALUES: dict[str, Any] = {
+    "size": 40,
+    "max_triangles": 30,
+    "background": ("navy", "white"),
+    "invert": True,
+    "rotate": (10, 20, 30),
+    "eye": (1, 1, 4),
+    "target": (0.5, 0, 0),
+    "up": (1, 1, 0),
+    "azimuth": -60,
+    "elevation": -40,
+    "margin": 0.5,
+    "fov": 20,
+    "half_height": 0.9,
+    "near": 2.3,
+    "orthographic": True,
+    "lights": Light.point((2, 2, 2), "orange"),
+    "ambient_light": "red",
+    "shading": "smooth",
+    "smooth": True,
+    "unlit": True,
+    "ambient": 1.0,
+    "diffuse": 0.1,
+    "specular": 4.0,
+    "shininess": 2,
+    "color": "tomato",
+    "cull": False,
+    "wireframe": True,
+    "opacity": 0.5,
+}
+
+
+@pytest.mark.parametrize("name", [setting.name for setting in SETTINGS])
+@pytest.mark.parametrize("kind", ["mesh", "scene"])
+def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
+    thing = MESH if kind == "mesh" else Scene([Object(MESH)])
+    plain, other = load(thing), load(thing, **{name: VALUES[name]})
+    assert plain != other
+    assert load(thing, **{name: None}) == plain
+    if name != "cull":
+        pictures = [render(each, None if name == "size" else 40) for each in (plain, other)]
+        assert not np.array_equal(pictures[0].pixels, pictures[1].pixels)
+
+
+def test_a_scene_keeps_what_is_not_set() -> None:
+    scene = Scene([Object(MESH)], Camera((0, 0, 5)), [Light.point((1, 2, 3))], "navy", (9, 9, 9), True, 30, 20)
+    changed = load(scene, color="red", size=(40, 10))
+    assert changed.objects[0].mesh.colors.tolist() == [[255, 0, 0]] * len(MESH.positions)
+    for name in ("camera", "lights", "background", "ambient_light", "invert"):
+        assert getattr(changed, name) == getattr(scene, name)
+    assert (changed.width, changed.height) == (40, 10)
+    placed = load(scene, azimuth=90, elevation=0)
+    assert placed.camera.eye[0] > 2
+    np.testing.assert_allclose(placed.camera.eye[1:], 0, atol=0.05)
+    assert placed.camera.half_height == scene.camera.half_height
+    assert placed.lights == scene.lights
+
+
+def test_looks_in_other_words() -> None:
+    assert load(MESH, smooth=True) == load(MESH, shading="smooth")
+    assert load(MESH, unlit=True) == load(MESH, shading="unlit")
+    assert load(MESH, smooth=False) == load(MESH)
+    assert load(MESH, rotate=(0, 30, 0)) == load(MESH, rotate=shackled.euler(0, 30, 0))
+    assert load(MESH, background="red").background == Background("red")
+    assert load(MESH, fov=50).camera.half_height == Camera.perspective(fov=50).half_height
+
+
+@pytest.mark.parametrize(
+    ("look", "message"),
+    [
+        ({"fov": 40, "half_height": 1}, "fov= and half_height= exclude each other: give one of them"),
+        ({"azimuth": 40, "eye": (1, 2, 3)}, "azimuth= and eye= exclude each other: give one of them"),
+        ({"fov": 40, "orthographic": True}, "an orthographic camera has no field of view: give half_height= instead"),
+        ({"smooth": True, "unlit": True}, "the shading cannot be smooth and unlit at once"),
+        ({"opacity": 2}, "opacity= must be a finite number from 0 to 1, not 2"),
+        ({"shininess": 2.5}, "shininess= must be a whole number, from 1 to 128, not 2.5"),
+        ({"max_triangles": 0}, "max_triangles= must be a whole number, at least 1, not 0"),
+        ({"color": "reddish"}, "color= must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour"),
+        ({"size": "big"}, "size= must be one number or (width, height), not 'big'"),
+        ({"size": (1.5, 2)}, "size= must be whole numbers, not (1.5, 2)"),
+        ({"eye": "here"}, "eye= must be 3 numbers, not 'here'"),
+        ({"cull": "yes"}, "cull= must be True or False, not 'yes'"),
+        ({"shading": "toon"}, "shading= must be one of unlit, flat, smooth, not 'toon'"),
+        ({"lights": [Light.point((1, 2, 3))] * 5}, "a scene has up to 4 lights, not 5"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_what_makes_no_look(look: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError) as error:
+        render("cube", 16, **look) if "size" not in look else render("cube", **look)
+    assert str(error.value).startswith(message)
+
+
+# ---- the package ----
+
+
+def test_the_names_of_the_package() -> None:
+    assert dir(shackled) == sorted(shackled.__all__)
+    assert len(shackled.__all__) <= 30
+    for name in shackled.__all__:
+        assert hasattr(shackled, name)
+    # no module is hidden by a function of its name
+    for name in shackled.__all__:
+        assert not (Path(shackled.__file__).parent / f"{name}.py").exists()
+
+
+# ---- from anywhere ----
+
+
+@pytest.mark.parametrize("name", ["deep.toml", "deep.json"])
+def test_files_are_read_from_deep_in_a_call_stack(name: str, tmp_path: Path) -> None:
+    """The limit of recursion belongs to who calls, and is left alone."""
+    (tmp_path / name).write_text("size = 8" if name.endswith("toml") else '{"size": 8}', "utf-8")
+    before = sys.getrecursionlimit()
+
+    def read(depth: int) -> Scene:
+        return load(tmp_path / name) if depth == 0 else read(depth - 1)
+
+    sys.setrecursionlimit(5000)
+    try:
+        assert read(1500).width == 8
+        assert sys.getrecursionlimit() == 5000
+    finally:
+        sys.setrecursionlimit(before)
