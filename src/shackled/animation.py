@@ -154,13 +154,13 @@ FORMATS: dict[str, Format[Animation]] = {
 
 
 def frame_names(count: int) -> list[str]:
-    """The names of the files of a folder, in the order of the frames."""
+    """Return the names of the files of a folder, in the order of the frames."""
     digits = max(3, len(str(count - 1)))
     return [f"{frame:0{digits}}.png" for frame in range(count)]
 
 
 def check_animation(path: str | os.PathLike[str]) -> Path:
-    """The path, if an animation can be saved there."""
+    """Return the path, if an animation can be saved there."""
     path = Path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
         raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or in nothing for a folder of pictures")

@@ -239,7 +239,7 @@ def encode_bmp(pixels: Pixels) -> bytes:
 
 
 def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:
-    """The pixels, (H, W, 3), of a 24-bit BMP as the contracts make it; anything else is a RenderError."""
+    """Return the pixels, (H, W, 3), of a 24-bit BMP as the contracts make it; anything else is a RenderError."""
     size = 54 + (3 * width + 3) // 4 * 4 * height
     try:
         with PillowImage.open(io.BytesIO(data), formats=["BMP"]) as picture:

@@ -16,12 +16,12 @@ Pixels = NDArray[np.uint8]
 
 
 def colors(frames: Sequence[Pixels]) -> int:
-    """How many colours there are in all frames."""
+    """Return how many colours there are in all frames."""
     return len(_distinct(frames))
 
 
 def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
-    """Frames, (H, W, 3), in one palette of at most 256 colours: a colour that does not move does not flicker then.
+    """Return frames, (H, W, 3), in one palette of at most 256 colours, so that nothing at rest flickers.
 
     Exact where there are no more; otherwise in the nearest.
     """
@@ -42,7 +42,7 @@ def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
 
 
 def _distinct(frames: Sequence[Pixels]) -> NDArray[np.int64]:
-    """The colours 0xRRGGBB of all frames, in order."""
+    """Return the colours 0xRRGGBB of all frames, in order."""
     return np.unique(np.concatenate([np.unique(_packed(frame)) for frame in frames]))
 
 

@@ -25,7 +25,7 @@ WRONG_PATH = {
 
 
 def write_output(path: Path, data: bytes) -> None:
-    """Writes a file that somebody has named, as `write_whole` does.
+    """Write a file that somebody has named, as `write_whole` does.
 
     InputError where the path is wrong, OutputError where the disk is full or fails.
     """
@@ -36,7 +36,7 @@ def write_output(path: Path, data: bytes) -> None:
 
 
 def make_output_folder(path: Path) -> None:
-    """Makes a folder that somebody has named, and those above it, unless they are there. Errors as `write_output`."""
+    """Make a folder that somebody has named, and those above it, unless they are there. Errors as `write_output`."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
@@ -46,7 +46,7 @@ def make_output_folder(path: Path) -> None:
 
 
 def check_output_folder(path: Path) -> Path:
-    """The path, if it is a folder, or nothing yet; otherwise InputError."""
+    """Return the path, if it is a folder, or nothing yet; otherwise InputError."""
     try:
         if path.exists() and not path.is_dir():
             raise InputError(f"{path} is a file, not a folder to write to")
@@ -56,7 +56,7 @@ def check_output_folder(path: Path) -> Path:
 
 
 def check_output_file(path: Path, what: str) -> Path:
-    """The path, if a file can be written there; `what` is the word for it in messages. Otherwise InputError."""
+    """Return the path, if a file can be written there; `what` is the word for it in messages. Otherwise InputError."""
     try:
         if path.is_dir():
             raise InputError(f"{path} is a folder, not the file of a {what}")
@@ -72,7 +72,7 @@ def check_output_file(path: Path, what: str) -> Path:
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Writes a file in place of any that is there. OSError if it cannot be written; then no file has changed.
+    """Write a file in place of any that is there. OSError if it cannot be written; then no file has changed.
 
     A symbolic link stays, and the file to which it leads is written. Pipes and devices are written to.
     """

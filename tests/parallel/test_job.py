@@ -69,7 +69,7 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
+    with pytest.raises(RenderError, match=r"still too much: take fewer triangles by max_triangles="):
         render_frames([SCENE], Where(gas_limit=500_000))
 
 
@@ -115,7 +115,7 @@ def test_a_worker_that_dies_is_replaced() -> None:
 def test_errors_of_a_worker_are_told() -> None:
     with pytest.raises(RenderError, match="still too much"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
-    with pytest.raises(InputError, match="counts no gas: leave out --gas-limit"):
+    with pytest.raises(InputError, match="counts no gas: leave out gas_limit="):
         render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))
 
 

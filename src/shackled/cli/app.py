@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import sys
 import warnings
 from collections.abc import Callable, Sequence
@@ -25,6 +24,7 @@ from .genesis import genesis
 from .mint import mint
 from .render import render
 from .stages import stages
+from .telling import with_options
 from .token import token
 
 #: What typer makes of a keyboard interrupt.
@@ -75,9 +75,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
-        return _fail(_with_options(str(error)), 2)
+        return _fail(with_options(str(error)), 2)
     except (RenderError, FetchError, OutputError) as error:
-        return _fail(error, 1)
+        return _fail(with_options(str(error)), 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
     except OSError as error:
@@ -113,11 +113,6 @@ def _drop_output() -> None:
     except OSError:
         with Path(os.devnull).open("w") as nowhere:
             os.dup2(nowhere.fileno(), sys.stdout.fileno())
-
-
-def _with_options(message: str) -> str:
-    """Return the message of the library with options in place of its keywords, which it writes as `max_triangles=`."""
-    return re.sub(r"\b([a-z]+(?:_[a-z]+)*)=(?=[\s,:;)]|$)", lambda match: f"--{match[1].replace('_', '-')}", message)
 
 
 def _fail(message: object, code: int) -> int:

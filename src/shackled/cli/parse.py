@@ -10,7 +10,7 @@ from ..scene.scene import MAX_SIDE
 
 
 def parse_size(text: str) -> tuple[int, int]:
-    """Width and height, of "128" or "320x200"."""
+    """Return width and height, of "128" or "320x200"."""
     match = re.fullmatch(r"(\d{1,9})(?:[xX](\d{1,9}))?", text)
     if not match:
         raise InputError(f"--size must be a side such as 128 or WIDTHxHEIGHT such as 320x200, not {text!r}")
@@ -21,7 +21,7 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def parse_tile(text: str) -> tuple[int, int]:
-    """Width and height, of "64" or "1024x64"."""
+    """Return width and height, of "64" or "1024x64"."""
     match = re.fullmatch(r"([1-9]\d{0,8})(?:[xX]([1-9]\d{0,8}))?", text)
     if not match:
         raise InputError(f"--tile must be a side such as 128 or WIDTHxHEIGHT such as 1024x64, not {text!r}")
@@ -29,7 +29,7 @@ def parse_tile(text: str) -> tuple[int, int]:
 
 
 def parse_vector(text: str, name: str) -> tuple[float, float, float]:
-    """Three numbers, of "x,y,z"."""
+    """Return three numbers, of "x,y,z"."""
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError:
@@ -46,8 +46,9 @@ def parse_background(text: str) -> str | tuple[str, str]:
 
 
 def parse_light(text: str) -> Light:
-    """A light, of "directional:x,y,z", "point:x,y,z" or "spot:x,y,z:x,y,z:outer" or "...:inner,outer"; any of them with
-    ":#rrggbb" after it.
+    """Return a light, of "directional:x,y,z", "point:x,y,z", "spot:x,y,z:x,y,z:outer" or "...:inner,outer".
+
+    A colour may follow each of them, as ":#rrggbb" or a name.
     """
     kind, *rest = text.split(":")
     needed = 3 if kind == "spot" else 1

@@ -46,7 +46,7 @@ class Rectangle:
 
 
 def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words: int) -> bytes:
-    """The calldata of a function f(Scene), or f(Scene, Rectangle) where a tile is given, with the words after it."""
+    """Return the calldata of a function f(Scene), or f(Scene, Rectangle) if a tile is given, and words after it."""
     rectangle: list[int] = []
     if tile is not None:
         rectangle = [tile.x, tile.y, tile.width, tile.height]
@@ -58,7 +58,7 @@ def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words:
 
 
 def encode_scene(scene: Scene) -> bytes:
-    """The struct Scene, of a scene as `fit` makes it."""
+    """Return the struct Scene, of a scene as `fit` makes it."""
     camera = scene.camera
     head = _words(
         [
@@ -84,7 +84,7 @@ def encode_scene(scene: Scene) -> bytes:
 
 
 def extensions(scene: Scene) -> bytes:
-    """What is not in the structs: records that ascend by kind and index."""
+    """Return what is not in the structs: records that ascend by kind and index."""
     records = []
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
@@ -136,7 +136,7 @@ def _array_of_dynamic(items: list[bytes]) -> bytes:
 
 
 def _q32(values: ArrayLike) -> list[int]:
-    """Rounded to nearest, ties to even."""
+    """Return numbers as multiples of 2^-32, rounded to nearest, ties to even."""
     return [round(value * ONE) for value in np.asarray(values, dtype=np.float64).tolist()]
 
 

@@ -50,7 +50,7 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 
 @np.errstate(over="ignore", invalid="ignore")
 def fit(scene: Scene) -> Scene:
-    """The scene with all numbers in the ranges of the contracts, whole mesh coordinates, and the near plane chosen."""
+    """Return the scene in numbers that the contracts take: mesh coordinates are whole, and the near plane is chosen."""
     _check_view(scene.camera)
     scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
     objects: list[Object]
@@ -86,7 +86,7 @@ def _check_view(camera: Camera) -> None:
 
 
 def _prepare(o: Object) -> Object:
-    """Without vertices that no face names, and with the normals that smooth shading needs."""
+    """Return the object without vertices that no face names, with the normals that smooth shading needs."""
     mesh = o.mesh
     positions, faces = mesh.positions, mesh.faces
     normals = None
@@ -106,7 +106,7 @@ def _prepare(o: Object) -> Object:
 
 
 def _is_exact(scene: Scene) -> bool:
-    """Whether the contracts' numbers hold the scene as it is, well within their range."""
+    """Return whether the contracts' numbers hold the scene as it is, well within their range."""
     camera = scene.camera
     lengths = [*camera.eye, *camera.target, camera.near or 0.0]
     if camera.projection == "orthographic":
@@ -131,7 +131,7 @@ def _is_exact(scene: Scene) -> bool:
 
 
 def _factor(scene: Scene) -> float:
-    """By what a scene is scaled, a power of two."""
+    """Return the factor by which a scene is scaled, a power of two."""
     size, reach = _extent(scene)
     if scene.camera.projection == "orthographic":
         reach = max(reach, scene.camera.half_height)
@@ -147,7 +147,7 @@ def _factor(scene: Scene) -> float:
 
 
 def _extent(scene: Scene) -> tuple[float, float]:
-    """Half the largest side of an object, and how far any reaches from the eye along an axis."""
+    """Return half the largest side of an object, and how far any reaches from the eye along an axis."""
     sizes, reaches = [0.0], [0.0]
     for o in scene.objects:
         center, radius = _box(o.mesh.positions)
@@ -216,7 +216,7 @@ def _move_object(o: Object, scene: Scene, factor: float) -> Object:
 
 
 def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
-    """How many steps the grid of an object has across half its largest side."""
+    """Return how many steps the grid of an object has across half its largest side."""
     camera = scene.camera
     pixels = scene.height / (2 * camera.half_height)
     if camera.projection == "perspective":
@@ -235,7 +235,7 @@ def _bits(positions: Array) -> int:
 
 
 def _box(positions: Array) -> tuple[Array, float]:
-    """The middle of the bounding box, and the largest distance from it along an axis."""
+    """Return the middle of the bounding box, and the largest distance from it along an axis."""
     low, high = positions.min(axis=0) / 2, positions.max(axis=0) / 2
     return low + high, float((high - low).max())
 

@@ -20,7 +20,7 @@ NORMAL_UNIT = 511
 
 
 def pack(mesh: Mesh, smooth: bool = False) -> bytes:
-    """The bytes of a mesh whose coordinates are whole numbers, -2^23..2^23-1; with normals if `smooth`.
+    """Return the bytes of a mesh whose coordinates are whole numbers, -2^23..2^23-1; with normals if `smooth`.
 
     Coordinates take 16 bits where all fit, else 24.
     """
@@ -44,12 +44,12 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
 
 
 def is_integral(positions: NDArray[np.float64]) -> bool:
-    """Whether all coordinates are whole numbers that a packed mesh can hold."""
+    """Return whether all coordinates are whole numbers that a packed mesh can hold."""
     return fits(positions, MAX_WIDE) and bool((positions % 1 == 0).all())
 
 
 def fits(positions: NDArray[np.float64], largest: int) -> bool:
-    """Whether all coordinates lie in -largest-1..largest."""
+    """Return whether all coordinates lie in -largest-1..largest."""
     return bool((positions <= largest).all() and (positions >= -largest - 1).all())
 
 

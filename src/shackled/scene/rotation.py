@@ -15,7 +15,7 @@ ORTHOGONAL = 1e-6
 
 
 def from_euler(degrees: ArrayLike) -> NDArray[np.float64]:
-    """The rotation about the x, then the y, then the z axis of the world, each in degrees.
+    """Return the rotation about the x, then the y, then the z axis of the world, each in degrees.
 
     Counter-clockwise as seen from the positive end of the axis.
     """
@@ -34,7 +34,7 @@ def euler(x: float, y: float, z: float) -> NDArray[np.float64]:
 
 
 def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
-    """The rotation about an axis of any length but zero, counter-clockwise as seen from where the axis points."""
+    """Return the rotation about an axis of any length but zero, counter-clockwise seen from where the axis points."""
     direction = vector(axis, "the axis of a rotation")
     length = np.linalg.norm(direction)
     if length == 0:
@@ -45,13 +45,13 @@ def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
 
 
 def multiply(second: ArrayLike, first: ArrayLike) -> NDArray[np.float64]:
-    """The rotation `first`, followed by `second`."""
+    """Return the rotation `first`, followed by `second`."""
     a, b = np.asarray(second, dtype=np.float64), np.asarray(first, dtype=np.float64)
     return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - a[:3] @ b[:3])
 
 
 def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
-    """The points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
+    """Return the points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
     q, p = vector(quaternion, "a rotation", 4), np.asarray(points, dtype=np.float64)
     if not q.any():
         raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")

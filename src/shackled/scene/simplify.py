@@ -23,7 +23,7 @@ GENTLE = ((5, 1.0), (5, 0.9))
 
 
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
-    """A mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
+    """Return a mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
 
     Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
     they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
@@ -54,7 +54,7 @@ _Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
 
 
 def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
-    """The mesh after as many tries as it needs; it may have more triangles than it should, or none."""
+    """Return the mesh after as many tries as it needs; it may have more triangles than it should, or none."""
     surface = _connect(mesh)
     for force, share in tries:
         if len(surface[1]) <= max_triangles:
@@ -64,8 +64,9 @@ def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float
 
 
 def _connect(mesh: Mesh) -> _Surface:
-    """The mesh with one vertex for each position, whatever its colour, so that edges between colours can be collapsed
-    too.
+    """Return the mesh with one vertex for each position, whatever its colour.
+
+    So edges between colours can be collapsed too.
     """
     positions = mesh.positions
     unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
@@ -74,7 +75,7 @@ def _connect(mesh: Mesh) -> _Surface:
 
 
 def _without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The faces that have three different vertices."""
+    """Return the faces that have three different vertices."""
     a, b, c = faces.T
     return np.asarray(faces[(a != b) & (b != c) & (c != a)])
 

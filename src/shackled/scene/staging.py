@@ -72,7 +72,7 @@ class Look:
 
 
 def stage(mesh: Mesh, look: Look | None = None) -> Scene:
-    """A scene of one mesh: scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
+    """Return a scene of one mesh: scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
 
     The mesh keeps its coordinates; position and scale of the object do the rest.
     """
@@ -129,9 +129,7 @@ def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
 
 
 def frame(points: NDArray[np.float64], look: Look) -> Camera:
-    """The camera that looks from `azimuth` and `elevation` and comes as near as it can with all (n, 3) points in the
-    picture.
-    """
+    """Return the camera that looks from `azimuth` and `elevation`, as near as all points, (n, 3), fit the picture."""
     right, up, back = view_axes(look)
     x, y, z = points @ right, points @ up, points @ back
     free = 1 - checks.number(look.margin, "the margin around the mesh", 0, 0.9)
@@ -159,12 +157,12 @@ def frame(points: NDArray[np.float64], look: Look) -> Camera:
 
 
 def key_light(look: Look) -> Light:
-    """A light that stays where it is for the viewer, wherever the viewer stands."""
+    """Return a light that stays where it is for the viewer, wherever the viewer stands."""
     return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(look)))
 
 
 def view_axes(look: Look) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Unit vectors to the right, upward, and toward the viewer."""
+    """Return unit vectors to the right, upward, and toward the viewer."""
     azimuth = np.radians(checks.number(look.azimuth, "the azimuth in degrees"))
     elevation = np.radians(checks.number(look.elevation, "the elevation in degrees", -90, 90))
     right = np.array([np.cos(azimuth), 0, -np.sin(azimuth)])
@@ -173,7 +171,7 @@ def view_axes(look: Look) -> tuple[NDArray[np.float64], NDArray[np.float64], NDA
 
 
 def is_closed(mesh: Mesh) -> bool:
-    """Whether each edge has a face on either side, wound alike, and the mesh bounds a volume from outside."""
+    """Return whether each edge has a face on either side, wound alike, and the mesh bounds a volume from outside."""
     positions = mesh.positions
     number = np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
     faces = number[mesh.faces]
@@ -185,7 +183,7 @@ def is_closed(mesh: Mesh) -> bool:
 
 
 def signed_volume(mesh: Mesh) -> float:
-    """The volume that a closed mesh bounds, negative if its faces are seen from inside."""
+    """Return the volume that a closed mesh bounds, negative if its faces are seen from inside."""
     positions = mesh.positions
     corners = (positions - positions.mean(axis=0))[mesh.faces]
     return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6)

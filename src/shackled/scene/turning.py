@@ -42,7 +42,7 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
 
 
 def full_turn(scene: Scene, frames: int) -> list[Scene]:
-    """The scene in so many equal steps of a full turn about the vertical axis, counter-clockwise as seen from above.
+    """Return the scene in equal steps of a full turn about the vertical axis, counter-clockwise as seen from above.
 
     Background, lights and camera stand still. Where a scene that was wholly in the picture would not stay there, the
     camera is moved back for all frames.
@@ -55,18 +55,18 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
 
 
 def middle(scene: Scene) -> Points:
-    """The middle of the box around all objects."""
+    """Return the middle of the box around all objects."""
     return np.asarray(scene.bounds.mean(axis=0))
 
 
 def _points(scene: Scene) -> Points:
-    """All vertices, (n, 3), in the world."""
+    """Return all vertices, (n, 3), in the world."""
     placed = [o.world_positions() for o in scene.objects]
     return np.concatenate(placed) if placed else np.zeros((0, 3))
 
 
 def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
-    """The camera, so far back that all points are within the picture, with a margin unless the first ones have none."""
+    """Return the camera, so far back that all points are in the picture, with a margin unless the first have none."""
     forward = camera.target - camera.eye
     right = np.cross(forward, camera.up)
     if not len(turned[0]) or not forward.any() or not right.any():
@@ -77,7 +77,7 @@ def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
     perspective = camera.projection == "perspective"
 
     def reach(points: Points) -> tuple[Points, Points]:
-        """How far points are from the line of sight, in halves of the picture at distance 1; and their distance."""
+        """Return how far points are beside the line of sight, in halves of the picture at distance 1, and how deep."""
         x, y, z = ((points - camera.eye) @ axes).T
         return np.maximum(np.abs(x), np.abs(y)) / camera.half_height, z if perspective else np.ones_like(z)
 

@@ -9,7 +9,7 @@ from ...errors import InputError
 
 
 def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.float64]:
-    """Colours with channels 0..`largest` as whole numbers 0..255; the alpha channel, if any, is left out.
+    """Return colours with channels 0..`largest` as whole numbers 0..255; the alpha channel, if any, is left out.
 
     colors: (..., 3 or 4). Without `largest` it is taken to be 1 where no channel is above 1, and 255 otherwise.
     """

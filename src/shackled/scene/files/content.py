@@ -19,7 +19,7 @@ _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 
 
 def read_bytes(path: Path) -> bytes:
-    """Everything in a file that exists, is not empty and not above `MAX_BYTES`."""
+    """Return everything in a file that exists, is not empty and not above `MAX_BYTES`."""
     try:
         # opened before anything is asked about it, so that a guard of opening guards all; without waiting for a pipe
         with open(path, "rb", buffering=0, opener=lambda name, flags: os.open(name, flags | _AT_ONCE)) as file:
@@ -42,8 +42,9 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file, with `unix_lines`. Bytes that are no UTF-8, as in old comments, are replaced; binary data is
-    refused.
+    """Return the text of a file, with `unix_lines`.
+
+    Bytes that are not UTF-8, as in old comments, are replaced. InputError for binary data.
     """
     data = read_bytes(path)
     if b"\0" in data:
@@ -52,12 +53,12 @@ def read_text(path: Path) -> str:
 
 
 def unix_lines(text: str) -> str:
-    """The text with lines that end with \\n, be it from Unix, Windows or an old Mac."""
+    """Return the text with lines that end with \\n, be it from Unix, Windows or an old Mac."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
-    """The object that a text of a kind, .toml or .json, holds; `path` is for messages."""
+    """Return the object that a text of a kind, .toml or .json, holds; `path` is for messages."""
     try:
         document = read_toml(text) if kind == ".toml" else read_json(text)
     except ValueError as error:
@@ -68,5 +69,5 @@ def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
 
 
 def warn(message: str) -> None:
-    """Tells of something that is left out; the message is one line that begins with the path."""
+    """Warn of something that is left out; the message is one line that begins with the path."""
     warnings.warn(message, InputWarning, stacklevel=2)

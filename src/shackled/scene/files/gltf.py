@@ -54,7 +54,7 @@ _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.
 
 @np.errstate(all="ignore")
 def read_gltf(path: Path) -> Mesh:
-    """The mesh of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
+    """Return the mesh of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
 
     The colour of a vertex is the product of the base colour of its material, the base colour texture there, and the
     colour of the vertex, as far as they are given; light grey if none is. Colours are taken as they are written,
@@ -94,7 +94,7 @@ class _Gltf:
         self._check()
 
     def _check(self) -> None:
-        """Refuses what asks for another reader."""
+        """Refuse what asks for another reader."""
         if "asset" not in self.keys:
             raise InputError("it is no glTF file: asset, with the version of glTF, is missing")
         asset = self.keys.table("asset")
@@ -111,11 +111,11 @@ class _Gltf:
                 raise InputError(f"it requires the extension {name:.60}, which is not read; export it without")
 
     def item(self, keys: Table, key: str, kind: str) -> Table:
-        """The part of the document that a key names by its number."""
+        """Return the part of the document that a key names by its number."""
         return self.numbered(keys.whole(key), kind, keys.place(key))
 
     def numbered(self, number: int, kind: str, place: str) -> Table:
-        """The part of this kind and number, which stands at a place in the document."""
+        """Return the part of this kind and number, which stands at a place in the document."""
         items = self.keys.get(kind)
         count = len(items) if isinstance(items, list) else 0
         if number >= count:
@@ -140,7 +140,7 @@ class _Gltf:
         return values
 
     def _changed(self, values: NDArray[Any], sparse: Table, component: str) -> NDArray[Any]:
-        """The elements, some of them with other values."""
+        """Return the elements, some of them with other values."""
         count, indices = sparse.whole("count"), sparse.table("indices")
         rows = self._rows(indices, self._component(indices), count, 1)[:, 0]
         if count and not 0 <= rows.min() <= rows.max() < len(values):
@@ -169,7 +169,7 @@ class _Gltf:
         return np.ndarray((count, width), component, data, start, (stride, size))
 
     def view(self, view: Table) -> memoryview:
-        """The bytes of a buffer view."""
+        """Return the bytes of a buffer view."""
         buffer = self.item(view, "buffer", "buffers")
         if buffer.where not in self.buffers:
             inside = self.binary if buffer.where == "buffers[0]" and "uri" not in buffer else None
@@ -181,7 +181,7 @@ class _Gltf:
         return memoryview(data)[start : start + length]
 
     def _resource(self, keys: Table) -> bytes:
-        """What the `uri` of a buffer or image holds."""
+        """Return what the `uri` of a buffer or image holds."""
         uri, place = keys.get("uri"), keys.place("uri")
         if not isinstance(uri, str):
             raise InputError(f"{place} must name a file or hold data, not {uri!r:.60}")
@@ -198,7 +198,7 @@ class _Gltf:
             return read_bytes(self.path.parent.joinpath(*name.parts))
 
     def image(self, texture: Table) -> Image.Image | None:
-        """The image of a texture; None, with a warning, if it cannot be had."""
+        """Return the image of a texture; None, with a warning, if it cannot be had."""
         webp = texture.table("extensions").table("EXT_texture_webp")
         keys = webp if "source" in webp else texture
         if keys.place("source") not in self.images:
@@ -214,7 +214,7 @@ class _Gltf:
 
 
 def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
-    """The JSON and the binary chunk of a GLB file."""
+    """Return the JSON and the binary chunk of a GLB file."""
     if len(data) < 12:
         raise InputError("it ends within its header")
     version, length = struct.unpack("<II", data[4:12])
@@ -236,7 +236,7 @@ def _chunks(data: bytes) -> tuple[bytes, bytes | None]:
 
 
 def _nodes(gltf: _Gltf) -> Iterator[tuple[Table, Array]]:
-    """The nodes of the scene, each with the matrix that puts it into its place."""
+    """Return the nodes of the scene, each with the matrix that puts it into its place."""
     nodes = [Table(value, where) for where, value in gltf.keys.rows("nodes")]
     children = [_links(node, "children", len(nodes)) for node in nodes]
     if "scene" in gltf.keys or gltf.keys.rows("scenes"):
@@ -258,7 +258,7 @@ def _nodes(gltf: _Gltf) -> Iterator[tuple[Table, Array]]:
 
 
 def _links(keys: Table, key: str, count: int) -> list[int]:
-    """The numbers of nodes."""
+    """Return the numbers of nodes."""
     for place, number in keys.rows(key):
         if type(number) is not int or not 0 <= number < count:
             raise InputError(f"{place} is {number!r:.20}, but there are {count} nodes, numbered from 0")
@@ -278,7 +278,7 @@ def _matrix(node: Table) -> Array:
 
 
 def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Part]:
-    """The parts of a mesh that have triangles."""
+    """Return the parts of a mesh that have triangles."""
     for where, value in mesh.rows("primitives"):
         keys = Table(value, where)
         attributes = keys.table("attributes")
@@ -335,7 +335,7 @@ class _Vertices:
     count: int
 
     def values(self, name: str, *types: str) -> NDArray[Any] | None:
-        """An attribute of them, or None if it is absent."""
+        """Return an attribute of them, or None if it is absent."""
         if name not in self.attributes:
             return None
         values = self.gltf.numbers(self.attributes, name, *types)
@@ -383,7 +383,7 @@ def _texture_colors(vertices: _Vertices, info: Table) -> Array:
 
 
 def _place(part: _Part, matrix: Array) -> _Part:
-    """A part where its node puts it."""
+    """Return a part where its node puts it."""
     positions, faces, colors, normals = part
     linear = matrix[:3, :3]
     # the matrix of the cofactors turns normals right under any scale; its sign follows that of a mirror

@@ -18,7 +18,7 @@ SCENES = (".toml", ".json")
 
 
 def load(path: str | os.PathLike[str], look: Look | None = None) -> Scene:
-    """The scene of a mesh or scene file, by its extension.
+    """Return the scene of a mesh or scene file, by its extension.
 
     A mesh is staged as `look` says; a scene file says itself how it looks. A JSON file with the key `canvasDim` is a
     scene of the original contracts, any other one of our own. InputError, one line that begins with the path, if

@@ -25,7 +25,7 @@ READERS: dict[str, Callable[[Path], Mesh]] = {
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """The mesh of a file, by its extension. Vertices that are equal in position, colour and normal are one.
+    """Return the mesh of a file, by its extension. Vertices that are equal in position, colour and normal are one.
 
     An InputWarning tells what of the file is left out. InputError, one line that begins with the path, for anything
     that is wrong with the file.

@@ -28,7 +28,7 @@ ABSENT = -1
 
 
 def read_obj(path: Path) -> Mesh:
-    """The mesh of an OBJ file, all its groups and objects in one.
+    """Return the mesh of an OBJ file, all its groups and objects in one.
 
     The colour of a corner is that of its vertex (`v x y z r g b`), else the texture (`map_Kd`), else the diffuse colour
     (`Kd`) of its material, else light grey. Materials and textures that cannot be read are left out, of which an
@@ -49,7 +49,7 @@ def read_obj(path: Path) -> Mesh:
 
 
 def write_obj(mesh: Mesh, path: str | Path) -> None:
-    """Writes positions, colours and, if there are any, normals."""
+    """Write positions, colours and, if there are any, normals."""
     lines = ["# Shackled"]
     fractions = mesh.colors / 255
     for (x, y, z), (r, g, b) in zip(mesh.positions.tolist(), fractions.tolist(), strict=True):
@@ -216,7 +216,7 @@ def _colors(
 
 
 def _read_materials(path: Path, names: str) -> dict[str, _Material]:
-    """The materials of the files named in a `mtllib` line: one name, which may have spaces in it, or several."""
+    """Return the materials of the files named in a `mtllib` line: one name, which may have spaces in it, or several."""
     found: dict[str, str] = {}
     missing: dict[str, InputError] = {}
     for name in (names, *names.split()):

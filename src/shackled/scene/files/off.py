@@ -22,7 +22,7 @@ _Line = tuple[int, list[str]]
 
 
 def read_off(path: Path) -> Mesh:
-    """The mesh of an OFF file (also COFF, NOFF, STOFF and their mixtures).
+    """Return the mesh of an OFF file (also COFF, NOFF, STOFF and their mixtures).
 
     Colours are integers 0..255 or fractions 0..1. A face with a colour of its own has that one, else those of its
     vertices, else light grey. Numbers into a table of colours, which the format leaves to the program, are not read.
@@ -87,7 +87,7 @@ def _numbers(lines: list[_Line], least: int) -> list[list[float]]:
 
 
 def _faces(lines: list[_Line]) -> tuple[list[list[int]], list[list[float]]]:
-    """The corners of each face, and what stands behind them: its colour, or nothing."""
+    """Return the corners of each face, and what stands behind them: its colour, or nothing."""
     polygons, colors = [], []
     for number, words in lines:
         try:

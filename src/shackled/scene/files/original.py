@@ -32,12 +32,12 @@ ORTHOGRAPHIC_UNITS = 500
 
 
 def is_original(document: Mapping[str, Any]) -> bool:
-    """Whether a JSON object is a scene of the original."""
+    """Return whether a JSON object is a scene of the original."""
     return "canvasDim" in document
 
 
 def original_scene(document: Mapping[str, Any]) -> Scene:
-    """The scene of the original's JSON.
+    """Return the scene of the original's JSON.
 
     Its parameters stand at the top level or under `renderParams`; `verts`, `faces` and `canvasDim` are needed, the
     others have defaults, and keys that it does not know are passed over. `rotation`, if there, is in degrees about x,
@@ -74,7 +74,7 @@ def original_scene(document: Mapping[str, Any]) -> Scene:
 
 
 def _mesh(keys: Table, sign: int) -> Mesh | None:
-    """The mesh, its positions times `sign`; None without faces."""
+    """Return the mesh, its positions times `sign`; None without faces."""
     positions, faces = keys.matrix("verts"), keys.matrix("faces", whole=True)
     colors = keys.matrix("cols", whole=True) if "cols" in keys else None
     if not len(faces):
@@ -116,7 +116,7 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
 
 
 def _light_color(lighting: Table, key: str) -> NDArray[np.float64]:
-    """Red, green and blue, of any size: the original's powers may be in them."""
+    """Return red, green and blue, of any size: the original's powers may be in them."""
     color = np.array(lighting.numbers(key, (255, 255, 255)))
     if (color < 0).any():
         raise InputError(f"{lighting.place(key)} must not be negative, not {lighting.get(key)!r:.60}")

@@ -33,7 +33,7 @@ _LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
 
 
 def read_ply(path: Path) -> Mesh:
-    """The mesh of a PLY file.
+    """Return the mesh of a PLY file.
 
     A corner has the colour of its face if faces have colours, else that of its vertex, else light grey. Where all faces
     have the same colour, those of vertices come first. An InputWarning tells of textures, which are left out.
@@ -83,14 +83,14 @@ class _Element:
     values: dict[str, Any] = field(default_factory=dict)
 
     def table(self, *names: str) -> NDArray[np.float64] | None:
-        """The scalar properties of these names side by side, or None if one is missing."""
+        """Return the scalar properties of these names side by side, or None if one is missing."""
         scalars = {p.name for p in self.properties if p.length is None}
         if not scalars.issuperset(names):
             return None
         return np.stack([np.asarray(self.values[name], dtype=np.float64) for name in names], axis=1)
 
     def lists(self, *names: str) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
-        """The first list property of one of these names: how long its lists are, and all their numbers; or None."""
+        """Return the first list property of one of these names, as lengths of its lists and all numbers; or None."""
         for name in names:
             if any(p.name == name and p.length is not None for p in self.properties):
                 rows = self.values[name]
@@ -122,7 +122,7 @@ class _Header:
 
 
 def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
-    """The header, with elements that have no values yet, and where these are."""
+    """Return the header, with elements that have no values yet, and where these are."""
     header, start, number = _Header(), 0, 0
     if not data.startswith(b"ply"):
         raise InputError("a PLY file begins with the line ply")
@@ -192,7 +192,7 @@ class _Text:
         return {name: table[:, at : at + size] for (name, _, size), at in zip(fields, starts, strict=False)}
 
     def row(self, element: _Element) -> dict[str, list[float]]:
-        """The values of a line, by property."""
+        """Return the values of a line, by property."""
         self._skip_blank()
         if self.at == len(self.lines):
             raise _ended(element)
@@ -223,7 +223,7 @@ class _Text:
             self.at += 1
 
     def finish(self) -> None:
-        """Refuses what is left over."""
+        """Refuse what is left over."""
         for number, line in enumerate(self.lines[self.at :], self.before + self.at + 1):
             if line.strip():
                 raise InputError(f"line {number} is left over behind the elements of its header: {line.strip()[:60]!r}")
@@ -247,7 +247,7 @@ class _Binary:
         return {name: table[name] for name, _, _ in fields}
 
     def row(self, element: _Element) -> dict[str, list[float]]:
-        """The values of a row, by property."""
+        """Return the values of a row, by property."""
         row = {}
         for p in element.properties:
             size = 1 if p.length is None else int(self._numbers(element, p.length, 1)[0])

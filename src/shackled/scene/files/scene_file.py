@@ -40,8 +40,9 @@ _NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
 
 
 def scene_of(document: Mapping[str, Any], folder: Path) -> Scene:
-    """The scene of a document whose meshes are files relative to `folder`. InputError says where in the document it is
-    wrong.
+    """Return the scene of a document whose meshes are files relative to `folder`.
+
+    InputError says where in the document it is wrong.
     """
     table = Table(document, "", _SCENE)
     width, height = _size(table)
@@ -120,7 +121,7 @@ def encode_scene_file(scene: Scene) -> bytes:
 
 
 def _lamp(light: Light) -> dict[str, Any]:
-    """The keys of a light."""
+    """Return the keys of a light."""
     place = "direction" if light.kind == "directional" else "position"
     keys = {"kind": light.kind, place: light.vector, "color": light.color}
     if light.kind == "spot":

@@ -17,7 +17,7 @@ _HEADER = 80 + 4
 
 
 def read_stl(path: Path) -> Mesh:
-    """The mesh of an STL file in light grey. The normals of its faces follow from their vertices."""
+    """Return the mesh of an STL file in light grey. The normals of its faces follow from their vertices."""
     data = read_bytes(path)
     count = int.from_bytes(data[80:_HEADER], "little")
     if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE.itemsize:

@@ -37,39 +37,39 @@ class Table:
         return key in self.values
 
     def place(self, key: str) -> str:
-        """The place of a key in the document."""
+        """Return the place of a key in the document."""
         return f"{self.where}.{key}" if self.where else key
 
     def get(self, key: str) -> Any:
-        """The value, of any kind, or None."""
+        """Return the value, of any kind, or None."""
         return self.values.get(key)
 
     def table(self, key: str, known: tuple[str, ...] | None = None) -> Table:
-        """The table inside; an empty one if the key is absent."""
+        """Return the table inside; an empty one if the key is absent."""
         return Table(self.values.get(key, {}), self.place(key), known)
 
     def only_one_of(self, *keys: str) -> None:
-        """Refuses two of the keys together."""
+        """Refuse two of the keys together."""
         given = [key for key in keys if key in self]
         if len(given) > 1:
             raise InputError(f"{self.place(given[0])} and {given[1]} exclude each other")
 
     def number(self, key: str, default: float) -> float:
-        """A finite number."""
+        """Return a finite number."""
         value = self.values.get(key, default)
         if not is_number(value):
             raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
         return float(value)
 
     def whole(self, key: str, default: int | None = None) -> int:
-        """A whole number that is not negative; it must be there if there is no default."""
+        """Return a whole number that is not negative; it must be there if there is no default."""
         value: Any = self.values.get(key, default)
         if not is_number(value) or value < 0 or value % 1:
             raise InputError(f"{self.place(key)} must be a whole number, at least 0, not {value!r:.60}")
         return int(value)
 
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """As many numbers as the default has."""
+        """Return as many numbers as the default has."""
         value = self.values.get(key, default)
         if (
             not isinstance(value, list | tuple)
@@ -91,21 +91,21 @@ class Table:
         return table.reshape(-1, 3)
 
     def flag(self, key: str, default: bool) -> bool:
-        """True or false."""
+        """Return true or false."""
         value = self.values.get(key, default)
         if not isinstance(value, bool):
             raise InputError(f"{self.place(key)} must be true or false, not {value!r:.60}")
         return value
 
     def choice(self, key: str, default: str, choices: tuple[str, ...]) -> str:
-        """One of some words."""
+        """Return one of some words."""
         value = self.values.get(key, default)
         if value not in choices:
             raise InputError(f"{self.place(key)} must be one of {', '.join(choices)}, not {value!r:.60}")
         return str(value)
 
     def color(self, key: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
-        """Red, green and blue from 0 to 255, or "#rrggbb"."""
+        """Return red, green and blue from 0 to 255, or "#rrggbb"."""
         value = self.values.get(key, default)
         if isinstance(value, str):
             return color(value, self.place(key))
@@ -116,7 +116,7 @@ class Table:
         return color(list(value), self.place(key))
 
     def rows(self, key: str) -> list[tuple[str, object]]:
-        """The parts of a list, each with its place; none if the key is absent."""
+        """Return the parts of a list, each with its place; none if the key is absent."""
         value = self.values.get(key, [])
         if not isinstance(value, list):
             raise InputError(f"{self.place(key)} must be a list, not {value!r:.60}")
@@ -125,7 +125,7 @@ class Table:
 
 @contextmanager
 def about(where: str) -> Iterator[None]:
-    """Puts a place before the messages of what happens inside."""
+    """Put a place before the messages of what happens inside."""
     try:
         yield
     except InputError as error:
@@ -133,5 +133,5 @@ def about(where: str) -> Iterator[None]:
 
 
 def is_number(value: object) -> bool:
-    """Whether it is a finite number, and no truth value."""
+    """Return whether it is a finite number, and no truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300

@@ -17,7 +17,7 @@ TEXTURED = "its textures give their colours at the vertices only; what they show
 
 
 def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
-    """The image, as RGB. InputError, with its name, if there is none."""
+    """Return the image, as RGB. InputError, with its name, if there is none."""
     try:
         with (
             warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
@@ -31,7 +31,7 @@ def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
 
 
 def is_varied(image: Image.Image) -> bool:
-    """Whether an RGB image has more than one colour."""
+    """Return whether an RGB image has more than one colour."""
     return any(np.ptp(np.asarray(image), axis=(0, 1)))
 
 

@@ -16,7 +16,7 @@ _AT_ONCE = 1 << 16
 def weld(
     positions: ArrayLike, faces: ArrayLike, colors: ArrayLike | None = None, normals: ArrayLike | None = None
 ) -> Mesh:
-    """A mesh with one vertex for each distinct position, colour and normal that a face uses.
+    """Return a mesh with one vertex for each distinct position, colour and normal that a face uses.
 
     positions: (n, 3) float. faces: (m, 3) int, numbers of positions. colors: (m, 3, 3), the colour 0..255 of each
     corner of each face, or None for light grey. normals: (m, 3, 3) float likewise, or None for no normals. InputError
