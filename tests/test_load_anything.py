@@ -110,8 +110,10 @@ def test_the_keywords_are_those_of_the_table() -> None:
     for setting in SETTINGS:
         assert setting.text.endswith(".")
         assert setting.text[0].isupper()
-    with pytest.raises(TypeError, match="'colour' is no keyword of a look; known are size, max_triangles, "):
+    with pytest.raises(TypeError, match=r"^'colour' is not a keyword of a look; did you mean color=\?$"):
         render(MESH, colour="red")  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match=r"^'x' is not a keyword of a look; known are size, max_triangles, "):
+        render(MESH, x=5)  # type: ignore[call-arg]
 
 
 def test_the_page_lists_all_settings() -> None:

@@ -84,7 +84,7 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:
-        raise InputError(f"on= a node is Nodes({on!r:.60}), not its address alone")
+        raise InputError(f"on= must be Nodes({on!r:.60}) for a node, not its address alone")
     if on is None or isinstance(on, str):
         return Where(on, gas_limit=gas_limit, tile=tile)
     if isinstance(on, Processes):

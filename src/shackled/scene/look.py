@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any, Literal, TypedDict, cast
 
 import numpy as np
@@ -196,7 +197,9 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
-            raise TypeError(f"{name!r} is no keyword of a look; known are {', '.join(known)}")
+            close = get_close_matches(name, known, 1)
+            meant = f"did you mean {close[0]}=?" if close else f"known are {', '.join(known)}"
+            raise TypeError(f"{name!r} is not a keyword of a look; {meant}")
     look = {name: _CHECKS[known[name].kind](value, known[name]) for name, value in options.items() if value is not None}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
     if len(shadings) > 1:
