@@ -110,7 +110,7 @@ def test_the_keywords_are_those_of_the_table() -> None:
     for setting in SETTINGS:
         assert setting.text.endswith(".")
         assert setting.text[0].isupper()
-    with pytest.raises(TypeError, match=r"^'colour' is not a keyword of a look; did you mean color=\?$"):
+    with pytest.raises(TypeError, match=r"^'colour' is not a keyword of a look; did you mean color\?$"):
         render(MESH, colour="red")  # type: ignore[call-arg]
     with pytest.raises(TypeError, match=r"^'x' is not a keyword of a look; known are size, max_triangles, "):
         render(MESH, x=5)  # type: ignore[call-arg]
@@ -194,19 +194,22 @@ def test_looks_in_other_words() -> None:
 @pytest.mark.parametrize(
     ("look", "message"),
     [
-        ({"fov": 40, "half_height": 1}, "fov= and half_height= exclude each other: give one of them"),
-        ({"azimuth": 40, "eye": (1, 2, 3)}, "azimuth= and eye= exclude each other: give one of them"),
-        ({"fov": 40, "orthographic": True}, "an orthographic camera has no field of view: give half_height= instead"),
+        ({"fov": 40, "half_height": 1}, "`fov` and `half_height` exclude each other: give one of them"),
+        ({"azimuth": 40, "eye": (1, 2, 3)}, "`azimuth` and `eye` exclude each other: give one of them"),
+        ({"fov": 40, "orthographic": True}, "an orthographic camera has no field of view: give `half_height` instead"),
         ({"smooth": True, "unlit": True}, "the shading cannot be smooth and unlit at once"),
-        ({"opacity": 2}, "opacity= must be a finite number from 0 to 1, not 2"),
-        ({"shininess": 2.5}, "shininess= must be a whole number, from 1 to 128, not 2.5"),
-        ({"max_triangles": 0}, "max_triangles= must be a whole number, at least 1, not 0"),
-        ({"color": "reddish"}, "color= must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour"),
-        ({"size": "big"}, "size= must be one number or (width, height), not 'big'"),
-        ({"size": (1.5, 2)}, "size= must be whole numbers, not (1.5, 2)"),
-        ({"eye": "here"}, "eye= must be 3 numbers, not 'here'"),
-        ({"cull": "yes"}, "cull= must be True or False, not 'yes'"),
-        ({"shading": "toon"}, "shading= must be one of unlit, flat, smooth, not 'toon'"),
+        ({"opacity": 2}, "`opacity` must be a finite number from 0 to 1, not 2"),
+        ({"shininess": 2.5}, "`shininess` must be a whole number, from 1 to 128, not 2.5"),
+        ({"max_triangles": 0}, "`max_triangles` must be a whole number, at least 1, not 0"),
+        (
+            {"color": "reddish"},
+            "`color` must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour",
+        ),
+        ({"size": "big"}, "`size` must be one number or (width, height), not 'big'"),
+        ({"size": (1.5, 2)}, "`size` must be whole numbers, not (1.5, 2)"),
+        ({"eye": "here"}, "`eye` must be 3 numbers, not 'here'"),
+        ({"cull": "yes"}, "`cull` must be True or False, not 'yes'"),
+        ({"shading": "toon"}, "`shading` must be one of unlit, flat, smooth, not 'toon'"),
         ({"lights": [Light.point((1, 2, 3))] * 5}, "a scene has up to 4 lights, not 5"),
     ],
     ids=lambda value: str(value)[:40],

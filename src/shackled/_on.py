@@ -84,7 +84,7 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:
-        raise InputError(f"on= must be Nodes({on!r:.60}) for a node, not its address alone")
+        raise InputError(f"`on` must be Nodes({on!r:.60}) for a node, not its address alone")
     if on is None or isinstance(on, str):
         return Where(on, gas_limit=gas_limit, tile=tile)
     if isinstance(on, Processes):
@@ -103,5 +103,5 @@ def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] 
     if isinstance(on, Cluster):
         return Where(on.evm, on.jobs, cluster=on.address or "", gas_limit=gas_limit, tile=tile, verify=on.verify)
     if not hasattr(on, "draw"):
-        raise InputError(f"on= must be one of {', '.join(CHAINS)}, Processes, Nodes or Cluster, not {on!r:.60}")
+        raise InputError(f"`on` must be one of {', '.join(CHAINS)}, Processes, Nodes or Cluster, not {on!r:.60}")
     return Where(on, gas_limit=gas_limit, tile=tile)

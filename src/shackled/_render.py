@@ -95,4 +95,4 @@ def render_whole(scene: Scene, chain: Chain) -> Image:
 
 
 def _where(on: On | None, gas_limit: int | None, tile: int | tuple[int, int] | None) -> Where:
-    return where_of(on, gas_limit, None if tile is None else size_of(tile, "tile="))
+    return where_of(on, gas_limit, None if tile is None else size_of(tile, "`tile`"))

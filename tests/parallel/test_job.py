@@ -69,7 +69,7 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(RenderError, match=r"still too much: take fewer triangles by max_triangles="):
+    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(`max_triangles`\)"):
         render_frames([SCENE], Where(gas_limit=500_000))
 
 
@@ -115,7 +115,7 @@ def test_a_worker_that_dies_is_replaced() -> None:
 def test_errors_of_a_worker_are_told() -> None:
     with pytest.raises(RenderError, match="still too much"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
-    with pytest.raises(InputError, match="counts no gas: leave out gas_limit="):
+    with pytest.raises(InputError, match="counts no gas: leave out `gas_limit`"):
         render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))
 
 
@@ -134,17 +134,17 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"on": Processes(0)}, "jobs= must be from 1 to 256, not 0"),
-        ({"on": Processes(1.5)}, "jobs= must be from 1 to 256"),  # type: ignore[arg-type]
-        ({"gas_limit": 0}, "gas_limit= must be a whole number of gas from 1 to 30,000,000,000, not 0"),
-        ({"gas_limit": 10**30}, "gas_limit= must be a whole number of gas from 1 to 30,000,000,000"),
-        ({"tile": 0}, "sides of a tile= must be whole numbers from 1"),
-        ({"tile": "big"}, r"tile= must be one number or \(width, height\)"),
-        ({"on": "http://127.0.0.1:1"}, r"on= must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
+        ({"on": Processes(0)}, "`jobs` must be from 1 to 256, not 0"),
+        ({"on": Processes(1.5)}, "`jobs` must be from 1 to 256"),  # type: ignore[arg-type]
+        ({"gas_limit": 0}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000, not 0"),
+        ({"gas_limit": 10**30}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000"),
+        ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
+        ({"tile": "big"}, r"`tile` must be one number or \(width, height\)"),
+        ({"on": "http://127.0.0.1:1"}, r"`on` must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
         ({"on": "moon"}, "the chains are pyrevm, pyevm, reference"),
-        ({"on": 5}, "on= must be one of pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
+        ({"on": 5}, "`on` must be one of pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
         ({"on": Nodes("nowhere")}, "must be the address of a node"),
-        ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "verify= must be all, some or none, not 'most'"),
+        ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "`verify` must be all, some or none, not 'most'"),
         ({"on": Processes(2, open_chain("reference"))}, "give its name"),  # type: ignore[arg-type]
     ],
 )

@@ -22,9 +22,9 @@ from .deploy import deploy
 from .gas import gas
 from .genesis import genesis
 from .mint import mint
+from .option import with_options
 from .render import render
 from .stages import stages
-from .telling import with_options
 from .token import token
 
 #: What typer makes of a keyboard interrupt.
@@ -75,9 +75,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
-        return _fail(with_options(str(error)), 2)
+        return _fail(error, 2)
     except (RenderError, FetchError, OutputError) as error:
-        return _fail(with_options(str(error)), 1)
+        return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
     except OSError as error:
@@ -101,7 +101,7 @@ def _note(show: Callable[..., object]) -> Callable[..., None]:
             show(message, category, *place, **more)
         elif str(message) not in told:
             told.add(str(message))
-            print(f"shackled: note: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+            print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
 
     return showwarning
 
@@ -116,5 +116,5 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+    print(f"shackled: {plain(with_options(str(message)))}", file=sys.stderr)
     return code

@@ -12,7 +12,7 @@ from .._load import load, locate
 from ..datasets import Piece
 from ..scene.look import SETTINGS, Kind, Setting, checked_look
 from ..scene.scene import Scene
-from .option import option
+from .option import OPTIONS, option
 from .parse import parse_background, parse_light, parse_size, parse_vector
 
 #: What typer makes of a value, what stands for it in the help, and what is then made of it.
@@ -69,6 +69,10 @@ def load_with(input: str, look: dict[str, Any]) -> Scene:
 def option_of(setting: Setting) -> str:
     """Return the option of a setting, such as "--max-triangles" or "--cull/--no-cull"."""
     return setting.option or f"--{setting.name.replace('_', '-')}"
+
+
+# messages of the library name keywords of a look too
+OPTIONS.update({setting.name: option_of(setting).partition("/")[0] for setting in SETTINGS})
 
 
 def _look(values: dict[str, Any]) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 
 from ..plain import plain
@@ -16,8 +15,3 @@ def tell(text: str) -> None:
 def say(text: str) -> None:
     """Prints a line that is no result."""
     print(plain(text), file=sys.stderr, flush=True)
-
-
-def with_options(message: str) -> str:
-    """Return a message of the library with options in place of its keywords, which it writes as `max_triangles=`."""
-    return re.sub(r"\b([a-z]+(?:_[a-z]+)*)=(?=[\s,:;)]|$)", lambda match: f"--{match[1].replace('_', '-')}", message)

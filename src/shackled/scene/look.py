@@ -192,13 +192,13 @@ class LookOptions(TypedDict, total=False):
 def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return what is set, each converted by its kind; without what is None.
 
-    InputError names the keyword that is wrong, or two that exclude each other, each with "=" after it.
+    InputError names the keyword that is wrong, or two that exclude each other, each in `backticks`.
     """
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
             close = get_close_matches(name, known, 1)
-            meant = f"did you mean {close[0]}=?" if close else f"known are {', '.join(known)}"
+            meant = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
             raise TypeError(f"{name!r} is not a keyword of a look; {meant}")
     look = {name: _CHECKS[known[name].kind](value, known[name]) for name, value in options.items() if value is not None}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
@@ -240,7 +240,7 @@ def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
     return evolve(scene, width=width, height=height)
 
 
-def size_of(value: int | tuple[int, int], name: str = "size=") -> tuple[int, int]:
+def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, int]:
     """Return width and height, of one number or two. InputError for anything else."""
     try:
         side = integer(value)
@@ -256,7 +256,7 @@ def size_of(value: int | tuple[int, int], name: str = "size=") -> tuple[int, int
 def _exclude(look: Mapping[str, Any], one: Sequence[str], other: Sequence[str]) -> None:
     pair = [next((name for name in names if name in look), None) for names in (one, other)]
     if None not in pair:
-        raise InputError(f"{pair[0]}= and {pair[1]}= exclude each other: give one of them")
+        raise InputError(f"`{pair[0]}` and `{pair[1]}` exclude each other: give one of them")
 
 
 def _staging(look: Mapping[str, Any], orthographic: bool, thing_turned: bool) -> Look:
@@ -311,7 +311,7 @@ def _half_height(look: Mapping[str, Any], orthographic: bool) -> float | None:
     if "fov" not in look:
         return look.get("half_height")
     if orthographic:
-        raise InputError("an orthographic camera has no field of view: give half_height= instead of fov=")
+        raise InputError("an orthographic camera has no field of view: give `half_height` instead of `fov`")
     return half_height_of(look["fov"])
 
 
@@ -323,19 +323,19 @@ def _whole(value: object, setting: Setting) -> int:
     found = integer(value)
     if found is None or not setting.low <= found <= setting.high:
         limits = f"from {setting.range}" if setting.range else f"at least {setting.low:g}"
-        raise InputError(f"{setting.name}= must be a whole number, {limits}, not {value!r:.60}")
+        raise InputError(f"`{setting.name}` must be a whole number, {limits}, not {value!r:.60}")
     return found
 
 
 _CHECKS: dict[Kind, Callable[[Any, Setting], Any]] = {
     "size": lambda value, setting: size_of(value),
     "whole": _whole,
-    "number": lambda value, setting: number(value, f"{setting.name}=", setting.low, setting.high),
-    "vector": lambda value, setting: vector(value, f"{setting.name}="),
-    "rotation": lambda value, setting: rotation_of(value, f"{setting.name}="),
-    "flag": lambda value, setting: flag(value, f"{setting.name}="),
-    "color": lambda value, setting: color(value, f"{setting.name}="),
+    "number": lambda value, setting: number(value, f"`{setting.name}`", setting.low, setting.high),
+    "vector": lambda value, setting: vector(value, f"`{setting.name}`"),
+    "rotation": lambda value, setting: rotation_of(value, f"`{setting.name}`"),
+    "flag": lambda value, setting: flag(value, f"`{setting.name}`"),
+    "color": lambda value, setting: color(value, f"`{setting.name}`"),
     "background": lambda value, setting: background_of(value),
-    "choice": lambda value, setting: choice(value, f"{setting.name}=", setting.choices),
+    "choice": lambda value, setting: choice(value, f"`{setting.name}`", setting.choices),
     "lights": lambda value, setting: lights_of(value),
 }

@@ -28,7 +28,7 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
     if len(positions) > MAX_VERTICES or len(faces) > MAX_FACES:
         raise InputError(
             f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles, a contract takes {MAX_VERTICES:,}"
-            f" and {MAX_FACES:,}: simplify them with max_triangles="
+            f" and {MAX_FACES:,}: simplify them with `max_triangles`"
         )
     if not is_integral(positions):
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
