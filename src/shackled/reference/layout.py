@@ -78,6 +78,9 @@ FACE_SIZE = 6
 #: Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
 FACE_AT = 208
 FACE_FIRST_AT = 32
+#: The first and the second in the word of calldata.
+FACE_FIRST_IN_WORD = 240
+FACE_SECOND_IN_WORD = 224
 FACE_SECOND_AT = 16
 FACE_INDEX_MASK = 0xFFFF
 
@@ -166,6 +169,9 @@ PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000
 
 MIDDLE_85_AT = 85
 UPPER_85_AT = 170
+#: Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+HALF_LANE_85 = 0x1000000000000000000000
+HALF_LANES_85 = 0x2000000000000000000000000000000000000000000
 #: Where each lane of Q58 has a Q9 number.
 BLUE_Q9_AT = 49
 GREEN_Q9_AT = 134
