@@ -173,6 +173,10 @@ uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
 /// @dev Where an entry has its value.
 uint256 constant SPECULAR_VALUE_AT = 128;
+/// @dev The same for a place in Q24; what is between two entries, at bit 128.
+uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
+uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
+uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 

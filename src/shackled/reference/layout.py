@@ -211,6 +211,10 @@ SPECULAR_ENTRY_MASK = 0xFFFFE0
 SPECULAR_REST_MASK = 0xFFFF
 #: Where an entry has its value.
 SPECULAR_VALUE_AT = 128
+#: The same for a place in Q24; what is between two entries, at bit 128.
+SPECULAR_ENTRY_SHIFT_24 = 19
+SPECULAR_ENTRY_MASK_24 = 0xFE0
+SPECULAR_REST_AT_128 = 0xFFFFFF00000000000000000000000000000000
 
 # ---- normals of fragments ----
 
