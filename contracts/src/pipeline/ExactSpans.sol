@@ -62,9 +62,10 @@ library ExactSpans {
             uint256 y = load(RAY_TOP) + row * load(RAY_STEP);
             while (true) {
                 uint256 depth = attribute >> ACCUMULATOR_DEPTH_AT;
-                uint256 old = load(p);
-                if (depth > old >> ACCUMULATOR_DEPTH_AT) {
-                    store(p, (depth << ACCUMULATOR_DEPTH_AT) | (old & BEHIND_EXACT_DEPTH));
+                if (depth > load(p) >> ACCUMULATOR_DEPTH_AT) {
+                    assembly ("memory-safe") {
+                        mstore(p, or(shl(ACCUMULATOR_DEPTH_AT, depth), and(mload(p), BEHIND_EXACT_DEPTH)))
+                    }
                     write(p, colorAt(attribute, x, y));
                 }
                 p += 8;
