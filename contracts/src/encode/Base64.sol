@@ -7,9 +7,12 @@ library Base64 {
     /// @dev 1 in each byte.
     uint256 private constant EACH_BYTE = 0x0101010101010101010101010101010101010101010101010101010101010101;
     uint256 internal constant MARGIN = 128;
+    /// @dev Each turn reads 96 bytes and writes 128: 32 more for each turn that was begun.
+    uint256 internal constant OVERLAP = 32;
 
     /// @notice Writes the characters of `size` bytes at `data` to `target`, and up to MARGIN bytes without meaning behind them. The 32
-    /// bytes behind the data must be zero.
+    /// bytes behind the data must be zero. The characters may take the place of data that have been read: a target that is a third of
+    /// `size` and OVERLAP bytes before the data stays behind them.
     /// @return end The address after the last character.
     function encode(uint256 data, uint256 size, uint256 target) internal pure returns (uint256 end) {
         unchecked {

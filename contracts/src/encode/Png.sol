@@ -56,7 +56,7 @@ library Png {
     }
 
     /// @dev The rows of a picture.
-    /// @param source The row that is read last, in the bitmap.
+    /// @param source The row that is read last, in the calldata.
     /// @param row Where one is copied to, with a word before it and four behind it.
     /// @param size Bytes of its pixels.
     /// @param height How many there are.
@@ -78,7 +78,7 @@ library Png {
     /// @notice A PNG file of a bitmap.
     /// @param bmp 24 bits a pixel, as the renderer makes it.
     /// @param scale How many pixels each becomes in both directions, 1..8.
-    function encode(bytes memory bmp, uint256 scale) internal pure returns (bytes memory png) {
+    function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
@@ -95,8 +95,8 @@ library Png {
             // a word before it, and what is added behind it
             rows.row = room(rows.size + 192) + 32;
             assembly ("memory-safe") {
-                // behind the length and the header, the row that is lowest
-                mstore(rows, add(bmp, 86))
+                // behind the header, the row that is lowest
+                mstore(rows, add(bmp.offset, 54))
                 png := mload(0x40)
                 // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
                 let sides := or(shl(32, mul(width, scale)), mul(height, scale))
@@ -118,7 +118,7 @@ library Png {
     }
 
     /// @notice A PNG file of a bitmap as a `data:` URI.
-    function dataURI(bytes memory bmp, uint256 scale) internal pure returns (string memory uri) {
+    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory uri) {
         unchecked {
             // this stands before the file, since zeros are written behind that
             string memory prefix = "data:image/png;base64,";
@@ -142,15 +142,15 @@ library Png {
     }
 
     /// @dev The sides of a bitmap in pixels, each 1..65535.
-    function sizeOf(bytes memory bmp) private pure returns (uint256 width, uint256 height) {
+    function sizeOf(bytes calldata bmp) private pure returns (uint256 width, uint256 height) {
         unchecked {
             if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
             uint256 kind;
             uint256 planesAndBits;
             assembly ("memory-safe") {
-                kind := shr(240, mload(add(bmp, 32)))
+                kind := shr(240, calldataload(bmp.offset))
                 // bytes 18 to 21 and 22 to 25 are the sides, the lowest byte first
-                let sides := mload(add(bmp, 50))
+                let sides := calldataload(add(bmp.offset, 18))
                 width := or(byte(0, sides), shl(8, byte(1, sides)))
                 height := or(byte(4, sides), shl(8, byte(5, sides)))
                 planesAndBits := and(shr(160, sides), 0xffffffff)
@@ -248,7 +248,7 @@ library Png {
             for (uint256 y = rows.height; y != 0; --y) {
                 source -= stride;
                 assembly ("memory-safe") {
-                    mcopy(row, source, size)
+                    calldatacopy(row, source, size)
                     // zeros, for the sums
                     calldatacopy(add(row, size), calldatasize(), 96)
                 }
