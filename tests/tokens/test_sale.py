@@ -487,7 +487,9 @@ def test_constructors_refuse_what_makes_no_sense(s: Stage) -> None:
         with refused(name, *values):
             s.world.deploy("GenesisCollection", *arguments)
     with refused("NoGenesis", s.alice):
-        s.world.deploy("GenesisMetadata", s.alice)
+        s.world.deploy("GenesisMetadata", s.alice, s.studio)
+    with refused("NoEncoder", s.alice):
+        s.world.deploy("GenesisMetadata", s.generator, s.alice)
     free = s.world.deploy("GenesisCollection", s.metadata, 0, 1024, terms)
     free.send("setPhase", PUBLIC, sender=s.owner)
     with refused("NothingLeft", 1, 0):

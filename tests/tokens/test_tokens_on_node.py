@@ -34,7 +34,8 @@ def deploy(w3: Web3, name: str, *arguments: Any) -> Any:
 @pytest.fixture(scope="module")
 def metadata(w3: Web3) -> str:
     renderer = deploy(w3, "Renderer", deploy(w3, "Engine").address, deploy(w3, "FragmentEngine").address)
-    return str(deploy(w3, "GenesisMetadata", deploy(w3, "Genesis", renderer.address).address).address)
+    parts = deploy(w3, "Genesis", renderer.address).address, deploy(w3, "PngEncoder").address
+    return str(deploy(w3, "GenesisMetadata", *parts).address)
 
 
 @needs_anvil

@@ -77,7 +77,7 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
     """Deployments too, and those of which a part is paid back or whose data costs more than what they do."""
     owner, alice, bob, carol = both.node.accounts[:4]
     renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
-    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer))
+    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     genesis = both.deploy("GenesisCollection", metadata, PRICE, 10, (owner, 5, owner, 500))
 
     listed = {alice: 2} | {account(f"listed {number}"): 2 for number in range(99)}
@@ -108,5 +108,5 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
 @needs_anvil
 def test_pictures_cost_what_a_node_says(both: Both) -> None:
     renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
-    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer))
+    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     both.send(metadata, "tokenURI", 7, seed_of(7), sender=both.node.accounts[0])

@@ -35,6 +35,15 @@ library Png {
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
+    /// @dev Of eight pixels of 24 bits the upper four, of each four the upper two, of each two the upper one.
+    uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
+    uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
+    uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
+    uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
+    uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
+    uint256 private constant SECOND_BYTES = 0x0000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff00;
+
     // Checksums take 30 bytes, ten pixels, at a time, as lanes of 16 bits of which the lowest is not used.
     uint256 private constant WORD = 30;
     /// @dev As many bytes of a row are summed in lanes of 16 bits: 14 words, and 510 * (1 + 2 + .. + 14) < 2^16.
@@ -56,7 +65,7 @@ library Png {
     }
 
     /// @dev The rows of a picture.
-    /// @param source The row that is read last, in the bitmap.
+    /// @param source The row that is read last, in the calldata.
     /// @param row Where one is copied to, with a word before it and four behind it.
     /// @param size Bytes of its pixels.
     /// @param height How many there are.
@@ -78,7 +87,7 @@ library Png {
     /// @notice A PNG file of a bitmap.
     /// @param bmp 24 bits a pixel, as the renderer makes it.
     /// @param scale How many pixels each becomes in both directions, 1..8.
-    function encode(bytes memory bmp, uint256 scale) internal pure returns (bytes memory png) {
+    function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
@@ -95,8 +104,8 @@ library Png {
             // a word before it, and what is added behind it
             rows.row = room(rows.size + 192) + 32;
             assembly ("memory-safe") {
-                // behind the length and the header, the row that is lowest
-                mstore(rows, add(bmp, 86))
+                // behind the header, the row that is lowest
+                mstore(rows, add(bmp.offset, 54))
                 png := mload(0x40)
                 // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
                 let sides := or(shl(32, mul(width, scale)), mul(height, scale))
@@ -118,7 +127,7 @@ library Png {
     }
 
     /// @notice A PNG file of a bitmap as a `data:` URI.
-    function dataURI(bytes memory bmp, uint256 scale) internal pure returns (string memory uri) {
+    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory uri) {
         unchecked {
             // this stands before the file, since zeros are written behind that
             string memory prefix = "data:image/png;base64,";
@@ -142,15 +151,15 @@ library Png {
     }
 
     /// @dev The sides of a bitmap in pixels, each 1..65535.
-    function sizeOf(bytes memory bmp) private pure returns (uint256 width, uint256 height) {
+    function sizeOf(bytes calldata bmp) private pure returns (uint256 width, uint256 height) {
         unchecked {
             if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
             uint256 kind;
             uint256 planesAndBits;
             assembly ("memory-safe") {
-                kind := shr(240, mload(add(bmp, 32)))
+                kind := shr(240, calldataload(bmp.offset))
                 // bytes 18 to 21 and 22 to 25 are the sides, the lowest byte first
-                let sides := mload(add(bmp, 50))
+                let sides := calldataload(add(bmp.offset, 18))
                 width := or(byte(0, sides), shl(8, byte(1, sides)))
                 height := or(byte(4, sides), shl(8, byte(5, sides)))
                 planesAndBits := and(shr(160, sides), 0xffffffff)
@@ -170,7 +179,8 @@ library Png {
     }
 
     /// @dev The codes of matches that repeat a pixel to the end of its square, and 0, 1, 2, ... pixels farther, 48 bytes apart. In the
-    /// lowest byte the number of bits, of which the first is uppermost; that of no match is before them.
+    /// lowest byte the number of bits, of which the first is uppermost. Before them what eight pixels that are all written are added to,
+    /// if the first match has SHORT_MATCH bits.
     function gapsOf(bytes memory tables, uint256 width, uint256 scale) private pure returns (uint256 gaps) {
         unchecked {
             gaps = room(48 * width + 48);
@@ -182,6 +192,9 @@ library Png {
                     place := add(place, 48)
                     mstore(place, or(shl(sub(256, size), text), size))
                 }
+            }
+            assembly ("memory-safe") {
+                mstore(gaps, mul(or(shr(224, mload(add(gaps, 48))), LITERALS), EACH_32))
             }
         }
     }
@@ -248,7 +261,7 @@ library Png {
             for (uint256 y = rows.height; y != 0; --y) {
                 source -= stride;
                 assembly ("memory-safe") {
-                    mcopy(row, source, size)
+                    calldatacopy(row, source, size)
                     // zeros, for the sums
                     calldatacopy(add(row, size), calldatasize(), 96)
                 }
@@ -383,34 +396,17 @@ library Png {
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
                     changed := mod(and(shr(8, changed), 0x0000000000000000000001000001000001000001000001000001000001000001), 0xffffff)
                     if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
-                        // red, green and blue, from 24 bits to 32 bits
+                        // from 24 bits to 32 bits each: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
-                        pixels := or(
-                            or(shl(16, and(pixels, BYTE_OF_PIXEL)), and(pixels, shl(8, BYTE_OF_PIXEL))),
-                            and(shr(16, pixels), BYTE_OF_PIXEL)
-                        )
-                        pixels := or(
-                            and(pixels, 0x0000000000000000000000000000000000000000ffffffffffffffffffffffff),
-                            shl(32, and(pixels, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000))
-                        )
-                        pixels := or(
-                            and(pixels, 0x00000000000000000000ffffffffffff00000000000000000000ffffffffffff),
-                            shl(16, and(pixels, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000))
-                        )
-                        pixels := or(
-                            and(pixels, 0x0000000000ffffff0000000000ffffff0000000000ffffff0000000000ffffff),
-                            shl(8, and(pixels, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000))
-                        )
-                        // the match of the pixel before, then 9 bits for each channel
-                        pixels := add(pixels, and(pixels, 0x00ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff00))
-                        pixels := add(pixels, and(pixels, 0x01fe000001fe000001fe000001fe000001fe000001fe000001fe000001fe0000))
+                        pixels := add(pixels, mul(and(pixels, UPPER_FOUR), 0xffffffff))
+                        pixels := add(pixels, mul(and(pixels, UPPER_TWO), 0xffff))
+                        pixels := add(pixels, mul(and(pixels, UPPER_ONE), 0xff))
+                        // blue, green and red, of eight bits each, to red, green and blue of nine behind the match of the pixel before
                         pixels := add(
-                            pixels,
-                            mul(
-                                or(shr(224, mload(add(gaps, 48))), LITERALS),
-                                0x0000000100000001000000010000000100000001000000010000000100000001
-                            )
+                            add(shl(18, and(pixels, LOWEST_BYTES)), shl(1, and(pixels, SECOND_BYTES))),
+                            and(shr(16, pixels), LOWEST_BYTES)
                         )
+                        pixels := add(pixels, mload(gaps))
                         switch sub(first, last)
                         case 3 {
                             // all of them: a word and what is pushed out of it
@@ -496,9 +492,10 @@ library Png {
                 let target := add(mload(stream), iszero(iszero(mload(add(stream, 0x20)))))
                 for { let place := add(png, DATA) } lt(place, target) { place := add(place, 32) } {
                     let word := mload(place)
-                    word := or(and(shr(4, word), LOW_4), shl(4, and(word, LOW_4)))
-                    word := or(and(shr(2, word), LOW_2), shl(2, and(word, LOW_2)))
-                    word := or(and(shr(1, word), LOW_1), shl(1, and(word, LOW_1)))
+                    // sums, which the optimizer leaves alone: of `or` and `and` it makes more
+                    word := add(and(shr(4, word), LOW_4), mul(and(word, LOW_4), 16))
+                    word := add(and(shr(2, word), LOW_2), mul(and(word, LOW_2), 4))
+                    word := add(and(shr(1, word), LOW_1), mul(and(word, LOW_1), 2))
                     mstore(place, word)
                 }
                 mstore(target, shl(224, or(shl(16, second), first)))

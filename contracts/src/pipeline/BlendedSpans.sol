@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ExactSpans, HALF_85} from "./ExactSpans.sol";
+import {ExactSpans} from "./ExactSpans.sol";
 import "./Registers.sol";
 
 // Objects that are not opaque. They are drawn twice: the first pass (IS_DEPTH_PASS) finds the nearest fragment of each pixel, the second
@@ -38,7 +38,7 @@ library BlendedSpans {
             for (; column < end; ++column) {
                 if (passes(p, attribute)) {
                     uint256 color = ExactSpans.colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row);
-                    ExactSpans.write(p, (blended(color, ExactSpans.pixelAt(p)) << 48) + HALF_85);
+                    ExactSpans.write(p, blended(color, ExactSpans.pixelAt(p)));
                 }
                 p += 8;
                 attribute += load(DX);

@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {sqrt} from "../math/Roots.sol";
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "./Patches.sol";
-import {COLOR_BIAS, COLOR_LANES, Shading} from "./Shading.sol";
+import {COLOR_LANES, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
@@ -13,6 +13,8 @@ import "./Registers.sol";
 /// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
 /// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
+/// @dev Eight rows, as screen words have them.
+uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
 
@@ -24,26 +26,26 @@ library FlatShading {
             uint256 attributesB;
             uint256 attributesC;
             uint256 mode = load(OBJECT_MODE);
-            assembly ("memory-safe") {
-                attributesA := mload(add(and(a, 0xffffffff), 32))
-                attributesB := mload(add(and(b, 0xffffffff), 32))
-                attributesC := mload(add(and(c, 0xffffffff), 32))
-            }
             if (mode & IS_FLAT == 0) {
+                assembly ("memory-safe") {
+                    attributesA := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+                    attributesB := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+                    attributesC := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+                }
                 bool isNearlyFlat;
                 assembly ("memory-safe") {
                     // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8
-                    // rows: `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth.
-                    let depth := shr(168, attributesA)
-                    let second := mul(24, sub(shr(168, attributesB), depth))
-                    let third := mul(24, sub(shr(168, attributesC), depth))
-                    let limit := shl(1, depth)
+                    // rows: `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth, for whole words: what
+                    // is below the depths is less than one of them.
+                    let second := mul(24, sub(attributesB, attributesA))
+                    let third := mul(24, sub(attributesC, attributesA))
+                    let limit := shl(1, attributesA)
                     isNearlyFlat := or(
-                        or(gt(add(second, depth), limit), gt(add(third, depth), limit)),
-                        gt(add(sub(second, third), depth), limit)
+                        or(gt(add(second, attributesA), limit), gt(add(third, attributesA), limit)),
+                        gt(add(sub(second, third), attributesA), limit)
                     )
-                    limit := add(shr(128, a), 2048)
-                    isNearlyFlat := iszero(or(isNearlyFlat, or(gt(shr(128, b), limit), gt(shr(128, c), limit))))
+                    limit := add(a, EIGHT_ROWS)
+                    isNearlyFlat := iszero(or(isNearlyFlat, or(gt(b, limit), gt(c, limit))))
                 }
                 if (isNearlyFlat) {
                     assembly ("memory-safe") {
@@ -70,74 +72,86 @@ library FlatShading {
 
     /// @dev A flat triangle: its light, and whether its colours are linear on the screen. If not, the mode and the attribute words, with
     /// light that does not depend on the fragment, are in MODE, ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool linear) {
+    function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool) {
         uint256 mode = Lighting.setFace();
-        uint256 bad;
+        uint256 p;
+        uint256 q;
+        uint256 r;
         assembly ("memory-safe") {
-            // the attribute word of a vertex with coloured light on its colour
-            function lit(attributes, factor) -> product {
-                let color := and(attributes, COLOR_LANES)
-                product := shr(16, mul(and(factor, 0xffffffff), and(color, 0xffffff)))
-                product := or(product, shl(56, shr(16, mul(and(shr(56, factor), 0xffffffff), and(shr(56, color), 0xffffff)))))
-                product := or(product, shl(112, shr(16, mul(shr(112, factor), shr(112, color)))))
-                product := or(product, xor(attributes, color))
-            }
+            p := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            q := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            r := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+        }
+        if (mode & IS_DIFFUSE == 0) {
+            bool linear;
+            assembly ("memory-safe") {
+                // the attribute word of a vertex with coloured light on its colour
+                function lit(attributes) -> product {
+                    let factor := mload(FACE_LIGHT)
+                    let color := and(attributes, COLOR_LANES)
+                    product := shr(16, mul(and(factor, LANE_32), and(color, LANE_24)))
+                    product := or(
+                        product,
+                        shl(MIDDLE_AT, shr(16, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
+                    )
+                    product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
+                    product := or(product, xor(attributes, color))
+                }
 
-            let p := mload(add(and(a, 0xffffffff), 32))
-            let q := mload(add(and(b, 0xffffffff), 32))
-            let r := mload(add(and(c, 0xffffffff), 32))
-            if iszero(and(mode, IS_DIFFUSE)) {
-                let factor := and(mload(FACE_LIGHT), 0xffffffff)
-                switch eq(mload(FACE_LIGHT), mul(factor, ONES))
+                let grey := and(mload(FACE_LIGHT), LANE_32)
+                switch eq(mload(FACE_LIGHT), mul(grey, ONES))
                 case 1 {
                     let color := and(p, COLOR_LANES)
-                    p := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(p, color))
+                    p := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(p, color))
                     color := and(q, COLOR_LANES)
-                    q := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(q, color))
+                    q := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(q, color))
                     color := and(r, COLOR_LANES)
-                    r := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(r, color))
+                    r := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(r, color))
                 }
                 default {
-                    factor := mload(FACE_LIGHT)
-                    p := lit(p, factor)
-                    q := lit(q, factor)
-                    r := lit(r, factor)
+                    p := lit(p)
+                    q := lit(q)
+                    r := lit(r)
+                }
+                // as in `prepare`
+                let second := mul(24, sub(q, p))
+                let third := mul(24, sub(r, p))
+                let limit := shl(1, p)
+                linear := or(gt(add(sub(second, third), p), limit), and(or(or(p, q), r), OVERFLOW))
+                linear := or(linear, or(gt(add(second, p), limit), gt(add(third, p), limit)))
+                limit := add(a, EIGHT_ROWS)
+                linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
+            }
+            if (!linear) linear = Shading.isAffine(p, q, r, a, b, c);
+            if (mode & IS_LIT != 0 && linear) {
+                linear = Shading.squareSize(a, b, c) < load(REACH);
+                if (linear) {
+                    store(ATTRIBUTE_0, p);
+                    store(DELTA_1, q);
+                    store(DELTA_2, r);
+                    VertexHighlights.addAll(a, b, c);
+                    p = load(ATTRIBUTE_0);
+                    q = load(DELTA_1);
+                    r = load(DELTA_2);
                 }
             }
-            mstore(MODE, mode)
-            mstore(ATTRIBUTE_0, p)
-            mstore(DELTA_1, q)
-            mstore(DELTA_2, r)
-            linear := iszero(and(mode, IS_DIFFUSE))
-            bad := and(or(or(p, q), r), OVERFLOW)
-            // as in `prepare`
-            p := shr(168, p)
-            q := mul(24, sub(shr(168, q), p))
-            r := mul(24, sub(shr(168, r), p))
-            bad := or(bad, gt(add(sub(q, r), p), shl(1, p)))
-            bad := or(bad, or(gt(add(q, p), shl(1, p)), gt(add(r, p), shl(1, p))))
-            p := add(shr(128, a), 2048)
-            bad := or(bad, or(gt(shr(128, b), p), gt(shr(128, c), p)))
+            if (linear) {
+                assembly ("memory-safe") {
+                    // colours above 255 need a loop that keeps them there
+                    mode := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
+                    mstore(MODE, or(crossing, iszero(iszero(and(mode, OVERFLOW)))))
+                    mstore(ATTRIBUTE_0, add(shl(ACCUMULATOR_FRACTION, p), COLOR_BIAS))
+                    mstore(DELTA_1, sub(q, p))
+                    mstore(DELTA_2, sub(r, p))
+                }
+                return true;
+            }
         }
-        if (linear && bad != 0) {
-            linear = Shading.isAffine(load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2), a, b, c);
-        }
-        if (linear && mode & IS_LIT != 0) {
-            linear = Shading.squareSize(a, b, c) < load(REACH);
-            if (linear) VertexHighlights.addAll(a, b, c);
-        }
-        if (!linear) return false;
-        assembly ("memory-safe") {
-            let p := mload(ATTRIBUTE_0)
-            let q := mload(DELTA_1)
-            let r := mload(DELTA_2)
-            // colours above 255 need a loop that keeps them there
-            mode := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
-            mstore(MODE, or(crossing, iszero(iszero(and(mode, OVERFLOW)))))
-            mstore(ATTRIBUTE_0, add(shl(32, p), COLOR_BIAS))
-            mstore(DELTA_1, sub(q, p))
-            mstore(DELTA_2, sub(r, p))
-        }
+        store(MODE, mode);
+        store(ATTRIBUTE_0, p);
+        store(DELTA_1, q);
+        store(DELTA_2, r);
+        return false;
     }
 
     /// @dev Sets over how much of the triangle colours are quadratic functions.

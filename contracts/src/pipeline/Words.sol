@@ -40,6 +40,9 @@ uint256 constant FACE_SIZE = 6;
 /// @dev Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
 uint256 constant FACE_AT = 208;
 uint256 constant FACE_FIRST_AT = 32;
+/// @dev The first and the second in the word of calldata.
+uint256 constant FACE_FIRST_IN_WORD = 240;
+uint256 constant FACE_SECOND_IN_WORD = 224;
 uint256 constant FACE_SECOND_AT = 16;
 uint256 constant FACE_INDEX_MASK = 0xffff;
 
@@ -132,6 +135,9 @@ uint256 constant PIXELS_AT_120 = 0x100000100000100000100000000000000000000000000
 
 uint256 constant MIDDLE_85_AT = 85;
 uint256 constant UPPER_85_AT = 170;
+/// @dev Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+uint256 constant HALF_LANE_85 = 0x1000000000000000000000;
+uint256 constant HALF_LANES_85 = 0x2000000000000000000000000000000000000000000;
 /// @dev Where each lane of Q58 has a Q9 number.
 uint256 constant BLUE_Q9_AT = 49;
 uint256 constant GREEN_Q9_AT = 134;
@@ -171,6 +177,10 @@ uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
 /// @dev Where an entry has its value.
 uint256 constant SPECULAR_VALUE_AT = 128;
+/// @dev The same for a place in Q24; what is between two entries, at bit 128.
+uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
+uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
+uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 

@@ -23,6 +23,7 @@ library Specular {
             uint256 begin = (1 << 24) - width;
             store(SPECULAR_BEGIN, begin);
             store(SPECULAR_SCALE, (SPECULAR_ENTRIES << 40) / width);
+            store(SPECULAR_OFFSET, (begin * load(SPECULAR_SCALE)) >> 16);
             uint256 last = (coefficient * power((1 << 24), shininess)) >> 48;
             uint256 pointer = SPECULAR_TABLE + SPECULAR_ENTRIES * 32;
             store(pointer, last << SPECULAR_VALUE_AT);

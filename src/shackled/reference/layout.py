@@ -78,6 +78,9 @@ FACE_SIZE = 6
 #: Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
 FACE_AT = 208
 FACE_FIRST_AT = 32
+#: The first and the second in the word of calldata.
+FACE_FIRST_IN_WORD = 240
+FACE_SECOND_IN_WORD = 224
 FACE_SECOND_AT = 16
 FACE_INDEX_MASK = 0xFFFF
 
@@ -170,6 +173,9 @@ PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000
 
 MIDDLE_85_AT = 85
 UPPER_85_AT = 170
+#: Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+HALF_LANE_85 = 0x1000000000000000000000
+HALF_LANES_85 = 0x2000000000000000000000000000000000000000000
 #: Where each lane of Q58 has a Q9 number.
 BLUE_Q9_AT = 49
 GREEN_Q9_AT = 134
@@ -209,6 +215,10 @@ SPECULAR_ENTRY_MASK = 0xFFFFE0
 SPECULAR_REST_MASK = 0xFFFF
 #: Where an entry has its value.
 SPECULAR_VALUE_AT = 128
+#: The same for a place in Q24; what is between two entries, at bit 128.
+SPECULAR_ENTRY_SHIFT_24 = 19
+SPECULAR_ENTRY_MASK_24 = 0xFE0
+SPECULAR_REST_AT_128 = 0xFFFFFF00000000000000000000000000000000
 
 # ---- normals of fragments ----
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_LIT, IS_ORTHOGRAPHIC, LANES_32
 from .mesh import Mesh
 from .registers import LightRecord, Registers
-from .roots import sqrt
 from .words import divide_signed, signed
 
 
 def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
     """Normal and light of a flat face, from its corners in the mesh; returns its mode."""
     r = registers
-    length = sqrt(set_face_normal(mesh, face, r))
+    length = face_length(set_face_normal(mesh, face, r))
     mode = r.object_mode
     total = r.ambient
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
@@ -42,6 +41,21 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
         r.face_n_dot_ray_slope = 0
         r.face_n_dot_ray = divide_signed(signed(product << 40), length)
     return mode
+
+
+def face_length(square: int) -> int:
+    """The root of the square of a normal, within 2^-22 of it.
+
+    With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is within 0.231
+    of the root of m, relatively; then three steps of Newton's method. Where the normal is zero, all products are,
+    whatever they are divided by.
+    """
+    square = max(square, 1)
+    h = (square.bit_length() - 1) // 6 * 3
+    root = 140 * ((square >> h) + (8 << h)) >> 10
+    for _ in range(3):
+        root = (root + square // root) >> 1
+    return root
 
 
 def face_point_light(record: LightRecord, length: int, registers: Registers) -> int:

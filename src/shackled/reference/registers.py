@@ -97,6 +97,7 @@ class Registers:
     ambient: int = 0
     specular_begin: int = 0
     specular_scale: int = 0
+    specular_offset: int = 0
     specular_root: int = 0
     specular_table: list[int] = field(default_factory=list)
     object_mode: int = 0
