@@ -98,16 +98,10 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS)))
                 }
                 if (area <= loadSigned(LEAST_AREA)) continue;
-                if (area < SMALL_AREA) {
-                    if (area < HALF_AREA) {
-                        if (area > -HALF_AREA) continue;
-                        (b, c) = (c, b);
-                    }
-                    // to find that there is no pixel centre in its box costs a fiftieth of shading it
-                    if (isBetweenPixels(a, b, c) && load(OBJECT_FLAGS) & WIREFRAME == 0) {
-                        if (((a | b | c) & MUST_CLIP) | (a & b & c & IS_OUTSIDE) == 0) store(DRAWN, load(DRAWN) + 1);
-                        continue;
-                    }
+                if (area < HALF_AREA) {
+                    if (area > -HALF_AREA) continue;
+                    (b, c) = (c, b);
+                    area = -area;
                 }
                 uint256 crossing = (a | b | c) & IS_NOT_PLAIN;
                 if (crossing != 0) {
@@ -123,6 +117,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     if (b < c) (a, b, c) = (b, c, a);
                 }
                 if (c < a) (a, b, c) = (c, a, b);
+                if (area < SMALL_AREA && load(OBJECT_FLAGS) & WIREFRAME == 0 && isBetweenPixels(a, b, c)) continue;
                 if (load(LIST) == 0) {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
@@ -133,13 +128,30 @@ abstract contract PrimitiveAssembly is Rasterizer {
         }
     }
 
-    /// @dev Whether no row or no column of pixel centres meets the box around a face.
+    /// @dev Whether a triangle covers no pixel centre. Where one lies on an edge the answer is no: the edges of the Rasterizer are rounded.
+    /// @param a, b, c Its screen words, the topmost first, counter-clockwise.
     function isBetweenPixels(uint256 a, uint256 b, uint256 c) private pure returns (bool isBetween) {
         assembly ("memory-safe") {
-            let up := SCREEN_ROUND_UP
-            a := add(a, up)
-            a := or(xor(a, add(b, up)), xor(a, add(c, up)))
-            isBetween := or(iszero(and(a, SCREEN_PIXEL_COLUMNS)), iszero(shr(SCREEN_PIXEL_ROW_AT, a)))
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            x := shl(16, x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
+            isBetween := 1
+            // rows from the first one, in sub-pixels below the first vertex
+            for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, 256) } {
+                // columns, Q16 in sub-pixels: on the left from a by b to c, on the right from a to c, or by c to b
+                let left := add(shl(16, xb), sdiv(mul(sub(y, b), shl(16, sub(xc, xb))), sub(c, b)))
+                let right := left
+                if lt(y, b) { left := sdiv(mul(y, shl(16, xb)), b) }
+                if lt(y, c) { right := sdiv(mul(y, shl(16, xc)), c) }
+                if lt(shr(24, add(x, sub(left, 2))), shr(24, add(x, add(right, 1)))) {
+                    isBetween := 0
+                    break
+                }
+            }
         }
     }
 
