@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {sqrt} from "../math/Roots.sol";
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "./Patches.sol";
-import {COLOR_LANES, Shading} from "./Shading.sol";
+import {COLOR_LANES, EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
@@ -13,8 +13,6 @@ import "./Registers.sol";
 /// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
 /// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
-/// @dev Eight rows, as screen words have them.
-uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
 
@@ -73,7 +71,7 @@ library FlatShading {
     /// @dev A flat triangle: its light, and whether its colours are linear on the screen. If not, the mode and the attribute words, with
     /// light that does not depend on the fragment, are in MODE, ATTRIBUTE_0, DELTA_1 and DELTA_2.
     function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool) {
-        uint256 mode = Lighting.setFace();
+        (uint256 mode, uint256 light) = Lighting.setFace();
         uint256 p;
         uint256 q;
         uint256 r;
@@ -86,8 +84,7 @@ library FlatShading {
             bool linear;
             assembly ("memory-safe") {
                 // the attribute word of a vertex with coloured light on its colour
-                function lit(attributes) -> product {
-                    let factor := mload(FACE_LIGHT)
+                function lit(attributes, factor) -> product {
                     let color := and(attributes, COLOR_LANES)
                     product := shr(16, mul(and(factor, LANE_32), and(color, LANE_24)))
                     product := or(
@@ -98,20 +95,20 @@ library FlatShading {
                     product := or(product, xor(attributes, color))
                 }
 
-                let grey := and(mload(FACE_LIGHT), LANE_32)
-                switch eq(mload(FACE_LIGHT), mul(grey, ONES))
-                case 1 {
-                    let color := and(p, COLOR_LANES)
-                    p := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(p, color))
-                    color := and(q, COLOR_LANES)
-                    q := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(q, color))
-                    color := and(r, COLOR_LANES)
-                    r := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(r, color))
+                switch and(mode, IS_GREY)
+                case 0 {
+                    p := lit(p, light)
+                    q := lit(q, light)
+                    r := lit(r, light)
                 }
                 default {
-                    p := lit(p)
-                    q := lit(q)
-                    r := lit(r)
+                    light := and(light, LANE_32)
+                    let color := and(p, COLOR_LANES)
+                    p := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(p, color))
+                    color := and(q, COLOR_LANES)
+                    q := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(q, color))
+                    color := and(r, COLOR_LANES)
+                    r := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(r, color))
                 }
                 // as in `prepare`
                 let second := mul(24, sub(q, p))
