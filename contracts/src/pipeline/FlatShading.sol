@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {sqrt} from "../math/Roots.sol";
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "./Patches.sol";
-import {COLOR_LANES, Shading} from "./Shading.sol";
+import {Rasterizer} from "./Rasterizer.sol";
+import {COLOR_LANES, EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
@@ -13,67 +13,37 @@ import "./Registers.sol";
 /// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
 /// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
-/// @dev Eight rows, as screen words have them.
-uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
 
-library FlatShading {
-    /// @notice Chooses the way to shade a triangle, and sets what that way needs: see Rasterizer.shade.
-    function prepare(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
-        unchecked {
-            uint256 attributesA;
-            uint256 attributesB;
-            uint256 attributesC;
-            uint256 mode = load(OBJECT_MODE);
-            if (mode & IS_FLAT == 0) {
-                assembly ("memory-safe") {
-                    attributesA := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
-                    attributesB := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
-                    attributesC := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
-                }
-                bool isNearlyFlat;
-                assembly ("memory-safe") {
-                    // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8
-                    // rows: `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth, for whole words: what
-                    // is below the depths is less than one of them.
-                    let second := mul(24, sub(attributesB, attributesA))
-                    let third := mul(24, sub(attributesC, attributesA))
-                    let limit := shl(1, attributesA)
-                    isNearlyFlat := or(
-                        or(gt(add(second, attributesA), limit), gt(add(third, attributesA), limit)),
-                        gt(add(sub(second, third), attributesA), limit)
-                    )
-                    limit := add(a, EIGHT_ROWS)
-                    isNearlyFlat := iszero(or(isNearlyFlat, or(gt(b, limit), gt(c, limit))))
-                }
-                if (isNearlyFlat) {
-                    assembly ("memory-safe") {
-                        mstore(MODE, crossing)
-                        mstore(ATTRIBUTE_0, add(shl(32, attributesA), COLOR_BIAS))
-                        mstore(DELTA_1, sub(attributesB, attributesA))
-                        mstore(DELTA_2, sub(attributesC, attributesA))
-                    }
-                    return;
-                }
-                if (Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
-                    return Shading.setLinear(attributesA, attributesB, attributesC, crossing);
-                }
-            } else {
-                if (prepareFlat(a, b, c, crossing)) return;
-                Lighting.setFacing();
-                mode = load(MODE);
-                (attributesA, attributesB, attributesC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
-            }
-            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
-            setPatch(a, b, c, attributesA, attributesB, attributesC);
+abstract contract FlatShading is Rasterizer {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        if (load(OBJECT_MODE) & IS_FLAT != 0) return shadeFlat(a, b, c, crossing);
+        uint256 p;
+        uint256 q;
+        uint256 r;
+        bool linear;
+        assembly ("memory-safe") {
+            p := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            q := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            r := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8 rows:
+            // `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth, for whole words: what is below the
+            // depths is less than one of them.
+            let second := mul(24, sub(q, p))
+            let third := mul(24, sub(r, p))
+            let limit := shl(1, p)
+            linear := or(or(gt(add(second, p), limit), gt(add(third, p), limit)), gt(add(sub(second, third), p), limit))
+            limit := add(a, EIGHT_ROWS)
+            linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
         }
+        if (linear || Shading.isAffine(p, q, r, a, b, c)) return Shading.setLinear(p, q, r, crossing);
+        setPatch(a, b, c, p, q, r, load(OBJECT_MODE) | crossing);
     }
 
-    /// @dev A flat triangle: its light, and whether its colours are linear on the screen. If not, the mode and the attribute words, with
-    /// light that does not depend on the fragment, are in MODE, ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool) {
-        uint256 mode = Lighting.setFace();
+    /// @dev A flat triangle.
+    function shadeFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure {
+        (uint256 mode, uint256 light) = Lighting.setFace();
         uint256 p;
         uint256 q;
         uint256 r;
@@ -86,8 +56,7 @@ library FlatShading {
             bool linear;
             assembly ("memory-safe") {
                 // the attribute word of a vertex with coloured light on its colour
-                function lit(attributes) -> product {
-                    let factor := mload(FACE_LIGHT)
+                function lit(attributes, factor) -> product {
                     let color := and(attributes, COLOR_LANES)
                     product := shr(16, mul(and(factor, LANE_32), and(color, LANE_24)))
                     product := or(
@@ -98,22 +67,22 @@ library FlatShading {
                     product := or(product, xor(attributes, color))
                 }
 
-                let grey := and(mload(FACE_LIGHT), LANE_32)
-                switch eq(mload(FACE_LIGHT), mul(grey, ONES))
-                case 1 {
-                    let color := and(p, COLOR_LANES)
-                    p := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(p, color))
-                    color := and(q, COLOR_LANES)
-                    q := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(q, color))
-                    color := and(r, COLOR_LANES)
-                    r := or(and(shr(16, mul(color, grey)), COLOR_LANES), xor(r, color))
+                switch and(mode, IS_GREY)
+                case 0 {
+                    p := lit(p, light)
+                    q := lit(q, light)
+                    r := lit(r, light)
                 }
                 default {
-                    p := lit(p)
-                    q := lit(q)
-                    r := lit(r)
+                    light := and(light, LANE_32)
+                    let color := and(p, COLOR_LANES)
+                    p := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(p, color))
+                    color := and(q, COLOR_LANES)
+                    q := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(q, color))
+                    color := and(r, COLOR_LANES)
+                    r := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(r, color))
                 }
-                // as in `prepare`
+                // as in `shade`
                 let second := mul(24, sub(q, p))
                 let third := mul(24, sub(r, p))
                 let limit := shl(1, p)
@@ -122,46 +91,41 @@ library FlatShading {
                 limit := add(a, EIGHT_ROWS)
                 linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
             }
-            if (!linear) linear = Shading.isAffine(p, q, r, a, b, c);
-            if (mode & IS_LIT != 0 && linear) {
-                linear = Shading.squareSize(a, b, c) < load(REACH);
-                if (linear) {
+            if (linear || Shading.isAffine(p, q, r, a, b, c)) {
+                if (mode & IS_LIT == 0) return setLit(p, q, r, crossing);
+                if (Shading.squareSize(a, b, c) < load(REACH)) {
                     store(ATTRIBUTE_0, p);
                     store(DELTA_1, q);
                     store(DELTA_2, r);
                     VertexHighlights.addAll(a, b, c);
-                    p = load(ATTRIBUTE_0);
-                    q = load(DELTA_1);
-                    r = load(DELTA_2);
+                    return setLit(load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2), crossing);
                 }
-            }
-            if (linear) {
-                assembly ("memory-safe") {
-                    // colours above 255 need a loop that keeps them there
-                    mode := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
-                    mstore(MODE, or(crossing, iszero(iszero(and(mode, OVERFLOW)))))
-                    mstore(ATTRIBUTE_0, add(shl(ACCUMULATOR_FRACTION, p), COLOR_BIAS))
-                    mstore(DELTA_1, sub(q, p))
-                    mstore(DELTA_2, sub(r, p))
-                }
-                return true;
             }
         }
-        store(MODE, mode);
-        store(ATTRIBUTE_0, p);
-        store(DELTA_1, q);
-        store(DELTA_2, r);
-        return false;
+        Lighting.setFacing();
+        setPatch(a, b, c, p, q, r, mode | crossing);
     }
 
-    /// @dev Sets over how much of the triangle colours are quadratic functions.
-    function setPatch(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure {
+    /// @dev The registers of a triangle whose colours change linearly, and may be above 255: then they need a loop that keeps them there.
+    function setLit(uint256 p, uint256 q, uint256 r, uint256 crossing) private pure {
+        assembly ("memory-safe") {
+            let above := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
+            mstore(MODE, or(crossing, iszero(iszero(and(above, OVERFLOW)))))
+            mstore(ATTRIBUTE_0, add(shl(ACCUMULATOR_FRACTION, p), COLOR_BIAS))
+            mstore(DELTA_1, sub(q, p))
+            mstore(DELTA_2, sub(r, p))
+        }
+    }
+
+    /// @dev Colours as quadratic functions, or each for itself.
+    function setPatch(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r, uint256 mode) private pure {
         unchecked {
+            Shading.setExact(a, b, c, p, q, r, mode);
             store(PATCH_WEIGHT, 0);
-            uint256 size = patchSize(a, b, c, za, zb, zc);
+            uint256 size = patchSize(a, b, c, p, q, r);
             store(PATCH_SIZE, size);
             if (size == 0)
-                Patches.fitWhole(a, b, c, za >> 168, zb >> 168, zc >> 168, Shading.max((a + (255 << 128)) >> 136, load(BAND_TOP)));
+                Patches.fitWhole(a, b, c, p >> 168, q >> 168, r >> 168, Shading.max((a + (255 << 128)) >> 136, load(BAND_TOP)));
         }
     }
 

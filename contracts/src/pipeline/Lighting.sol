@@ -7,8 +7,9 @@ import "./Registers.sol";
 library Lighting {
     /// @notice Normal and light of a flat face, from its corners in the mesh.
     /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has highlights there, IS_DIFFUSE if a point
-    /// light shines on it.
-    function setFace() internal pure returns (uint256 mode) {
+    /// light shines on it: then fragments add up the diffuse light of all lights.
+    /// @return light The light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE.
+    function setFace() internal pure returns (uint256 mode, uint256 light) {
         assembly ("memory-safe") {
             // normal * (vector - first corner), or, with 0 for `all`, normal * vector; Q32
             function dot(vector, all) -> sum {
@@ -80,7 +81,7 @@ library Lighting {
             }
             mstore(FACE_LENGTH, length)
             mode := mload(OBJECT_MODE)
-            let light := mload(AMBIENT)
+            light := mload(AMBIENT)
             // without lights the first record is zeros
             for { let record := LIGHTS } 1 {} {
                 // the middle lane of a product with lanes the other way round; what is below takes one away at most, and bit 255 is of the
@@ -101,9 +102,6 @@ library Lighting {
                 record := add(record, LIGHT_SIZE)
                 if iszero(lt(record, mload(LIGHTS_END))) { break }
             }
-            // where fragments add the diffuse light of all lights themselves, only the ambient light is left
-            if and(mode, IS_DIFFUSE) { light := mload(AMBIENT) }
-            mstore(FACE_LIGHT, light)
         }
     }
 

@@ -24,6 +24,7 @@ library Materials {
                 record += LIGHT_SIZE;
             }
             if (material.specular.raw() != 0) mode |= HAS_SPECULAR;
+            if (grey) mode |= IS_GREY;
             Specular.setTable(uint256(material.specular.raw()), material.shininess);
             // without lights the normal makes no difference
             if (material.shading == FLAT || lights.length == 0) {
@@ -31,7 +32,6 @@ library Materials {
                 store(FRAGMENT_SQUARE, ONE_48);
                 store(FRAGMENT_NORMAL_LENGTH, ONE_24);
             } else {
-                store(FACE_LIGHT, load(AMBIENT));
                 store(FACE_LIGHT_40, load(AMBIENT) << 24);
                 uint256 focal = uint256(view_.focal) >> 32;
                 bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
@@ -41,7 +41,7 @@ library Materials {
                 if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
                     mode |= IS_QUADRATIC;
                 }
-                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (grey ? IS_GREY : 0);
+                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE;
             }
         }
     }

@@ -8,8 +8,12 @@ from .registers import LightRecord, Registers
 from .words import divide_signed, signed
 
 
-def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
-    """Normal and light of a flat face, from its corners in the mesh; returns its mode."""
+def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
+    """Normal and light of a flat face, from its corners in the mesh.
+
+    Returns its mode, and the light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE,
+    where fragments add up the diffuse light of all lights.
+    """
     r = registers
     length = face_length(set_face_normal(mesh, face, r))
     mode = r.object_mode
@@ -28,8 +32,6 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
                     mode |= IS_LIT
         else:
             mode |= face_point_light(record, length, r)
-    # where fragments add the diffuse light of all lights themselves, only the ambient light is left
-    r.face_light = total if mode & IS_DIFFUSE == 0 else r.ambient
     if mode & IS_ORTHOGRAPHIC == 0:
         # normal * (corner - eye)
         product = nx * (r.face_corner_x - r.eye_x) + ny * (r.face_corner_y - r.eye_y) + nz * (r.face_corner_z - r.eye_z)
@@ -40,7 +42,7 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
         product = nx * r.eye_x + ny * r.eye_y + nz * r.eye_z
         r.face_n_dot_ray_slope = 0
         r.face_n_dot_ray = divide_signed(signed(product << 40), length)
-    return mode
+    return mode, total
 
 
 def face_length(square: int) -> int:

@@ -114,7 +114,6 @@ class Registers:
     depth_1: int = 0
     depth_2: int = 0
     nearest: int = 0
-    face_light: int = 0
     face_light_40: int = 0
     face_n_dot_ray: int = 0
     face_n_dot_ray_slope: int = 0

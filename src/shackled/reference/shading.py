@@ -125,9 +125,9 @@ def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int,
     attributes = [vertex.attributes for vertex in (triangle.a, triangle.b, triangle.c)]
     if registers.object_mode & IS_FLAT == 0:
         return registers.object_mode, attributes
-    mode = lighting.set_face(mesh, triangle.face, registers)
-    if mode & IS_DIFFUSE == 0 and registers.face_light != ONES << 16:
-        attributes = [lit(word, registers.face_light) for word in attributes]
+    mode, light = lighting.set_face(mesh, triangle.face, registers)
+    if mode & IS_DIFFUSE == 0:
+        attributes = [lit(word, light) for word in attributes]
     return mode, attributes
 
 
