@@ -48,13 +48,6 @@ library ExactSpans {
         }
     }
 
-    /// @notice The pixel with its depth at p: blue, green and red at the top of a word.
-    function pixelAt(uint256 p) internal pure returns (uint256) {
-        unchecked {
-            return load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
-        }
-    }
-
     /// @notice Writes a pixel of lanes of 85 bits, Q58, which are kept between 0 and 255.
     function write(uint256 p, uint256 f) internal pure {
         assembly ("memory-safe") {
