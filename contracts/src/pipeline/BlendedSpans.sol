@@ -37,7 +37,7 @@ library BlendedSpans {
             for (; column < end; ++column) {
                 if (passes(p, attribute)) {
                     uint256 color = ExactSpans.colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row);
-                    ExactSpans.write(p, (Compositor.over(color, p) << 48) + HALF_85);
+                    ExactSpans.write(p, (Compositor.over(color, p) << Q10_TO_Q58) + HALF_85);
                 }
                 p += 8;
                 attribute += load(DX);

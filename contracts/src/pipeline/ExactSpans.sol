@@ -15,8 +15,8 @@ library ExactSpans {
     function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
         unchecked {
             for (; row != last; ++row) {
-                uint256 column = max(max((edges >> 48) & 0xffff, load(PATCH_BEGIN)), load(COLUMN_BEGIN));
-                span(row, column, min(min(edges >> 176, load(PATCH_END)), load(COLUMN_END)), start + column * load(DX));
+                uint256 column = max(max((edges >> EDGES_LEFT_COLUMN_AT) & EDGES_LEFT_COLUMN_MASK, load(PATCH_BEGIN)), load(COLUMN_BEGIN));
+                span(row, column, min(min(edges >> EDGES_RIGHT_COLUMN_AT, load(PATCH_END)), load(COLUMN_END)), start + column * load(DX));
                 edges += slopes;
                 start += load(DY);
             }
@@ -29,7 +29,7 @@ library ExactSpans {
             row = load(RAY_TOP) + row * load(RAY_STEP);
             for (; column < end; ++column) {
                 if (passes(p, attribute)) {
-                    write(p, (colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row) << 48) + HALF_85);
+                    write(p, (colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row) << Q10_TO_Q58) + HALF_85);
                 }
                 p += 8;
                 attribute += load(DX);
@@ -41,9 +41,9 @@ library ExactSpans {
     function passes(uint256 p, uint256 attribute) private pure returns (bool nearer) {
         assembly ("memory-safe") {
             let old := mload(p)
-            nearer := gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff))
+            nearer := gt(attribute, or(old, BEHIND_DEPTH))
             if nearer {
-                mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
+                mstore(p, xor(old, and(xor(old, attribute), FIRST_DEPTH)))
             }
         }
     }
@@ -51,20 +51,20 @@ library ExactSpans {
     /// @notice Writes a pixel of lanes of 85 bits, Q58, which are kept between 0 and 255.
     function write(uint256 p, uint256 f) internal pure {
         assembly ("memory-safe") {
-            let color := and(f, 0xff00000000000000000007f80000000000000000003fc00000000000000)
-            let high := and(f, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
+            let color := and(f, BYTES_Q58)
+            let high := and(f, ABOVE_Q58)
             if high {
                 // above 255, or below 0: a carry into the next lane tells
-                high := add(high, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
-                high := and(high, 0x8000000000000000000004000000000000000000002000000000000000000000)
-                color := or(color, mul(shr(85, high), 0x3fc00000000000000))
-                high := and(f, 0x4000000000000000000002000000000000000000001000000000000000000000)
-                color := and(color, not(mul(shr(84, high), 0x3fc00000000000000)))
+                high := add(high, ABOVE_Q58)
+                high := and(high, CARRIES_85)
+                color := or(color, mul(shr(CARRY_85, high), BYTE_Q58))
+                high := and(f, SIGNS_85)
+                color := and(color, not(mul(shr(SIGN_85, high), BYTE_Q58)))
             }
-            let packed := or(shl(190, color), and(shl(97, color), 0xff000000000000000000000000000000000000000000000000000000000000))
-            packed := or(packed, and(shl(4, color), 0xff0000000000000000000000000000000000000000000000000000000000))
+            let packed := or(shl(BLUE_TO_TOP, color), and(shl(GREEN_TO_TOP, color), SECOND_BYTE))
+            packed := or(packed, and(shl(RED_TO_TOP, color), THIRD_BYTE))
             p := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
-            mstore(p, or(packed, and(mload(p), 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff)))
+            mstore(p, or(packed, and(mload(p), BEHIND_PIXEL)))
         }
     }
 
@@ -73,9 +73,9 @@ library ExactSpans {
         uint256 s;
         uint256 t;
         assembly ("memory-safe") {
-            s := sar(64, signextend(20, attribute))
-            t := sar(8, signextend(6, attribute))
-            attribute := shr(192, attribute)
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
         }
         return FragmentLight.colorAt(attribute, s, t, x, y);
     }

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .layout import ONES
+from .layout import LANE_85, ONES
 from .registers import Registers
 from .structs import Rectangle, Scene
 from .words import MASK, color_lanes, divide_signed
 
 #: Just below 256, Q10.
 BRIGHTEST = 0x3FFFF
-LANE = (1 << 85) - 1
 
 
 def begin(blended: bool, scene: Scene, r: Registers) -> None:
@@ -53,7 +52,7 @@ def over(color: int, place: tuple[int, int], r: Registers) -> int:
     """
     mixed = 0
     for lane, byte in enumerate(r.image[place].tolist()):
-        low = color & LANE
+        low = color & LANE_85
         value = low - (low >> 84 << 85)
         # without what the lane has borrowed
         color = (color - value) >> 85
