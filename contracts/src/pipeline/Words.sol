@@ -123,7 +123,15 @@ uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of colours
 
-/// @dev Where green and red are.
+/// @dev Bits of a colour 0xRRGGBB; where they are; and how far from there their lanes are.
+uint256 constant BLUE = 255;
+uint256 constant GREEN = 0xff00;
+uint256 constant RED = 0xff0000;
+uint256 constant GREEN_AT = 8;
+uint256 constant RED_AT = 16;
+uint256 constant GREEN_TO_LANE = 48;
+uint256 constant RED_TO_LANE = 96;
+/// @dev Where green and red are in lanes.
 uint256 constant MIDDLE_AT = 56;
 uint256 constant UPPER_AT = 112;
 /// @dev A lane by itself.
