@@ -309,13 +309,13 @@ uint256 constant IS_OVER = 0x180000000000;
 uint256 constant IS_OUTSIDE = 0x1e0000000000;
 uint256 constant IS_NOT_PLAIN = 0x1f0000000000;
 /// @dev What tells how the rows of a smooth triangle are drawn.
-uint256 constant IS_GREY_OR_STEEP = 0x1800;
-uint256 constant IS_CUT_OR_CROSSING = 0x4100;
+uint256 constant IS_GREY_OR_STEEP = 0xc00;
+uint256 constant IS_CUT_OR_CROSSING = 0x2080;
 
 // ----------------------------------------------------------------------------------------------------------------- flags that are shifted
 
 /// @dev From a triangle of a list to its mode.
-uint256 constant TRIANGLE_CROSSING_SHIFT = 139;
+uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
 
 // -------------------------------------------------------------------------------------------------------------------------------- colours
 // Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number in a lane borrows

@@ -17,29 +17,27 @@ HAS_SPECULAR = 8
 #: Normals of the vertices, or of the face.
 IS_SMOOTH = 16
 IS_ORTHOGRAPHIC = 32
-#: The accumulator holds barycentric coordinates, and each fragment is shaded for itself.
-IS_BARYCENTRIC = 64
-IS_FLAT = 128
+IS_FLAT = 64
 #: The triangle reaches beyond the left or right border of the tile.
-IS_CROSSING = 0x100
+IS_CROSSING = 128
 #: The accumulator holds barycentric coordinates, and colours are found as PATCH_SIZE says: see Patches.
-IS_PATCHED = 0x200
+IS_PATCHED = 0x100
 #: Light is made of products that are quadratic over the triangle: see SmoothLight.
-IS_QUADRATIC = 0x400
+IS_QUADRATIC = 0x200
 #: Perspective shows: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are multiplied by them.
-IS_STEEP = 0x800
+IS_STEEP = 0x400
 #: All light is grey.
-IS_GREY = 0x1000
+IS_GREY = 0x800
 #: Depths differ by more than a factor of 2^12, and are interpolated by themselves.
-IS_DEEP = 0x2000
+IS_DEEP = 0x1000
 #: The triangle reaches above or below the band.
-IS_CUT = 0x4000
+IS_CUT = 0x2000
 #: A light of the scene is a spot light.
-IS_SPOT_LIT = 0x8000
+IS_SPOT_LIT = 0x4000
 #: The object is not opaque: the nearest fragment of each pixel is mixed with what is behind it.
-IS_BLENDED = 0x10000
+IS_BLENDED = 0x8000
 #: The first of its two passes, which finds those fragments.
-IS_DEPTH_PASS = 0x20000
+IS_DEPTH_PASS = 0x10000
 
 # ---- guard band ----
 
@@ -161,7 +159,15 @@ GRADIENT_TO_ACCUMULATOR = 5
 
 # ---- parts of colours ----
 
-#: Where green and red are.
+#: Bits of a colour 0xRRGGBB; where they are; and how far from there their lanes are.
+BLUE = 255
+GREEN = 0xFF00
+RED = 0xFF0000
+GREEN_AT = 8
+RED_AT = 16
+GREEN_TO_LANE = 48
+RED_TO_LANE = 96
+#: Where green and red are in lanes.
 MIDDLE_AT = 56
 UPPER_AT = 112
 #: A lane by itself.
@@ -341,13 +347,13 @@ IS_OVER = 0x180000000000
 IS_OUTSIDE = 0x1E0000000000
 IS_NOT_PLAIN = 0x1F0000000000
 #: What tells how the rows of a smooth triangle are drawn.
-IS_GREY_OR_STEEP = 0x1800
-IS_CUT_OR_CROSSING = 0x4100
+IS_GREY_OR_STEEP = 0xC00
+IS_CUT_OR_CROSSING = 0x2080
 
 # ---- flags that are shifted ----
 
 #: From a triangle of a list to its mode.
-TRIANGLE_CROSSING_SHIFT = 139
+TRIANGLE_CROSSING_SHIFT = 140
 
 # ---- colours ----
 # Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number
