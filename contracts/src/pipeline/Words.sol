@@ -223,18 +223,19 @@ uint256 constant NORMAL_HALF = 0x4000000;
 uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
 
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
-// Where a vertex is on the screen. Comparing screen words as numbers compares rows.
+// Where a vertex is on the screen. Comparing screen words as numbers compares rows. What is below the column must stay below bit 41: see
+// the area in PrimitiveAssembly, of which it is the error, 2^149 times as large, and half of the least area is 2^191.
 
 /// @dev Address of the vertex record.
 uint256 constant SCREEN_RECORD_AT = 0;
 uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
 /// @dev The triangle must be clipped.
-uint256 constant MUST_CLIP = 0x10000000000;
+uint256 constant MUST_CLIP = 0x100000000;
 /// @dev The vertex lies left of the tile; right of it; above it; below it.
-uint256 constant IS_LEFT = 0x20000000000;
-uint256 constant IS_RIGHT = 0x40000000000;
-uint256 constant IS_ABOVE = 0x80000000000;
-uint256 constant IS_BELOW = 0x100000000000;
+uint256 constant IS_LEFT = 0x200000000;
+uint256 constant IS_RIGHT = 0x400000000;
+uint256 constant IS_ABOVE = 0x800000000;
+uint256 constant IS_BELOW = 0x1000000000;
 /// @dev Sub-pixel column.
 uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
@@ -304,10 +305,10 @@ uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 // ------------------------------------------------------------------------------------------------------------------------- flags together
 
 /// @dev Left or right; above or below; any of them; that or MUST_CLIP.
-uint256 constant IS_BESIDE = 0x60000000000;
-uint256 constant IS_OVER = 0x180000000000;
-uint256 constant IS_OUTSIDE = 0x1e0000000000;
-uint256 constant IS_NOT_PLAIN = 0x1f0000000000;
+uint256 constant IS_BESIDE = 0x600000000;
+uint256 constant IS_OVER = 0x1800000000;
+uint256 constant IS_OUTSIDE = 0x1e00000000;
+uint256 constant IS_NOT_PLAIN = 0x1f00000000;
 /// @dev What tells how the rows of a smooth triangle are drawn.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant IS_CUT_OR_CROSSING = 0x2080;

@@ -259,18 +259,20 @@ NORMAL_HALF = 0x4000000
 NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000
 
 # ---- screen word ----
-# Where a vertex is on the screen. Comparing screen words as numbers compares rows.
+# Where a vertex is on the screen. Comparing screen words as numbers compares rows. What is below the column must stay
+# below bit 41: see the area in PrimitiveAssembly, of which it is the error, 2^149 times as large, and half of the least
+# area is 2^191.
 
 #: Address of the vertex record.
 SCREEN_RECORD_AT = 0
 SCREEN_RECORD_MASK = 0xFFFFFFFF
 #: The triangle must be clipped.
-MUST_CLIP = 0x10000000000
+MUST_CLIP = 0x100000000
 #: The vertex lies left of the tile; right of it; above it; below it.
-IS_LEFT = 0x20000000000
-IS_RIGHT = 0x40000000000
-IS_ABOVE = 0x80000000000
-IS_BELOW = 0x100000000000
+IS_LEFT = 0x200000000
+IS_RIGHT = 0x400000000
+IS_ABOVE = 0x800000000
+IS_BELOW = 0x1000000000
 #: Sub-pixel column.
 SCREEN_COLUMN_AT = 64
 SCREEN_COLUMN_MASK = 0xFFFFF
@@ -342,10 +344,10 @@ EDGES_RIGHT_COLUMN_MASK = 0xFFFF
 # ---- flags together ----
 
 #: Left or right; above or below; any of them; that or MUST_CLIP.
-IS_BESIDE = 0x60000000000
-IS_OVER = 0x180000000000
-IS_OUTSIDE = 0x1E0000000000
-IS_NOT_PLAIN = 0x1F0000000000
+IS_BESIDE = 0x600000000
+IS_OVER = 0x1800000000
+IS_OUTSIDE = 0x1E00000000
+IS_NOT_PLAIN = 0x1F00000000
 #: What tells how the rows of a smooth triangle are drawn.
 IS_GREY_OR_STEEP = 0xC00
 IS_CUT_OR_CROSSING = 0x2080
