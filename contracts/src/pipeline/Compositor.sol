@@ -2,9 +2,12 @@
 pragma solidity 0.8.37;
 
 import {Rectangle} from "../scene/Scene.sol";
-import "./Words.sol";
+import "./Registers.sol";
 
-// The background under the objects, and what happens to all pixels when they are drawn.
+// The background under the objects, fragments that are mixed with what is behind them, and what happens to all pixels when they are drawn.
+
+/// @dev Just below 256, Q10.
+int256 constant BRIGHTEST = 0x3ffff;
 
 library Compositor {
     /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
@@ -39,6 +42,25 @@ library Compositor {
                 mstore(add(row, 32), or(shl(248, rounded), shr(8, word)))
                 mstore(add(row, 64), or(shl(240, rounded), shr(16, word)))
                 for { let done := 96 } lt(done, rowBytes) { done := shl(1, done) } { mcopy(add(row, done), row, done) }
+            }
+        }
+    }
+
+    /// @notice The colour of a fragment over what is there: color * OPACITY + behind * (1 - OPACITY).
+    /// @param color Signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
+    /// @param p Where the pixel has its depth.
+    function over(uint256 color, uint256 p) internal pure returns (uint256 mixed) {
+        unchecked {
+            // blue, green and red at the top of the word
+            uint256 behind = load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
+            for (uint256 lane; lane != 3; ++lane) {
+                int256 value = int256(color << 171) >> 171;
+                // without what the lane has borrowed
+                color = uint256(int256(color - uint256(value)) >> MIDDLE_85_AT);
+                if (value < 0) value = 0;
+                if (value > BRIGHTEST) value = BRIGHTEST;
+                uint256 byte_ = (behind >> (248 - 8 * lane)) & 0xff;
+                mixed |= ((uint256(value) * load(OPACITY) + (byte_ << 10) * (ONE_24 - load(OPACITY))) >> 24) << (MIDDLE_85_AT * lane);
             }
         }
     }

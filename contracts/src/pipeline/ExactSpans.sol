@@ -21,14 +21,6 @@ uint256 constant BYTE_Q10 = 0x3fc00;
 uint256 constant BLUE_Q10_AT = 10;
 uint256 constant GREEN_Q10_AT = 95;
 uint256 constant RED_Q10_AT = 180;
-/// @dev The sign byte of s and t in an accumulator, and what is below Q24.
-uint256 constant S_SIGN_BYTE = 20;
-uint256 constant S_BELOW_Q24 = 64;
-uint256 constant T_SIGN_BYTE = 6;
-uint256 constant T_BELOW_Q24 = 8;
-/// @dev What stands behind a depth in the word that begins with it.
-uint256 constant BEHIND_EXACT_DEPTH = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
-
 library ExactSpans {
     /// @notice Draws the rows from `row` to before `last`, between two edges.
     /// @param start The accumulator at column 0 of the first row.
@@ -64,7 +56,7 @@ library ExactSpans {
                 uint256 depth = attribute >> ACCUMULATOR_DEPTH_AT;
                 if (depth > load(p) >> ACCUMULATOR_DEPTH_AT) {
                     assembly ("memory-safe") {
-                        mstore(p, or(shl(ACCUMULATOR_DEPTH_AT, depth), and(mload(p), BEHIND_EXACT_DEPTH)))
+                        mstore(p, or(shl(ACCUMULATOR_DEPTH_AT, depth), and(mload(p), BEHIND_DEPTH)))
                     }
                     write(p, colorAt(attribute, x, y));
                 }
@@ -73,13 +65,6 @@ library ExactSpans {
                 attribute += load(DX);
                 x += load(RAY_STEP);
             }
-        }
-    }
-
-    /// @notice The pixel with its depth at p: blue, green and red at the top of a word.
-    function pixelAt(uint256 p) internal pure returns (uint256) {
-        unchecked {
-            return load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
         }
     }
 
@@ -106,8 +91,8 @@ library ExactSpans {
         uint256 s;
         uint256 t;
         assembly ("memory-safe") {
-            s := sar(S_BELOW_Q24, signextend(S_SIGN_BYTE, attribute))
-            t := sar(T_BELOW_Q24, signextend(T_SIGN_BYTE, attribute))
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
             attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
         }
         return FragmentLight.colorAt(attribute, s, t, x, y);

@@ -358,26 +358,24 @@ uint256 constant HAS_SPECULAR = 8;
 /// @dev Normals of the vertices, or of the face.
 uint256 constant IS_SMOOTH = 16;
 uint256 constant IS_ORTHOGRAPHIC = 32;
-/// @dev The accumulator holds barycentric coordinates, and each fragment is shaded for itself.
-uint256 constant IS_BARYCENTRIC = 64;
-uint256 constant IS_FLAT = 128;
+uint256 constant IS_FLAT = 64;
 /// @dev The triangle reaches beyond the left or right border of the tile.
-uint256 constant IS_CROSSING = 0x100;
+uint256 constant IS_CROSSING = 128;
 /// @dev The accumulator holds barycentric coordinates, and colours are found as PATCH_SIZE says: see Patches.
-uint256 constant IS_PATCHED = 0x200;
+uint256 constant IS_PATCHED = 0x100;
 /// @dev Light is made of products that are quadratic over the triangle: see SmoothLight.
-uint256 constant IS_QUADRATIC = 0x400;
+uint256 constant IS_QUADRATIC = 0x200;
 /// @dev Perspective shows: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are multiplied by them.
-uint256 constant IS_STEEP = 0x800;
+uint256 constant IS_STEEP = 0x400;
 /// @dev All light is grey.
-uint256 constant IS_GREY = 0x1000;
+uint256 constant IS_GREY = 0x800;
 /// @dev Depths differ by more than a factor of 2^12, and are interpolated by themselves.
-uint256 constant IS_DEEP = 0x2000;
+uint256 constant IS_DEEP = 0x1000;
 /// @dev The triangle reaches above or below the band.
-uint256 constant IS_CUT = 0x4000;
+uint256 constant IS_CUT = 0x2000;
 /// @dev A light of the scene is a spot light.
-uint256 constant IS_SPOT_LIT = 0x8000;
+uint256 constant IS_SPOT_LIT = 0x4000;
 /// @dev The object is not opaque: the nearest fragment of each pixel is mixed with what is behind it.
-uint256 constant IS_BLENDED = 0x10000;
+uint256 constant IS_BLENDED = 0x8000;
 /// @dev The first of its two passes, which finds those fragments.
-uint256 constant IS_DEPTH_PASS = 0x20000;
+uint256 constant IS_DEPTH_PASS = 0x10000;

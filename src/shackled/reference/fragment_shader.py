@@ -12,16 +12,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .fragment_light import ray_length, specular
-from .layout import HALF_LEVEL, IS_CROSSING, IS_GREY, IS_QUADRATIC, IS_STEEP, LANES_24, LANES_32, ONES
+from .layout import (
+    BIAS_36,
+    BIAS_84,
+    HALF_LEVEL,
+    IS_CROSSING,
+    IS_GREY,
+    IS_QUADRATIC,
+    IS_STEEP,
+    LANES_24,
+    LANES_32,
+    LANES_37,
+    ONES,
+)
 from .registers import IS_IN_PASSES, Registers
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
-#: Three lanes of 85 bits: half of a lane in each; what is left of a lane that is shifted down by 48 bits; half of that.
-ONES_85 = 1 + (1 << 85) + (1 << 170)
-HALF_85 = ONES_85 << 84
-LOW_37 = 0x1FFFFFFFFF * ONES_85
-HALF_37 = ONES_85 << 36
 #: 1 + 2^-21, Q24.
 ABOVE_ONE = (1 << 24) + 8
 
@@ -212,7 +219,7 @@ def half_vectors(vertex: Vertex, r: Registers) -> list[tuple[int, int]]:
     ray = (x * r.normal_x + y * r.normal_y + (r.normal_z << 24)) * ((1 << 56) // length)
     halves = []
     for light in r.lights:
-        half = ((((light.mesh_lanes << 56) - ray + HALF_85) & MASK) >> 48 & LOW_37) - HALF_37
+        half = ((((light.mesh_lanes << 56) - ray + BIAS_84) & MASK) >> 48 & LANES_37) - BIAS_36
         change = length * ABOVE_ONE - (light.x * x + light.y * y + (light.z << 24))
         halves.append((half, divide_signed(change << 33, length * r.specular_scale)))
     return halves

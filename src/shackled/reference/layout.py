@@ -17,29 +17,27 @@ HAS_SPECULAR = 8
 #: Normals of the vertices, or of the face.
 IS_SMOOTH = 16
 IS_ORTHOGRAPHIC = 32
-#: The accumulator holds barycentric coordinates, and each fragment is shaded for itself.
-IS_BARYCENTRIC = 64
-IS_FLAT = 128
+IS_FLAT = 64
 #: The triangle reaches beyond the left or right border of the tile.
-IS_CROSSING = 0x100
+IS_CROSSING = 128
 #: The accumulator holds barycentric coordinates, and colours are found as PATCH_SIZE says: see Patches.
-IS_PATCHED = 0x200
+IS_PATCHED = 0x100
 #: Light is made of products that are quadratic over the triangle: see SmoothLight.
-IS_QUADRATIC = 0x400
+IS_QUADRATIC = 0x200
 #: Perspective shows: depths differ by more than a factor of 64, or, with IS_QUADRATIC, colours are multiplied by them.
-IS_STEEP = 0x800
+IS_STEEP = 0x400
 #: All light is grey.
-IS_GREY = 0x1000
+IS_GREY = 0x800
 #: Depths differ by more than a factor of 2^12, and are interpolated by themselves.
-IS_DEEP = 0x2000
+IS_DEEP = 0x1000
 #: The triangle reaches above or below the band.
-IS_CUT = 0x4000
+IS_CUT = 0x2000
 #: A light of the scene is a spot light.
-IS_SPOT_LIT = 0x8000
+IS_SPOT_LIT = 0x4000
 #: The object is not opaque: the nearest fragment of each pixel is mixed with what is behind it.
-IS_BLENDED = 0x10000
+IS_BLENDED = 0x8000
 #: The first of its two passes, which finds those fragments.
-IS_DEPTH_PASS = 0x20000
+IS_DEPTH_PASS = 0x10000
 
 # ---- guard band ----
 
@@ -56,14 +54,32 @@ SUBPIXEL_BITS = 8
 #: These bits; added before they are shifted away, it rounds up.
 SUBPIXEL_MASK = 255
 HALF_PIXEL = 128
+#: A quotient of sub-pixel lengths by twice an area, shifted so, is Q24 per pixel.
+SUBPIXEL_TO_Q24 = 32
 
-# ---- fixed-point ones ----
+# ---- fixed-point formats ----
 
+#: Bits behind the point. A number is brought from one format to another by their difference.
+Q10 = 10
+Q16 = 16
+Q20 = 20
+Q24 = 24
+Q32 = 32
+Q40 = 40
+Q48 = 48
+Q16_TO_Q10 = 6
+Q40_TO_Q16 = 24
+#: One in each.
+ONE_10 = 0x400
 ONE_16 = 0x10000
 HALF_24 = 0x800000
 ONE_24 = 0x1000000
 ONE_32 = 0x100000000
+ONE_44 = 0x100000000000
 ONE_48 = 0x1000000000000
+#: The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE; bits that one has more in the buffer.
+DEPTH_BITS = 54
+DEPTH_FRACTION = 8
 
 # ---- mesh in calldata ----
 
@@ -86,11 +102,6 @@ FACE_INDEX_MASK = 0xFFFF
 
 # ---- parts of screen words ----
 
-#: Left or right; above or below; any of them; that or MUST_CLIP.
-IS_BESIDE = 0x60000000000
-IS_OVER = 0x180000000000
-IS_OUTSIDE = 0x1E0000000000
-IS_NOT_PLAIN = 0x1F0000000000
 #: All bits of the column.
 SCREEN_COLUMNS = 0xFFFFF0000000000000000
 #: Row in whole pixels.
@@ -108,6 +119,11 @@ ACCUMULATOR_FRACTION = 32
 ACCUMULATOR_VERTEX_DEPTH_AT = 200
 #: 1 in the lane of s.
 ATTRIBUTE_S = 0x100000000000000
+#: Where s and t have Q24 numbers, and the last bytes of their lanes.
+ACCUMULATOR_S_AT = 64
+ACCUMULATOR_S_LAST_BYTE = 20
+ACCUMULATOR_T_AT = 8
+ACCUMULATOR_T_LAST_BYTE = 6
 #: Bias of the lanes: half a level for colours.
 COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000
 #: 2^-15 for barycentric coordinates, so that gradients that are rounded (see Rasterizer) leave none below zero.
@@ -115,8 +131,6 @@ WEIGHT_BIAS = 0x100000000000000000000000000000002000000000000020000
 
 # ---- parts of triangles ----
 
-#: Brings CROSSING_BIT to IS_CROSSING.
-TRIANGLE_CROSSING_SHIFT = 139
 #: The three edges.
 EDGE_AB = 0x1000000000000000000000000000000000000
 EDGE_BC = 0x2000000000000000000000000000000000000
@@ -142,6 +156,8 @@ BORDER_BIAS = 0x801000080100008010000801000080100007FF00007FF00007FF00007FF0000
 #: Bits of a column behind the point; where it stands for an address of a depth.
 EDGE_FRACTION = 48
 EDGE_ADDRESS_FRACTION = 45
+#: Where the address of the right edge is.
+EDGE_RIGHT_ADDRESS_AT = 173
 #: Brings sub-pixels to a column.
 EDGE_SUBPIXEL_SHIFT = 40
 HALF_COLUMN = 0x800000000000
@@ -159,7 +175,15 @@ GRADIENT_TO_ACCUMULATOR = 5
 
 # ---- parts of colours ----
 
-#: Where green and red are.
+#: Bits of a colour 0xRRGGBB; where they are; and how far from there their lanes are.
+BLUE = 255
+GREEN = 0xFF00
+RED = 0xFF0000
+GREEN_AT = 8
+RED_AT = 16
+GREEN_TO_LANE = 48
+RED_TO_LANE = 96
+#: Where green and red are in lanes.
 MIDDLE_AT = 56
 UPPER_AT = 112
 #: A lane by itself.
@@ -167,8 +191,12 @@ LANE_24 = 0xFFFFFF
 LANE_32 = 0xFFFFFFFF
 #: Brings the bytes of a colour 0xRRGGBB to BYTES_Q10, besides others.
 COLOR_SPREAD = 0x400000000000400000000000400
-#: Brings BYTES_56 together at the top of a word.
+#: A byte as Q10, in a lane by itself.
+BYTE_Q10 = 0x3FC00
+OVERFLOW_CARRY_AT = 30
+#: Brings BYTES_56 together at the top of a word; BYTES_Q10.
 LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000
+Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000
 
 # ---- parts of pixels ----
 
@@ -185,6 +213,18 @@ UPPER_85_AT = 170
 #: Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
 HALF_LANE_85 = 0x1000000000000000000000
 HALF_LANES_85 = 0x2000000000000000000000000000000000000000000
+#: The lowest lane, the middle one, the uppermost, and the upper two.
+LANE_85 = 0x1FFFFFFFFFFFFFFFFFFFFF
+MIDDLE_LANE_85 = 0x3FFFFFFFFFFFFFFFFFFFFE00000000000000000000
+UPPER_LANE_85 = 0xFFFFFFFFFFFFFFFFFFFFFC000000000000000000000000000000000000000000
+UPPER_LANES_85 = 0xFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFFE000000000000000000000
+#: Shifts that bring the sign of the lowest lane to the top of a word, and that of the middle one.
+LOWER_85_TO_TOP = 171
+MIDDLE_85_TO_TOP = 86
+#: The sign of the lowest lane, and what that carries into.
+SIGN_85 = 84
+CARRY_85 = 85
+Q10_TO_Q58 = 48
 #: Where each lane of Q58 has a Q9 number.
 BLUE_Q9_AT = 49
 GREEN_Q9_AT = 134
@@ -221,6 +261,7 @@ SPECULAR_LAST = 0x400000000000
 #: Brings a place in the table, Q40, to bytes; those of whole words; what is between two entries, Q16.
 SPECULAR_ENTRY_SHIFT = 35
 SPECULAR_ENTRY_MASK = 0xFFFFE0
+SPECULAR_REST_AT = 24
 SPECULAR_REST_MASK = 0xFFFF
 #: Where an entry has its value.
 SPECULAR_VALUE_AT = 128
@@ -241,18 +282,20 @@ NORMAL_HALF = 0x4000000
 NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000
 
 # ---- screen word ----
-# Where a vertex is on the screen. Comparing screen words as numbers compares rows.
+# Where a vertex is on the screen. Comparing screen words as numbers compares rows. What is below the column must stay
+# below bit 41: see the area in PrimitiveAssembly, of which it is the error, 2^149 times as large, and half of the least
+# area is 2^191.
 
 #: Address of the vertex record.
 SCREEN_RECORD_AT = 0
 SCREEN_RECORD_MASK = 0xFFFFFFFF
 #: The triangle must be clipped.
-MUST_CLIP = 0x10000000000
+MUST_CLIP = 0x100000000
 #: The vertex lies left of the tile; right of it; above it; below it.
-IS_LEFT = 0x20000000000
-IS_RIGHT = 0x40000000000
-IS_ABOVE = 0x80000000000
-IS_BELOW = 0x100000000000
+IS_LEFT = 0x200000000
+IS_RIGHT = 0x400000000
+IS_ABOVE = 0x800000000
+IS_BELOW = 0x1000000000
 #: Sub-pixel column.
 SCREEN_COLUMN_AT = 64
 SCREEN_COLUMN_MASK = 0xFFFFF
@@ -321,6 +364,22 @@ EDGES_LEFT_COLUMN_MASK = 0xFFFF
 EDGES_RIGHT_COLUMN_AT = 176
 EDGES_RIGHT_COLUMN_MASK = 0xFFFF
 
+# ---- flags together ----
+
+#: Left or right; above or below; any of them; that or MUST_CLIP.
+IS_BESIDE = 0x600000000
+IS_OVER = 0x1800000000
+IS_OUTSIDE = 0x1E00000000
+IS_NOT_PLAIN = 0x1F00000000
+#: What tells how the rows of a smooth triangle are drawn.
+IS_GREY_OR_STEEP = 0xC00
+IS_CUT_OR_CROSSING = 0x2080
+
+# ---- flags that are shifted ----
+
+#: From a triangle of a list to its mode.
+TRIANGLE_CROSSING_SHIFT = 140
+
 # ---- borders of the tile ----
 # Four lanes of 28 bits for the left, right, upper and lower border: positive where a vertex lies beyond. See
 # TileCulling.
@@ -346,8 +405,9 @@ LANES_24 = 0xFFFFFF00000000FFFFFF00000000FFFFFF
 LANES_32 = 0xFFFFFFFF000000FFFFFFFF000000FFFFFFFF
 #: Half a level, Q10.
 HALF_LEVEL = 0x2000000000000020000000000000200
-#: What is set in lanes of Q10 above 255.
+#: What is set in lanes of Q10 above 255; what makes it carry into bit OVERFLOW_CARRY_AT.
 OVERFLOW = 0xFC000000000000FC000000000000FC0000
+OVERFLOW_TO_CARRY = 0x3FFC00000000003FFC00000000003FFC0000
 #: A byte in each lane; a byte as Q10.
 BYTES_56 = 0xFF000000000000FF000000000000FF
 BYTES_Q10 = 0x3FC000000000003FC000000000003FC00

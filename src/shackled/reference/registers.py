@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from .extensions import Records
 from .layout import IS_BLENDED, IS_DEPTH_PASS
 from .quadratic import Differences
 from .structs import Rectangle
@@ -58,6 +59,8 @@ class Registers:
     tile: Rectangle
     depth: NDArray[np.uint64]
     image: NDArray[np.uint8]
+    #: what the contracts read from the call: the records of the scene's extensions
+    records: Records
 
     # frame
     frame_is_orthographic: bool = False
