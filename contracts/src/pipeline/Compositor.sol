@@ -11,13 +11,10 @@ int256 constant BRIGHTEST = 0x3ffff;
 
 library Compositor {
     /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
-    function background(uint256 image, uint256 top, uint256 bottom, uint256 height, Rectangle memory tile) internal pure {
+    function background(uint256 image, Rectangle memory tile) internal pure {
         unchecked {
             uint256 rowBytes = 3 * tile.width;
-            // lanes of Q24: the change from row to row upwards, and the bottom row
-            uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
-            uint256 color = (lanes(height == 1 ? top : bottom) << 24) + (ONES << 23) + step * (height - tile.y - tile.height);
-            fillRows(image, rowBytes, image + rowBytes * tile.height, color, step);
+            fillRows(image, rowBytes, image + rowBytes * tile.height, load(BACKGROUND), load(BACKGROUND_STEP));
         }
     }
 
@@ -89,19 +86,6 @@ library Compositor {
                 counts := add(counts, shr(63, and(or(some, depths), TOPS_64)))
             }
             count := mod(counts, 0xffffffffffffffff)
-        }
-    }
-
-    function lanes(uint256 color) private pure returns (uint256) {
-        return (color & 0xff) | ((color & 0xff00) << 48) | ((color & 0xff0000) << 96);
-    }
-
-    function laneStep(uint256 top, uint256 bottom, uint256 rows) private pure returns (uint256 step) {
-        unchecked {
-            for (uint256 i; i != 3; ++i) {
-                int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
-                step += uint256((difference << 24) / int256(rows)) << (MIDDLE_AT * i);
-            }
         }
     }
 }

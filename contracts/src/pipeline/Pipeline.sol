@@ -82,7 +82,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             setFreeMemory(depth + 8 * bandRows * tile.width + 32);
             picture.size = load(RETURNS_DEPTHS) == 0 ? 3 * tile.width * tile.height : depth + 8 * tile.width * tile.height - image;
             if (load(DRAWN_BEFORE) == 0) {
-                Compositor.background(image, load(BACKGROUND_TOP), load(BACKGROUND_BOTTOM), load(CANVAS_HEIGHT), tile);
+                Compositor.background(image, tile);
             } else {
                 copyCalldata(image, load(DRAWN_BEFORE), depth + 8 * tile.width * tile.height - image);
             }

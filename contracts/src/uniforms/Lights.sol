@@ -61,7 +61,7 @@ library Lights {
     }
 
     /// @return Lanes of bytes.
-    function colorLanes(uint256 color) private pure returns (uint256) {
+    function colorLanes(uint256 color) internal pure returns (uint256) {
         return (color & BLUE) | ((color & GREEN) << GREEN_TO_LANE) | ((color & RED) << RED_TO_LANE);
     }
 }

@@ -83,11 +83,29 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
-            store(CANVAS_HEIGHT, scene.canvas.height);
-            store(BACKGROUND_TOP, scene.background.top);
-            store(BACKGROUND_BOTTOM, scene.background.bottom);
+            setBackground(scene, tile);
             store(INVERT, scene.invert);
             extension = Lights.set(view_, scene);
+        }
+    }
+
+    /// @dev Lanes of Q24: the lowest row of the tile, and the change from row to row upwards.
+    function setBackground(Scene calldata scene, Rectangle memory tile) private pure {
+        unchecked {
+            (uint256 top, uint256 bottom, uint256 height) = (scene.background.top, scene.background.bottom, scene.canvas.height);
+            uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
+            uint256 lowest = (Lights.colorLanes(height == 1 ? top : bottom) << 24) + (ONES << 23);
+            store(BACKGROUND, lowest + step * (height - tile.y - tile.height));
+            store(BACKGROUND_STEP, step);
+        }
+    }
+
+    function laneStep(uint256 top, uint256 bottom, uint256 rows) private pure returns (uint256 step) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) {
+                int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
+                step += uint256((difference << 24) / int256(rows)) << (MIDDLE_AT * i);
+            }
         }
     }
 
