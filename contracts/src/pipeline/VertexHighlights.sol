@@ -25,8 +25,9 @@ uint256 constant ABOVE_ONE_24 = 0x1000008;
 library VertexHighlights {
     /// @notice Adds the highlights at its vertices to the attribute words of a flat triangle. Records of vertices keep what does not depend
     /// on the face.
-    /// @param a, b, c The screen words of its vertices, whose attribute words are in ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function addAll(uint256 a, uint256 b, uint256 c) internal pure {
+    /// @param a, b, c The screen words of its vertices.
+    /// @param p, q, r Their attribute words.
+    function addTo(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
             // for each light H, and its square
             function fill(vertex) {
@@ -60,19 +61,18 @@ library VertexHighlights {
                 }
             }
 
-            // the light of a record on a vertex, what of it the vertex keeps, and its attribute word
-            function shine(record, kept, pointer) {
+            // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
+            function shine(record, kept) -> color {
                 let place := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(kept))))
                 // 0 where N.H is negative
                 place := mul(place, sgt(place, 0))
                 place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, 32))))
                 place := sub(place, mload(SPECULAR_OFFSET))
                 if sgt(place, 0) {
-                    let entry := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
+                    color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
                     // (value * 2^24 + increase * what is behind the entry), Q40, is the upper half of a product
-                    entry := shr(128, mul(entry, or(ONE_24, and(shl(128, place), SPECULAR_REST_AT_128))))
-                    entry := and(shr(30, mul(mload(add(record, LIGHT_COLOR)), entry)), LANES_24)
-                    mstore(pointer, add(mload(pointer), entry))
+                    color := shr(128, mul(color, or(ONE_24, and(shl(128, place), SPECULAR_REST_AT_128))))
+                    color := and(shr(30, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
                 }
             }
 
@@ -84,9 +84,9 @@ library VertexHighlights {
             if iszero(mload(c)) { fill(sub(c, 0x40)) }
             for { let record := LIGHTS } 1 {} {
                 if sgt(mload(add(record, LIGHT_N_DOT_L)), 0) {
-                    shine(record, a, ATTRIBUTE_0)
-                    shine(record, b, DELTA_1)
-                    shine(record, c, DELTA_2)
+                    p := add(p, shine(record, a))
+                    q := add(q, shine(record, b))
+                    r := add(r, shine(record, c))
                 }
                 record := add(record, LIGHT_SIZE)
                 if iszero(lt(record, mload(LIGHTS_END))) { break }
@@ -95,5 +95,6 @@ library VertexHighlights {
                 c := add(c, 0x40)
             }
         }
+        return (p, q, r);
     }
 }
