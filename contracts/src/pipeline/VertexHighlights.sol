@@ -6,7 +6,7 @@ import "./Registers.sol";
 // The highlights of directional lights at the vertices of a flat face.
 //
 // The half vector H = L - V, for unit vectors L to the light and V along the ray, is kept in the space of the mesh, Q32, where the product
-// with the normal of a face is the middle lane of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
+// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
 // H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
 //
 //   (N.H)^2 / (N.N * square)
@@ -15,10 +15,6 @@ import "./Registers.sol";
 // last entry, H^2 is taken 2^-20 too great, more than it may be off: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of
 // 128 and H^2 = 1, by 0.016 levels.
 
-/// @dev Three lanes of 85 bits: half of a lane in each; what is left of a lane that is shifted down by 48 bits; half of that.
-uint256 constant HALF_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
-uint256 constant LOW_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
-uint256 constant HALF_37 = 0x4000000000000000000002000000000000000000001000000000;
 /// @dev 1 + 2^-21, Q24.
 uint256 constant ABOVE_ONE_24 = 0x1000008;
 
@@ -51,7 +47,7 @@ library VertexHighlights {
                 for { let record := LIGHTS } 1 {} {
                     vertex := add(vertex, 0x40)
                     square := sub(shl(56, mload(add(record, LIGHT_MESH_X))), ray)
-                    mstore(vertex, sub(and(shr(48, add(square, HALF_85)), LOW_37), HALF_37))
+                    mstore(vertex, sub(and(shr(48, add(square, HALF_86)), Q32_86), HALF_Q32_86))
                     // H^2 = 2 * (length - L.V) / length
                     square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
                     square := sub(mul(length, ABOVE_ONE_24), add(square, shl(24, mload(add(record, LIGHT_Z)))))
@@ -63,7 +59,7 @@ library VertexHighlights {
 
             // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
             function shine(record, kept) -> color {
-                let place := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(kept))))
+                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(kept)))
                 // 0 where N.H is negative
                 place := mul(place, sgt(place, 0))
                 place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, 32))))

@@ -37,10 +37,10 @@ library MeshSpace {
         }
     }
 
-    /// @dev A unit vector, Q24, in signed lanes of 85 bits, z lowest.
+    /// @dev A unit vector, Q24, in signed lanes of 86 bits, z lowest.
     function storeLanes(uint256 pointer, Vector memory v) private pure {
         unchecked {
-            storeSigned(pointer, ((v.x.raw() >> 8) << 170) + ((v.y.raw() >> 8) << 85) + (v.z.raw() >> 8));
+            storeSigned(pointer, ((v.x.raw() >> 8) << UPPER_86_AT) + ((v.y.raw() >> 8) << MIDDLE_86_AT) + (v.z.raw() >> 8));
         }
     }
 
