@@ -94,11 +94,8 @@ abstract contract FlatShading is Rasterizer {
             if (linear || Shading.isAffine(p, q, r, a, b, c)) {
                 if (mode & IS_LIT == 0) return setLit(p, q, r, crossing);
                 if (Shading.squareSize(a, b, c) < load(REACH)) {
-                    store(ATTRIBUTE_0, p);
-                    store(DELTA_1, q);
-                    store(DELTA_2, r);
-                    VertexHighlights.addAll(a, b, c);
-                    return setLit(load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2), crossing);
+                    (p, q, r) = VertexHighlights.addTo(a, b, c, p, q, r);
+                    return setLit(p, q, r, crossing);
                 }
             }
         }

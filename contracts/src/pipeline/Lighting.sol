@@ -20,12 +20,12 @@ library Lighting {
                 let rest := sub(256, bits)
                 // the coordinates of the normal out of their lanes, the uppermost first
                 let normal := mload(FACE_NORMAL)
-                let n := sar(UPPER_85_AT, add(normal, HALF_LANES_85))
+                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
                 sum := mul(n, sub(mload(add(vector, 0x40)), shl(32, sar(rest, shl(shl(1, bits), corner)))))
-                normal := sub(normal, shl(UPPER_85_AT, n))
-                n := sar(MIDDLE_85_AT, add(normal, HALF_LANE_85))
+                normal := sub(normal, shl(UPPER_86_AT, n))
+                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
                 sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(32, sar(rest, shl(bits, corner))))))
-                n := sub(normal, shl(MIDDLE_85_AT, n))
+                n := sub(normal, shl(MIDDLE_86_AT, n))
                 sum := add(sum, mul(n, sub(mload(vector), shl(32, sar(rest, corner)))))
             }
 
@@ -57,7 +57,7 @@ library Lighting {
                 x := sub(mul(ay, b), mul(a, by))
                 p := sub(mul(a, bx), mul(ax, b))
                 a := sub(mul(ax, by), mul(ay, bx))
-                mstore(FACE_NORMAL, add(add(x, shl(MIDDLE_85_AT, p)), shl(UPPER_85_AT, a)))
+                mstore(FACE_NORMAL, add(add(x, shl(MIDDLE_86_AT, p)), shl(UPPER_86_AT, a)))
                 length := add(add(mul(x, x), mul(p, p)), mul(a, a))
             }
             mstore(FACE_SQUARE, length)
@@ -84,9 +84,8 @@ library Lighting {
             light := mload(AMBIENT)
             // without lights the first record is zeros
             for { let record := LIGHTS } 1 {} {
-                // the middle lane of a product with lanes the other way round; what is below takes one away at most, and bit 255 is of the
-                // lane above
-                let facing := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X)))))
+                // the middle coefficient of the product; what is below takes one away at most
+                let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
                 facing := sdiv(shl(16, facing), length)
                 if mload(add(record, LIGHT_IS_POINT)) {
                     facing := sdiv(sar(32, mul(dot(add(record, LIGHT_MESH_X), not(0)), mload(SCALE))), length)
@@ -118,12 +117,12 @@ library Lighting {
                 let rest := sub(256, bits)
                 // the coordinates of the normal out of their lanes, the uppermost first
                 let normal := mload(FACE_NORMAL)
-                let n := sar(UPPER_85_AT, add(normal, HALF_LANES_85))
+                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
                 sum := mul(n, sub(mload(add(vector, 0x40)), shl(32, sar(rest, shl(shl(1, bits), corner)))))
-                normal := sub(normal, shl(UPPER_85_AT, n))
-                n := sar(MIDDLE_85_AT, add(normal, HALF_LANE_85))
+                normal := sub(normal, shl(UPPER_86_AT, n))
+                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
                 sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(32, sar(rest, shl(bits, corner))))))
-                n := sub(normal, shl(MIDDLE_85_AT, n))
+                n := sub(normal, shl(MIDDLE_86_AT, n))
                 sum := add(sum, mul(n, sub(mload(vector), shl(32, sar(rest, corner)))))
             }
 

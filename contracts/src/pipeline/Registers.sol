@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev Where registers begin: what the compiler keeps in memory must end before.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x2f40;
+uint256 constant REGISTERS_END = 0x2ee0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -114,7 +114,7 @@ uint256 constant MESH_STRIDE = 0x1400;
 /// @dev What follows is for objects that are lit.
 uint256 constant OBJECT_LIT = 0x1420;
 /// @dev Columns of the matrix that turns normals into camera space, three lanes each. Of a flat object: of the one that turns rays into the
-/// space of the mesh, Q24, signed lanes of 85 bits, z lowest.
+/// space of the mesh, Q24, signed lanes of 86 bits, z lowest.
 uint256 constant NORMAL_X = 0x1420;
 uint256 constant NORMAL_Y = 0x1440;
 uint256 constant NORMAL_Z = 0x1460;
@@ -174,116 +174,113 @@ uint256 constant DEPTH_1 = 0x2580;
 uint256 constant DEPTH_2 = 0x25a0;
 /// @dev Pixels along a side of the cells over which colours are quadratic; 0 if they are over the whole triangle, 1 if each is exact.
 uint256 constant PATCH_SIZE = 0x25c0;
-/// @dev Normal of a flat face, twice its area long, in units of the mesh: in signed lanes of 85 bits, and each of its coordinates.
+/// @dev Normal of a flat face, twice its area long, in units of the mesh: signed lanes of 86 bits.
 uint256 constant FACE_NORMAL = 0x25e0;
-uint256 constant FACE_NORMAL_X = 0x2600;
-uint256 constant FACE_NORMAL_Y = 0x2620;
-uint256 constant FACE_NORMAL_Z = 0x2640;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x2660;
-uint256 constant FACE_LENGTH = 0x2680;
+uint256 constant FACE_SQUARE = 0x2600;
+uint256 constant FACE_LENGTH = 0x2620;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x26a0;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x26c0;
+uint256 constant FACE_N_DOT_RAY = 0x2640;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2660;
 /// @dev Normals of a smooth triangle of which each fragment is lit for itself: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x26e0;
-uint256 constant NORMALS_1 = 0x2700;
-uint256 constant NORMALS_2 = 0x2720;
+uint256 constant NORMALS_0 = 0x2680;
+uint256 constant NORMALS_1 = 0x26a0;
+uint256 constant NORMALS_2 = 0x26c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x2740;
-uint256 constant FRAGMENT_PLACE_Y = 0x2760;
+uint256 constant FRAGMENT_PLACE_X = 0x26e0;
+uint256 constant FRAGMENT_PLACE_Y = 0x2700;
 /// @dev Its normal, Q24, and the product of that with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x2780;
-uint256 constant FRAGMENT_NORMAL_Y = 0x27a0;
-uint256 constant FRAGMENT_NORMAL_Z = 0x27c0;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x27e0;
+uint256 constant FRAGMENT_NORMAL_X = 0x2720;
+uint256 constant FRAGMENT_NORMAL_Y = 0x2740;
+uint256 constant FRAGMENT_NORMAL_Z = 0x2760;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x2780;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x2800;
-uint256 constant FACE_HINT = 0x2820;
+uint256 constant NORMAL_HINT = 0x27a0;
+uint256 constant FACE_HINT = 0x27c0;
 /// @dev What of a light's strength reaches it through its cone, Q16.
-uint256 constant FRAGMENT_CONE = 0x2840;
+uint256 constant FRAGMENT_CONE = 0x27e0;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x2860;
+uint256 constant FRAGMENT_LIGHT = 0x2800;
 /// @dev If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
-uint256 constant PATCH_WEIGHT = 0x2880;
+uint256 constant PATCH_WEIGHT = 0x2820;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x28a0;
-uint256 constant PATCH_END = 0x28c0;
+uint256 constant PATCH_BEGIN = 0x2840;
+uint256 constant PATCH_END = 0x2860;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x28e0;
+uint256 constant HAS_CLIPPED = 0x2880;
 /// @dev DEPTH_STRIDE in both lanes of edges: see Rasterizer.
-uint256 constant STRIDE_LANES = 0x2900;
+uint256 constant STRIDE_LANES = 0x28a0;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by addresses.
-uint256 constant DX_8 = 0x2920;
-uint256 constant ROW_STEP = 0x2940;
+uint256 constant DX_8 = 0x28c0;
+uint256 constant ROW_STEP = 0x28e0;
 /// @dev The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has ended: the
 /// number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per row.
-uint256 constant LOWER_ROWS = 0x2960;
-uint256 constant LOWER_KEPT = 0x2980;
-uint256 constant LOWER_EDGE = 0x29a0;
-uint256 constant LOWER_SLOPES = 0x29c0;
+uint256 constant LOWER_ROWS = 0x2900;
+uint256 constant LOWER_KEPT = 0x2920;
+uint256 constant LOWER_EDGE = 0x2940;
+uint256 constant LOWER_SLOPES = 0x2960;
 /// @dev Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
-uint256 constant DEEP_START = 0x29e0;
-uint256 constant DEEP_DX = 0x2a00;
-uint256 constant DEEP_DY = 0x2a20;
+uint256 constant DEEP_START = 0x2980;
+uint256 constant DEEP_DX = 0x29a0;
+uint256 constant DEEP_DY = 0x29c0;
 /// @dev Where the next triangle is listed; 0 if faces are drawn at once.
-uint256 constant LIST = 0x2a40;
+uint256 constant LIST = 0x29e0;
 /// @dev How many faces of the object were drawn or listed.
-uint256 constant DRAWN = 0x2a60;
+uint256 constant DRAWN = 0x2a00;
 /// @dev Faces of which twice the area, Q192, is not above this are not drawn: they face away.
-uint256 constant LEAST_AREA = 0x2a80;
+uint256 constant LEAST_AREA = 0x2a20;
 /// @dev What edges change per row.
-uint256 constant SLOPES = 0x2aa0;
+uint256 constant SLOPES = 0x2a40;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x2ac0;
+uint256 constant FACES_END = 0x2a60;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x2ae0;
-uint256 constant QUADRATIC_S = 0x2b00;
-uint256 constant QUADRATIC_T = 0x2b20;
-uint256 constant QUADRATIC_SS = 0x2b40;
-uint256 constant QUADRATIC_ST = 0x2b60;
-uint256 constant QUADRATIC_TT = 0x2b80;
+uint256 constant QUADRATIC_1 = 0x2a80;
+uint256 constant QUADRATIC_S = 0x2aa0;
+uint256 constant QUADRATIC_T = 0x2ac0;
+uint256 constant QUADRATIC_SS = 0x2ae0;
+uint256 constant QUADRATIC_ST = 0x2b00;
+uint256 constant QUADRATIC_TT = 0x2b20;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x2ba0;
-uint256 constant QUADRATIC_DX = 0x2bc0;
-uint256 constant QUADRATIC_DY = 0x2be0;
-uint256 constant QUADRATIC_DXX = 0x2c00;
-uint256 constant QUADRATIC_DXY = 0x2c20;
-uint256 constant QUADRATIC_DYY = 0x2c40;
+uint256 constant QUADRATIC_START = 0x2b40;
+uint256 constant QUADRATIC_DX = 0x2b60;
+uint256 constant QUADRATIC_DY = 0x2b80;
+uint256 constant QUADRATIC_DXX = 0x2ba0;
+uint256 constant QUADRATIC_DXY = 0x2bc0;
+uint256 constant QUADRATIC_DYY = 0x2be0;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x2c60;
-uint256 constant BEND_GREEN = 0x2c80;
-uint256 constant BEND_RED = 0x2ca0;
+uint256 constant BEND_BLUE = 0x2c00;
+uint256 constant BEND_GREEN = 0x2c20;
+uint256 constant BEND_RED = 0x2c40;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
-uint256 constant NORMAL_0 = 0x2cc0;
-uint256 constant NORMAL_1 = 0x2d00;
-uint256 constant NORMAL_2 = 0x2d40;
+uint256 constant NORMAL_0 = 0x2c60;
+uint256 constant NORMAL_1 = 0x2ca0;
+uint256 constant NORMAL_2 = 0x2ce0;
 /// @dev The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x2d80;
+uint256 constant HALF_CHANGE = 0x2d20;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x2da0;
-uint256 constant HALF_HINT = 0x2dc0;
+uint256 constant RAY_HINT = 0x2d40;
+uint256 constant HALF_HINT = 0x2d60;
 /// @dev The record of a vertex in the middle of an edge.
-uint256 constant MIDDLE = 0x2de0;
+uint256 constant MIDDLE = 0x2d80;
 /// @dev 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
-uint256 constant DEPTHS_DIFFER = 0x2ee0;
+uint256 constant DEPTHS_DIFFER = 0x2e80;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x2f00;
+uint256 constant QUADRATIC_HALF_DXX = 0x2ea0;
 /// @dev The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
-uint256 constant NEAREST = 0x2f20;
+uint256 constant NEAREST = 0x2ec0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // What a light is to the frame, at LIGHTS.
@@ -310,7 +307,7 @@ uint256 constant LIGHT_SIZE = 0x160;
 // --------------------------------------------------------------------------------------------------------------------- light of an object
 // What it is to the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
-/// @dev The position in the space of the mesh, Q32; or the direction in MESH_X, Q24, signed lanes of 85 bits, z lowest.
+/// @dev The position in the space of the mesh, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
 uint256 constant LIGHT_MESH_X = 0xae0;
 uint256 constant LIGHT_MESH_Y = 0xb00;
 uint256 constant LIGHT_MESH_Z = 0xb20;

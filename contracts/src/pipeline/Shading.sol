@@ -12,6 +12,8 @@ import "./Registers.sol";
 /// @dev A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
 uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
+/// @dev Twice the area of three pixels, in sub-pixels.
+uint256 constant THREE_PIXELS = 0x60000;
 /// @dev Eight rows, as screen words have them.
 uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 uint256 constant COLOR_LANES = 0xffffff00000000ffffff00000000ffffff;
@@ -108,9 +110,15 @@ library Shading {
     /// @dev Whether a triangle has more than 8 rows, of more than 3 pixels in the mean. To shade others in blocks would be dear, and
     /// change little.
     function isLarge(uint256 a, uint256 b, uint256 c) internal pure returns (bool large) {
-        unchecked {
-            uint256 rows = ((max(b, c) + load(ROUND_BOTTOM)) >> SCREEN_PIXEL_ROW_AT) - ((a + load(ROUND_TOP)) >> SCREEN_PIXEL_ROW_AT);
-            large = rows > 8 && doubleArea(a, b, c) > rows * (3 << 17);
+        assembly ("memory-safe") {
+            let rows := xor(b, mul(xor(b, c), lt(b, c)))
+            rows := shr(SCREEN_PIXEL_ROW_AT, add(rows, mload(ROUND_BOTTOM)))
+            rows := sub(rows, shr(SCREEN_PIXEL_ROW_AT, add(a, mload(ROUND_TOP))))
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            a := shr(SCREEN_ROW_AT, a)
+            let area := mul(sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, b), a))
+            area := sub(area, mul(sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, c), a)))
+            large := and(gt(rows, 8), gt(area, mul(rows, THREE_PIXELS)))
         }
     }
 

@@ -6,7 +6,7 @@ import "./Registers.sol";
 // The highlights of directional lights at the vertices of a flat face.
 //
 // The half vector H = L - V, for unit vectors L to the light and V along the ray, is kept in the space of the mesh, Q32, where the product
-// with the normal of a face is the middle lane of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
+// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
 // H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
 //
 //   (N.H)^2 / (N.N * square)
@@ -15,18 +15,15 @@ import "./Registers.sol";
 // last entry, H^2 is taken 2^-20 too great, more than it may be off: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of
 // 128 and H^2 = 1, by 0.016 levels.
 
-/// @dev Three lanes of 85 bits: half of a lane in each; what is left of a lane that is shifted down by 48 bits; half of that.
-uint256 constant HALF_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
-uint256 constant LOW_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
-uint256 constant HALF_37 = 0x4000000000000000000002000000000000000000001000000000;
 /// @dev 1 + 2^-21, Q24.
 uint256 constant ABOVE_ONE_24 = 0x1000008;
 
 library VertexHighlights {
     /// @notice Adds the highlights at its vertices to the attribute words of a flat triangle. Records of vertices keep what does not depend
     /// on the face.
-    /// @param a, b, c The screen words of its vertices, whose attribute words are in ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function addAll(uint256 a, uint256 b, uint256 c) internal pure {
+    /// @param a, b, c The screen words of its vertices.
+    /// @param p, q, r Their attribute words.
+    function addTo(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
             // for each light H, and its square
             function fill(vertex) {
@@ -50,7 +47,7 @@ library VertexHighlights {
                 for { let record := LIGHTS } 1 {} {
                     vertex := add(vertex, 0x40)
                     square := sub(shl(56, mload(add(record, LIGHT_MESH_X))), ray)
-                    mstore(vertex, sub(and(shr(48, add(square, HALF_85)), LOW_37), HALF_37))
+                    mstore(vertex, sub(and(shr(48, add(square, HALF_86)), Q32_86), HALF_Q32_86))
                     // H^2 = 2 * (length - L.V) / length
                     square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
                     square := sub(mul(length, ABOVE_ONE_24), add(square, shl(24, mload(add(record, LIGHT_Z)))))
@@ -60,19 +57,18 @@ library VertexHighlights {
                 }
             }
 
-            // the light of a record on a vertex, what of it the vertex keeps, and its attribute word
-            function shine(record, kept, pointer) {
-                let place := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(kept))))
+            // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
+            function shine(record, kept) -> color {
+                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(kept)))
                 // 0 where N.H is negative
                 place := mul(place, sgt(place, 0))
                 place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, 32))))
                 place := sub(place, mload(SPECULAR_OFFSET))
                 if sgt(place, 0) {
-                    let entry := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
+                    color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
                     // (value * 2^24 + increase * what is behind the entry), Q40, is the upper half of a product
-                    entry := shr(128, mul(entry, or(ONE_24, and(shl(128, place), SPECULAR_REST_AT_128))))
-                    entry := and(shr(30, mul(mload(add(record, LIGHT_COLOR)), entry)), LANES_24)
-                    mstore(pointer, add(mload(pointer), entry))
+                    color := shr(128, mul(color, or(ONE_24, and(shl(128, place), SPECULAR_REST_AT_128))))
+                    color := and(shr(30, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
                 }
             }
 
@@ -84,9 +80,9 @@ library VertexHighlights {
             if iszero(mload(c)) { fill(sub(c, 0x40)) }
             for { let record := LIGHTS } 1 {} {
                 if sgt(mload(add(record, LIGHT_N_DOT_L)), 0) {
-                    shine(record, a, ATTRIBUTE_0)
-                    shine(record, b, DELTA_1)
-                    shine(record, c, DELTA_2)
+                    p := add(p, shine(record, a))
+                    q := add(q, shine(record, b))
+                    r := add(r, shine(record, c))
                 }
                 record := add(record, LIGHT_SIZE)
                 if iszero(lt(record, mload(LIGHTS_END))) { break }
@@ -95,5 +91,6 @@ library VertexHighlights {
                 c := add(c, 0x40)
             }
         }
+        return (p, q, r);
     }
 }

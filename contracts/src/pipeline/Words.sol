@@ -169,13 +169,18 @@ uint256 constant TEN_PIXELS = 0x100000100000100000100000100000100000100000100000
 uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
 uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
 
+// ------------------------------------------------------------------------------------------------ parts of vectors in the space of a mesh
+
+uint256 constant MIDDLE_86_AT = 86;
+uint256 constant UPPER_86_AT = 172;
+/// @dev Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+uint256 constant HALF_MIDDLE_86 = 0x2000000000000000000000;
+uint256 constant HALF_UPPER_86 = 0x8000000000000000000000000000000000000000000;
+
 // ---------------------------------------------------------------------------------------------------------------- parts of signed colours
 
 uint256 constant MIDDLE_85_AT = 85;
 uint256 constant UPPER_85_AT = 170;
-/// @dev Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
-uint256 constant HALF_LANE_85 = 0x1000000000000000000000;
-uint256 constant HALF_LANES_85 = 0x2000000000000000000000000000000000000000000;
 /// @dev The lowest lane, the middle one, the uppermost, and the upper two.
 uint256 constant LANE_85 = 0x1fffffffffffffffffffff;
 uint256 constant MIDDLE_LANE_85 = 0x3ffffffffffffffffffffe00000000000000000000;
@@ -405,3 +410,12 @@ uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc0000
 uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
 uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
 uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
+
+// --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
+// Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with its lanes the other way round, is
+// their dot product, and has all bits from UPPER_86_AT on: what is above is beyond the word.
+
+/// @dev Half the range of each lane; the bits that are left of a lane of Q80 as Q32; half of them.
+uint256 constant HALF_86 = 0x8000000000000000000008000000000000000000002000000000000000000000;
+uint256 constant Q32_86 = 0xfffffffff000000000000fffffffffc000000000003fffffffff;
+uint256 constant HALF_Q32_86 = 0x8000000000000000000008000000000000000000002000000000;

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_LIT, IS_ORTHOGRAPHIC, LANES_32
+from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_LIT, IS_ORTHOGRAPHIC, LANES_32, MIDDLE_86_AT, UPPER_86_AT
 from .mesh import Mesh
 from .registers import LightRecord, Registers
 from .words import divide_signed, signed
@@ -21,9 +21,8 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
     for record in r.lights:
         if not record.is_point:
-            # normal * direction: the middle lane of a product with lanes the other way round; what is below takes one
-            # away at most, and bit 255 is of the lane above
-            lambert = signed(r.face_normal * record.mesh_lanes << 1) >> 171
+            # normal * direction: the middle coefficient of the product; what is below takes one away at most
+            lambert = signed(r.face_normal * record.mesh_lanes) >> UPPER_86_AT
             record.n_dot_l = divide_signed(lambert << 16, length)
             if record.n_dot_l > 0:
                 total += ((record.diffuse * record.n_dot_l) >> 24) & LANES_32
@@ -99,6 +98,6 @@ def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
     registers.face_normal_x = x = ay * bz - az * by
     registers.face_normal_y = y = az * bx - ax * bz
     registers.face_normal_z = z = ax * by - ay * bx
-    registers.face_normal = x + (y << 85) + (z << 170)
+    registers.face_normal = x + (y << MIDDLE_86_AT) + (z << UPPER_86_AT)
     registers.face_square = x * x + y * y + z * z
     return registers.face_square << 32
