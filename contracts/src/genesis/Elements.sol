@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+/// @title Elements: of arrays in memory, without a check of the index, in loops that end with the array.
+library Elements {
+    function get(int256[] memory values, uint256 index) internal pure returns (int256 value) {
+        assembly ("memory-safe") {
+            value := mload(add(add(values, 0x20), shl(5, index)))
+        }
+    }
+
+    function put(int256[] memory values, uint256 index, int256 value) internal pure {
+        assembly ("memory-safe") {
+            mstore(add(add(values, 0x20), shl(5, index)), value)
+        }
+    }
+}
