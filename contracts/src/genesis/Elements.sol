@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-/// @title Elements: of arrays in memory, without a check of the index, in loops that end with the array.
+/// @title Elements: of arrays in memory, without a check of the index: for loops that end with the array.
 library Elements {
     function get(int256[] memory values, uint256 index) internal pure returns (int256 value) {
         assembly ("memory-safe") {
@@ -12,6 +12,12 @@ library Elements {
     function put(int256[] memory values, uint256 index, int256 value) internal pure {
         assembly ("memory-safe") {
             mstore(add(add(values, 0x20), shl(5, index)), value)
+        }
+    }
+
+    function put(int256[6] memory values, uint256 index, int256 value) internal pure {
+        assembly ("memory-safe") {
+            mstore(add(values, shl(5, index)), value)
         }
     }
 }
