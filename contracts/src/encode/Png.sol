@@ -35,6 +35,8 @@ library Png {
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
+    /// @dev 1 in each of eight pixels of 24 bits.
+    uint256 private constant EACH_PIXEL = 0x0000000000000000000001000001000001000001000001000001000001000001;
     /// @dev Of eight pixels of 24 bits the upper four, of each four the upper two, of each two the upper one.
     uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
     uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
@@ -245,20 +247,34 @@ library Png {
         }
     }
 
-    /// @return second What the bytes before compression add to Adler-32: its second sum.
+    /// @return second What the bytes before compression add to Adler-32: its second sum, in which each byte counts as often as there are
+    /// bytes from it on.
     /// @return first Its first sum.
     function writeRows(Stream memory stream, Rows memory rows, uint256 scale) private pure returns (uint256 second, uint256 first) {
         unchecked {
+            // of all bytes; the same, each times the rows from its own on; each times its place, as `sumRow` has it
+            (uint256 sum, uint256 sumBelow, uint256 places) = sumRows(stream, rows);
+            // pairs of copies of a row
+            uint256 pairs = scale * (scale - 1) / 2;
             uint256 rowSize = 1 + rows.size * scale;
-            // bytes that are not written yet
-            uint256 rest = rowSize * rows.height * scale;
-            uint256 stride = Bmp.stride(rows.size / 3);
-            uint256 source = rows.source + stride * rows.height;
+            uint256 written = rowSize * scale;
+            first = 1 + scale * sum + UP * (scale - 1) * rows.height;
+            // pixels, of which each is written `scale` times, after the filter of the row
+            second = written * rows.height + scale * (written * sumBelow - sum - 3 * scale * places) - 3 * pairs * sum;
+            second -= scale * withinWords(rows.lanes, scale);
+            // filters of the other rows
+            second += UP * rowSize * pairs * rows.height * rows.height;
+        }
+    }
+
+    /// @dev Writes all rows.
+    function sumRows(Stream memory stream, Rows memory rows) private pure returns (uint256 sum, uint256 sumBelow, uint256 places) {
+        unchecked {
             (uint256 size, uint256 row) = (rows.size, rows.row);
-            second = rest;
-            first = 1;
+            uint256 stride = Bmp.stride(size / 3);
+            uint256 source = rows.source + stride * rows.height;
             put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
-            for (uint256 y = rows.height; y != 0; --y) {
+            while (source != rows.source) {
                 source -= stride;
                 assembly ("memory-safe") {
                     calldatacopy(row, source, size)
@@ -266,14 +282,15 @@ library Png {
                     calldatacopy(add(row, size), calldatasize(), 96)
                 }
                 {
-                    (uint256 sum, uint256 places) = sumRow(row, size, rows.lanes);
-                    second += scale * ((rest - 1) * sum - 3 * scale * places) - 3 * (scale * (scale - 1) / 2) * sum;
-                    first += scale * sum;
+                    (uint256 sumOfRow, uint256 placesOfRow) = sumRow(row, size, rows.lanes);
+                    sum += sumOfRow;
+                    sumBelow += sum;
+                    places += placesOfRow;
                 }
                 assembly ("memory-safe") {
                     // 32 more pixels like the last one
                     let end := add(row, size)
-                    let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), 0x000001000001000001000001000001000001000001000001))
+                    let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), EACH_PIXEL))
                     mstore(end, pixels)
                     mstore(add(end, 24), pixels)
                     mstore(add(end, 48), pixels)
@@ -282,12 +299,8 @@ library Png {
                 for (uint256 begin; begin < size; begin += 3 * PART) {
                     writePart(stream, rows.gaps, row + begin, row + (size - begin < 3 * PART ? size : begin + 3 * PART));
                 }
-                putBits(stream, rows.between, y == 1 ? rows.betweenSize - LITERAL_SIZE : rows.betweenSize);
-                second += UP * ((scale - 1) * rest - rowSize * (scale * (scale - 1) / 2));
-                rest -= rowSize * scale;
+                putBits(stream, rows.between, source == rows.source ? rows.betweenSize - LITERAL_SIZE : rows.betweenSize);
             }
-            first += UP * (scale - 1) * rows.height;
-            second -= scale * withinWords(rows.lanes, scale);
         }
     }
 
@@ -394,7 +407,7 @@ library Png {
                     // how many are not
                     let changed := or(change, or(shr(8, change), shr(16, change)))
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
-                    changed := mod(and(shr(8, changed), 0x0000000000000000000001000001000001000001000001000001000001000001), 0xffffff)
+                    changed := mod(and(shr(8, changed), EACH_PIXEL), 0xffffff)
                     if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
                         // from 24 bits to 32 bits each: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
