@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {Rectangle, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
+import {Indices} from "./Indices.sol";
 import {VertexShader} from "./VertexShader.sol";
 import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
 import {Clipper} from "./Clipper.sol";
@@ -154,7 +155,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             records = freeMemory();
             store(HAS_CLIPPED, 0);
             VertexShader.run(mesh, records, 1 << shift, mode & IS_SMOOTH != 0);
-            checkIndices(mesh, index);
+            Indices.check(mesh, index);
             list = records + (mesh.vertexCount << shift);
             end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;

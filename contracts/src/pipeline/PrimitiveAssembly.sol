@@ -3,7 +3,6 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {WIREFRAME} from "../scene/Scene.sol";
-import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Rasterizer} from "./Rasterizer.sol";
 import {ALL_EDGES, Triangles} from "./Triangles.sol";
 import "./Registers.sol";
@@ -16,47 +15,8 @@ import "./Registers.sol";
 int256 constant HALF_AREA = 0x800000000000000000000000000000000000000000000000;
 /// @dev Twice the area, Q192, below which a face may lie between the pixel centres: that of one pixel.
 int256 constant SMALL_AREA = 0x20000 << 192;
-/// @dev Lanes of 32 bits: the lowest bit, and the lower half of each.
-uint256 constant LOW_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
-uint256 constant LOW_16 = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
 
 abstract contract PrimitiveAssembly is Rasterizer {
-    /// @notice Reverts if a face has a vertex number that is out of range.
-    function checkIndices(Mesh memory mesh, uint256 object) internal pure {
-        unchecked {
-            uint256 count = mesh.vertexCount;
-            uint256 faces = mesh.faces;
-            uint256 size = FACE_SIZE * mesh.faceCount;
-            uint256 bad;
-            assembly ("memory-safe") {
-                // 16 numbers at once: number + 2^16 - count, in lanes of 32 bits, is 2^16 or more if it is out of range
-                let bias := mul(sub(0x10000, count), LOW_32)
-                let place := faces
-                let end := add(faces, size)
-                for {} lt(add(place, 32), end) { place := add(place, 32) } {
-                    let numbers := calldataload(place)
-                    bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
-                }
-                // what is left of the last word
-                if lt(place, end) {
-                    let numbers := shr(shl(3, sub(add(place, 32), end)), calldataload(place))
-                    bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
-                }
-                bad := and(bad, shl(16, LOW_32))
-            }
-            if (bad == 0) return;
-            for (uint256 face; face != mesh.faceCount; ++face) {
-                uint256 indices = Triangles.readIndices(faces + FACE_SIZE * face);
-                if (
-                    indices >> FACE_FIRST_AT >= count || (indices >> FACE_SECOND_AT) & FACE_INDEX_MASK >= count
-                        || indices & FACE_INDEX_MASK >= count
-                ) {
-                    revert SceneErrors.IndexOutOfRange(object, face, count);
-                }
-            }
-        }
-    }
-
     /// @notice Draws the faces, or lists them for later, besides those that have to be clipped.
     /// @param records Address of the vertex records, 2^shift bytes each.
     /// @param list Where to write the triangles; 0 to draw them at once.

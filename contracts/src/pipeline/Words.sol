@@ -87,6 +87,14 @@ uint256 constant CLIP_BIAS = 0x800000000000000000000000800000000000000000000000;
 /// @dev What it adds to each.
 uint256 constant CLIP_HALF = 0x800000000000000000000000;
 
+// ----------------------------------------------------------------------------------------------------------------------- parts of borders
+
+/// @dev Bits of a lane; how many there are.
+uint256 constant BORDER_BITS = 28;
+uint256 constant BORDER_COUNT = 9;
+/// @dev 2^27, below which values are, less 2^16 for the tile and more 2^16 for the guard band, which is more than their rounding.
+uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00007ff00007ff0000;
+
 // ------------------------------------------------------------------------------------------------------------------------- parts of edges
 
 /// @dev Bits of a column behind the point; where it stands for an address of a depth.
@@ -261,6 +269,18 @@ uint256 constant EDGES_LEFT_COLUMN_AT = 48;
 uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
 uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
 uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
+
+// -------------------------------------------------------------------------------------------------------------------- borders of the tile
+// Four lanes of 28 bits for the left, right, upper and lower border: positive where a vertex lies beyond. See TileCulling.
+
+/// @dev Set where the value is positive.
+uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
+
+// -------------------------------------------------------------------------------------------------------------- borders of the guard band
+// Behind these five for the left, right, upper and lower border of the guard band, and the near plane.
+
+/// @dev Set where the value is positive.
+uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
 
 // -------------------------------------------------------------------------------------------------------------------------------- colours
 // Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number in a lane borrows

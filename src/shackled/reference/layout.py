@@ -92,6 +92,10 @@ IS_NOT_PLAIN = 0x1F0000000000
 SCREEN_COLUMNS = 0xFFFFF0000000000000000
 #: Row in whole pixels.
 SCREEN_PIXEL_ROW_AT = 136
+#: The bits of the column that are whole pixels.
+SCREEN_PIXEL_COLUMNS = 0xFFF000000000000000000
+#: Added, it rounds row and column up to whole pixels.
+SCREEN_ROUND_UP = 0xFF00000000000000FF0000000000000000
 
 # ---- parts of accumulators ----
 
@@ -120,6 +124,15 @@ EDGE_CA = 0x4000000000000000000000000000000000000
 CLIP_BIAS = 0x800000000000000000000000800000000000000000000000
 #: What it adds to each.
 CLIP_HALF = 0x800000000000000000000000
+
+# ---- parts of borders ----
+
+#: Bits of a lane; how many there are.
+BORDER_BITS = 28
+BORDER_COUNT = 9
+#: 2^27, below which values are, less 2^16 for the tile and more 2^16 for the guard band, which is more than their
+#: rounding.
+BORDER_BIAS = 0x801000080100008010000801000080100007FF00007FF00007FF00007FF0000
 
 # ---- parts of edges ----
 
@@ -297,6 +310,19 @@ EDGES_LEFT_COLUMN_AT = 48
 EDGES_LEFT_COLUMN_MASK = 0xFFFF
 EDGES_RIGHT_COLUMN_AT = 176
 EDGES_RIGHT_COLUMN_MASK = 0xFFFF
+
+# ---- borders of the tile ----
+# Four lanes of 28 bits for the left, right, upper and lower border: positive where a vertex lies beyond. See
+# TileCulling.
+
+#: Set where the value is positive.
+BORDER_SIGNS = 0x8000000800000080000008000000
+
+# ---- borders of the guard band ----
+# Behind these five for the left, right, upper and lower border of the guard band, and the near plane.
+
+#: Set where the value is positive.
+GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000
 
 # ---- colours ----
 # Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number
