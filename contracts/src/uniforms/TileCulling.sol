@@ -19,9 +19,10 @@ import "../pipeline/Registers.sol";
 // vertices lie beyond the same border of the tile: then the primitive assembly would leave it out, too, and neither pixels nor counts
 // change. Faces of which a vertex may have to be clipped are kept, since cutting rounds.
 //
-// The order of the faces is kept. That of the vertices is not: it matters nowhere.
+// The order of the faces is kept. That of the vertices is not: numbers put only vertices at the same place in order, and a face with two
+// of those is not drawn.
 
-/// @dev Meshes of fewer faces are kept as they are: the functions of the borders take 16,000 gas, and a face that is left out saves 600.
+/// @dev Meshes of fewer faces are kept as they are: the functions take 16,000 gas, and a face that is left out saves 600 with its vertices.
 uint256 constant LEAST_FACES = 32;
 /// @dev Bits of a coordinate that are used.
 uint256 constant COORDINATE_BITS = 16;
@@ -29,7 +30,8 @@ uint256 constant COORDINATE_SHIFT = 240;
 /// @dev Bits of a value before it is rounded; of a coefficient, which is such a value by 2^15, below the point.
 uint256 constant VALUE_BITS = 40;
 uint256 constant COEFFICIENT_FRACTION = 28;
-/// @dev Of the matrix X, Y, the distance from the near plane and w, four words each; then the values of a function.
+/// @dev Scratch memory: of the columns of the matrix X, Y, the distance from the near plane and w, four words each; then the values of a
+/// function.
 uint256 constant PLACES_Y = 0x80;
 uint256 constant PLACES_NEAR = 0x100;
 uint256 constant PLACES_W = 0x180;
@@ -39,8 +41,8 @@ uint256 constant FACE_ONES = 0x100010001;
 /// @dev Where in an entry of the table of vertices the new number stands, counted from 1, below the lowest sign.
 uint256 constant NUMBER_MASK = 0x1ffff;
 /// @dev Bits of the offset of an entry of that table, a word long, that are 0; and where the offset is if a number of a face, at FACE_AT +
-/// FACE_FIRST_AT, FACE_AT + FACE_SECOND_AT and FACE_AT, is multiplied by 32;
-/// and of the next face.
+/// FACE_FIRST_AT, FACE_AT + FACE_SECOND_AT and FACE_AT, is multiplied by 32; and
+/// the same of the next face.
 uint256 constant ENTRY_BITS = 5;
 uint256 constant FIRST_ENTRY_AT = 235;
 uint256 constant SECOND_ENTRY_AT = 219;
@@ -209,11 +211,17 @@ library TileCulling {
                 // Two at a time. Of the last the second may be no face: the mask keeps its numbers small, and nobody asks for it.
                 let numbers := calldataload(face)
                 let first := and(
-                    and(mload(add(table, and(shr(FIRST_ENTRY_AT, numbers), mask))), mload(add(table, and(shr(SECOND_ENTRY_AT, numbers), mask)))),
+                    and(
+                        mload(add(table, and(shr(FIRST_ENTRY_AT, numbers), mask))),
+                        mload(add(table, and(shr(SECOND_ENTRY_AT, numbers), mask)))
+                    ),
                     and(mload(add(table, and(shr(THIRD_ENTRY_AT, numbers), mask))), BORDER_SIGNS)
                 )
                 let second := and(
-                    and(mload(add(table, and(shr(NEXT_FIRST_ENTRY_AT, numbers), mask))), mload(add(table, and(shr(NEXT_SECOND_ENTRY_AT, numbers), mask)))),
+                    and(
+                        mload(add(table, and(shr(NEXT_FIRST_ENTRY_AT, numbers), mask))),
+                        mload(add(table, and(shr(NEXT_SECOND_ENTRY_AT, numbers), mask)))
+                    ),
                     and(mload(add(table, and(shr(NEXT_THIRD_ENTRY_AT, numbers), mask))), BORDER_SIGNS)
                 )
                 // signs are below 2^112

@@ -36,6 +36,8 @@ _SOURCES = {
     "uniforms/Materials.sol": UNIFORMS,
     "uniforms/Specular.sol": UNIFORMS,
     "pipeline/VertexShader.sol": "vertex shader",
+    "uniforms/TileCulling.sol": "primitive assembly",
+    "pipeline/Indices.sol": "primitive assembly",
     "pipeline/PrimitiveAssembly.sol": "primitive assembly",
     "pipeline/Clipper.sol": "primitive assembly",
     "pipeline/Shading.sol": SHADING,
