@@ -14,13 +14,13 @@ uint256 constant HALF_85_Q10 = 0x800000000000000000000400000000000000000000200;
 uint256 constant BEYOND_BYTE_85 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000;
 uint256 constant BEYOND_CARRY = 37;
 uint256 constant BEYOND_SIGN = 36;
-/// @dev 1 in each lane; and 255, Q10.
+/// @dev 1 in each lane.
 uint256 constant ONES_85 = 0x4000000000000000000002000000000000000000001;
-uint256 constant BYTE_Q10 = 0x3fc00;
 /// @dev Where the byte of each channel begins.
 uint256 constant BLUE_Q10_AT = 10;
 uint256 constant GREEN_Q10_AT = 95;
 uint256 constant RED_Q10_AT = 180;
+
 library ExactSpans {
     /// @notice Draws the rows from `row` to before `last`, between two edges.
     /// @param start The accumulator at column 0 of the first row.
