@@ -4,6 +4,12 @@ pragma solidity 0.8.37;
 /// @notice Base64 without a table: 24 bytes at a time, whose 32 characters are computed side by side in one word.
 /// @dev Source of the encoding: RFC 4648.
 library Base64 {
+    /// @dev The upper 96 of 192 bits, the upper halves of what they make two of, and so on down to 6 bits.
+    uint256 private constant UPPER_96 = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
+    uint256 private constant UPPER_48 = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
+    uint256 private constant UPPER_24 = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    uint256 private constant UPPER_12 = 0x00fff00000fff00000fff00000fff00000fff00000fff00000fff00000fff000;
+    uint256 private constant UPPER_6 = 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0;
     /// @dev 1, 2 and "A" in each byte; and what takes numbers from 26, 52 and 62 on to 128 or more.
     uint256 private constant EACH_BYTE = 0x0101010101010101010101010101010101010101010101010101010101010101;
     uint256 private constant EACH_TWO = 0x0202020202020202020202020202020202020202020202020202020202020202;
@@ -37,11 +43,11 @@ library Base64 {
         assembly ("memory-safe") {
             function characters(bits) -> text {
                 // 32 numbers of 6 bits to the 32 bytes of a word: the upper half of each part moves up until there is a number a byte
-                bits := add(bits, mul(and(bits, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000), 4294967295))
-                bits := add(bits, mul(and(bits, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000), 65535))
-                bits := add(bits, mul(and(bits, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000), 255))
-                bits := add(bits, mul(and(bits, 0x00fff00000fff00000fff00000fff00000fff00000fff00000fff00000fff000), 15))
-                bits := add(bits, mul(and(bits, 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0), 3))
+                bits := add(bits, mul(and(bits, UPPER_96), 0xffffffff))
+                bits := add(bits, mul(and(bits, UPPER_48), 0xffff))
+                bits := add(bits, mul(and(bits, UPPER_24), 0xff))
+                bits := add(bits, mul(and(bits, UPPER_12), 0xf))
+                bits := add(bits, mul(and(bits, UPPER_6), 3))
                 // "A" + n, and what the steps to "a", "0", "+" and "/" differ from that: 6, -75, -15 and 3
                 let digits := mul(and(shr(7, add(bits, TO_128_FROM_52)), EACH_BYTE), 25)
                 // "/" is the odd one of the last two

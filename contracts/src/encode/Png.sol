@@ -19,6 +19,16 @@ library Png {
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
     uint256 private constant DATA = 75;
+    /// @dev The signature with the size and the name of the chunk IHDR; what follows the sides there; the sum of that, the size and the
+    /// name of the chunk IDAT and the head of zlib, where sum and size are filled in later; the chunk IEND.
+    uint256 private constant SIGNATURE_IHDR = 0x89504e470d0a1a0a0000000d49484452;
+    uint256 private constant RGB_8 = 0x0802000000;
+    uint256 private constant IDAT_ZLIB = 0x494441547801;
+    uint256 private constant IEND = 0x49454e44;
+    uint256 private constant IEND_SUM = 0xae426082;
+    /// @dev What bitmaps begin with; one plane of 24 bits a pixel.
+    uint256 private constant BMP_KIND = 0x424d;
+    uint256 private constant ONE_PLANE_24 = 0x01001800;
     /// @dev The filter of rows that are as the row above.
     uint256 private constant UP = 2;
     /// @dev The largest prime below 2^16, for the checksum Adler-32.
@@ -35,6 +45,9 @@ library Png {
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
+    /// @dev The first byte of a word, and the green of the nine bits a channel that a word begins with.
+    uint256 private constant FIRST_BYTE = 0xff00000000000000000000000000000000000000000000000000000000000000;
+    uint256 private constant GREEN_OF_9 = 0x003fc00000000000000000000000000000000000000000000000000000000000;
     /// @dev 1 in each of eight pixels of 24 bits.
     uint256 private constant EACH_PIXEL = 0x0000000000000000000001000001000001000001000001000001000001000001;
     /// @dev Of eight pixels of 24 bits the upper four, of each four the upper two, of each two the upper one.
@@ -111,8 +124,8 @@ library Png {
                 png := mload(0x40)
                 // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
                 let sides := or(shl(32, mul(width, scale)), mul(height, scale))
-                mstore(add(png, 32), or(or(shl(128, 0x89504e470d0a1a0a0000000d49484452), shl(64, sides)), shl(24, 0x0802000000)))
-                mstore(add(png, 64), shl(168, 0x0000000000494441547801))
+                mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, sides)), shl(24, RGB_8)))
+                mstore(add(png, 64), shl(168, IDAT_ZLIB))
                 let target := add(png, DATA)
                 mcopy(target, add(header, 32), mload(header))
                 target := add(target, mload(header))
@@ -166,7 +179,7 @@ library Png {
                 height := or(byte(4, sides), shl(8, byte(5, sides)))
                 planesAndBits := and(shr(160, sides), 0xffffffff)
             }
-            bool known = kind == 0x424d && planesAndBits == 0x01001800 && width != 0 && height != 0;
+            bool known = kind == BMP_KIND && planesAndBits == ONE_PLANE_24 && width != 0 && height != 0;
             if (!known || bmp.length != Bmp.HEADER + Bmp.stride(width) * height) revert PngErrors.NotABitmap();
         }
     }
@@ -370,12 +383,12 @@ library Png {
                 // blue, green and red, of eight bits each, to red, green and blue of nine
                 let text := shr(232, mload(pixel))
                 text := or(
-                    or(shl(247, and(text, 0xff)), and(shl(230, text), 0x003fc00000000000000000000000000000000000000000000000000000000000)),
+                    or(shl(247, and(text, 0xff)), and(shl(230, text), GREEN_OF_9)),
                     shl(229, shr(16, text))
                 )
                 text := add(text, shl(229, LITERALS))
                 let size := and(code, 0xff)
-                mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, or(code, shr(size, text)))))
+                mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, or(code, shr(size, text)))))
                 newCount := add(add(count, size), PIXEL_SIZE)
                 newTarget := add(target, shr(3, newCount))
                 newCount := and(newCount, 7)
@@ -423,13 +436,13 @@ library Png {
                         switch sub(first, last)
                         case 3 {
                             // all of them: a word and what is pushed out of it
-                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, pixels)))
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, pixels)))
                             target := add(target, 32)
                             mstore(target, shl(sub(256, count), pixels))
                         }
                         default {
                             if xor(first, last) { target, count := write(target, count, mload(add(gaps, shl(4, sub(first, last)))), first) }
-                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, shl(32, pixels))))
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, shl(32, pixels))))
                             target := add(target, 28)
                         }
                         last := add(first, 21)
@@ -455,7 +468,7 @@ library Png {
             }
             // the last match
             let code := mload(add(gaps, shl(4, sub(end, last))))
-            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, xor(code, and(code, 0xff)))))
+            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, and(code, 0xff)))))
             count := add(count, and(code, 0xff))
             mstore(stream, add(target, shr(3, count)))
             mstore(add(stream, 0x20), and(count, 7))
@@ -486,7 +499,7 @@ library Png {
         assembly ("memory-safe") {
             let target := mload(stream)
             let count := mload(add(stream, 0x20))
-            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, text)))
+            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, text)))
             count := add(count, size)
             mstore(stream, add(target, shr(3, count)))
             mstore(add(stream, 0x20), and(count, 7))
@@ -533,8 +546,8 @@ library Png {
             write32(file + 33, end - file - 57);
             write32(end - 16, Crc32.sum(file + 37, end - file - 53));
             write32(end - 12, 0);
-            write32(end - 8, 0x49454e44);
-            write32(end - 4, 0xae426082);
+            write32(end - 8, IEND);
+            write32(end - 4, IEND_SUM);
         }
     }
 

@@ -11,6 +11,9 @@ import "./Registers.sol";
 /// @dev Modes of triangles whose fragments are not of linear colours.
 uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
 
+/// @dev 1 / 2^8 of the length of a line in sub-pixels is an accumulator's change for each pixel: Q32 of attributes, Q8 of sub-pixels.
+int256 constant STEP_ONE = 1 << 40;
+
 abstract contract Wireframe is Rasterizer {
     /// @notice Draws the rows from `row` to before `last`, if the mode is BY_FRAGMENTS: see Rasterizer.drawRows, where they are addresses.
     function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
@@ -80,7 +83,7 @@ abstract contract Wireframe is Rasterizer {
             if (top >= bottom) return;
             int256 below = int256(top << SUBPIXEL_BITS) - row(p);
             int256 slope = (dx << EDGE_FRACTION) / dy;
-            uint256 step = uint256((1 << 40) / dy);
+            uint256 step = uint256(STEP_ONE / dy);
             // the pixel whose middle is nearest
             uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
             store(DX, 0);
@@ -101,7 +104,7 @@ abstract contract Wireframe is Rasterizer {
             if (begin >= end) return;
             top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
             bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
-            uint256 step = uint256((1 << 40) / dx);
+            uint256 step = uint256(STEP_ONE / dx);
             store(DX, change * step);
             store(DY, 0);
             attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
