@@ -56,8 +56,8 @@ def tiles() -> Section:
     text = (
         "The teapot, 992 triangles, smooth. Gas of all tiles together, divided by that of the whole picture.\n\n"
         + table(heads, rows)
-        + "\n\nEach tile reads the vertices and faces of the whole scene once more, to find those that it shows, so that "
-        "tiles are dear for small pictures. Strips (1 x n) cost about as much as squares. "
+        + "\n\nEach tile reads the vertices and faces of the whole scene once more, to find those that it shows, so "
+        "that tiles are dear for small pictures. Strips (1 x n) cost about as much as squares. "
         "Of a large picture tiles may cost less than the whole: memory becomes dearer the more of it a call uses."
     )
     return Section("Tiles", text, data)
