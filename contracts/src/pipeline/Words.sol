@@ -60,6 +60,10 @@ uint256 constant SCREEN_PIXEL_ROW_AT = 136;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
+/// @dev The bits that a depth has more than in a vertex.
+uint256 constant DEPTH_FRACTION = 8;
+/// @dev A depth of the buffer has 2^3 bytes.
+uint256 constant DEPTH_SIZE_BITS = 3;
 /// @dev The bits that it has more than an attribute word.
 uint256 constant ACCUMULATOR_FRACTION = 32;
 /// @dev Depth as in a vertex.
@@ -91,6 +95,8 @@ uint256 constant CLIP_HALF = 0x800000000000000000000000;
 /// @dev Bits of a column behind the point; where it stands for an address of a depth.
 uint256 constant EDGE_FRACTION = 48;
 uint256 constant EDGE_ADDRESS_FRACTION = 45;
+/// @dev Where the right edge has the address.
+uint256 constant RIGHT_ADDRESS_AT = 173;
 /// @dev Brings sub-pixels to a column.
 uint256 constant EDGE_SUBPIXEL_SHIFT = 40;
 uint256 constant HALF_COLUMN = 0x800000000000;
@@ -108,6 +114,13 @@ uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of colours
 
+/// @dev Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+uint256 constant LIGHT_FRACTION = 16;
+uint256 constant LIGHT_SUM_FRACTION = 40;
+uint256 constant COSINE_FRACTION = 24;
+/// @dev Where a lane of Q10 has what is above 255, and the six bits of it.
+uint256 constant OVERFLOW_AT = 18;
+uint256 constant OVERFLOW_MASK = 63;
 /// @dev Where green and red are.
 uint256 constant MIDDLE_AT = 56;
 uint256 constant UPPER_AT = 112;
