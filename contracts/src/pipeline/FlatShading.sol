@@ -13,6 +13,8 @@ import "./Registers.sol";
 /// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
 /// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
+/// @dev A REACH that is beyond every triangle.
+uint256 constant NO_LIMIT = 1 << 60;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
 
@@ -58,12 +60,12 @@ abstract contract FlatShading is Rasterizer {
                 // the attribute word of a vertex with coloured light on its colour
                 function lit(attributes, factor) -> product {
                     let color := and(attributes, COLOR_LANES)
-                    product := shr(16, mul(and(factor, LANE_32), and(color, LANE_24)))
+                    product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24)))
                     product := or(
                         product,
-                        shl(MIDDLE_AT, shr(16, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
+                        shl(MIDDLE_AT, shr(LIGHT_FRACTION, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
                     )
-                    product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
+                    product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
                     product := or(product, xor(attributes, color))
                 }
 
@@ -76,11 +78,11 @@ abstract contract FlatShading is Rasterizer {
                 default {
                     light := and(light, LANE_32)
                     let color := and(p, COLOR_LANES)
-                    p := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(p, color))
+                    p := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(p, color))
                     color := and(q, COLOR_LANES)
-                    q := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(q, color))
+                    q := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(q, color))
                     color := and(r, COLOR_LANES)
-                    r := or(and(shr(16, mul(color, light)), COLOR_LANES), xor(r, color))
+                    r := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(r, color))
                 }
                 // as in `shade`
                 let second := mul(24, sub(q, p))
@@ -121,8 +123,10 @@ abstract contract FlatShading is Rasterizer {
             store(PATCH_WEIGHT, 0);
             uint256 size = patchSize(a, b, c, p, q, r);
             store(PATCH_SIZE, size);
-            if (size == 0)
-                Patches.fitWhole(a, b, c, p >> 168, q >> 168, r >> 168, Shading.max((a + (255 << 128)) >> 136, load(BAND_TOP)));
+            if (size == 0) {
+                uint256 top = Shading.max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
+                Patches.fitWhole(a, b, c, p >> ATTRIBUTE_DEPTH_AT, q >> ATTRIBUTE_DEPTH_AT, r >> ATTRIBUTE_DEPTH_AT, top);
+            }
         }
     }
 
@@ -145,21 +149,22 @@ abstract contract FlatShading is Rasterizer {
             uint256 area = Shading.doubleArea(a, b, c);
             // where a few pixels are covered, these are the fewest colours
             if (area < SMALL || mode & IS_STEEP != 0) return 1;
-            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> 168;
-            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> 168;
-            uint256 reach = 1 << 60;
+            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 reach = NO_LIMIT;
             if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
             if (mode & IS_ORTHOGRAPHIC == 0) {
                 uint256 bright = brightness(za | zb | zc, mode);
                 if (6 * (nearest - farthest) * bright > nearest + farthest) {
                     // so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
-                    size = slope(a, b, c, (zb >> 168) - (za >> 168), (zc >> 168) - (za >> 168));
+                    size = za >> ATTRIBUTE_DEPTH_AT;
+                    size = slope(a, b, c, (zb >> ATTRIBUTE_DEPTH_AT) - size, (zc >> ATTRIBUTE_DEPTH_AT) - size);
                     if (bright > 8 || 5120 * size > farthest * area) return 1;
-                    store(PATCH_WEIGHT, nearest << 8);
+                    store(PATCH_WEIGHT, nearest << DEPTH_FRACTION);
                 }
             }
             if (longest(a, b, c) < 16 * reach) return 0;
-            for (size = 64; size > 7; size >>= 1) if (size * size << 16 < 11 * reach) return size;
+            for (size = 64; size > 7; size >>= 1) if (size * size << 2 * SUBPIXEL_BITS < 11 * reach) return size;
             return 1;
         }
     }
@@ -172,8 +177,8 @@ abstract contract FlatShading is Rasterizer {
     /// @dev The square of an edge, in sub-pixels.
     function squareLength(uint256 p, uint256 q) private pure returns (uint256 square) {
         assembly ("memory-safe") {
-            square := sub(shr(128, p), shr(128, q))
-            p := sub(and(shr(64, p), 0xfffff), and(shr(64, q), 0xfffff))
+            square := sub(shr(SCREEN_ROW_AT, p), shr(SCREEN_ROW_AT, q))
+            p := sub(and(shr(SCREEN_COLUMN_AT, p), SCREEN_COLUMN_MASK), and(shr(SCREEN_COLUMN_AT, q), SCREEN_COLUMN_MASK))
             square := add(mul(square, square), mul(p, p))
         }
     }
@@ -181,8 +186,8 @@ abstract contract FlatShading is Rasterizer {
     /// @dev How much a linear function changes along a row, times twice the area, from its differences to the other vertices.
     function slope(uint256 a, uint256 b, uint256 c, uint256 db, uint256 dc) private pure returns (uint256 size) {
         assembly ("memory-safe") {
-            a := shr(128, a)
-            size := sub(mul(dc, sub(shr(128, b), a)), mul(db, sub(shr(128, c), a)))
+            a := shr(SCREEN_ROW_AT, a)
+            size := sub(mul(dc, sub(shr(SCREEN_ROW_AT, b), a)), mul(db, sub(shr(SCREEN_ROW_AT, c), a)))
             size := xor(size, sar(255, size))
         }
     }
@@ -191,11 +196,13 @@ abstract contract FlatShading is Rasterizer {
     function brightness(uint256 colors, uint256 mode) private pure returns (uint256 times) {
         unchecked {
             if (mode & IS_DIFFUSE == 0) {
-                times = 1 + (((colors >> 18) | (colors >> 74) | (colors >> 130)) & 63);
+                colors >>= OVERFLOW_AT;
+                times = 1 + ((colors | (colors >> MIDDLE_AT) | (colors >> UPPER_AT)) & OVERFLOW_MASK);
             } else {
                 uint256 light = load(AMBIENT);
                 for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) light += load(record + LIGHT_DIFFUSE);
-                times = 1 + (((light >> 16) | (light >> 72) | (light >> 128)) & 0xffff);
+                light >>= LIGHT_FRACTION;
+                times = 1 + ((light | (light >> MIDDLE_AT) | (light >> UPPER_AT)) & 0xffff);
             }
         }
     }

@@ -4,6 +4,15 @@ pragma solidity 0.8.37;
 import "./Registers.sol";
 
 // How the lights meet a flat face.
+
+/// @dev Bits behind the point: of places in the space of the mesh; of the length of a normal and of its square.
+uint256 constant MESH_FRACTION = 32;
+uint256 constant LENGTH_FRACTION = 16;
+uint256 constant SQUARE_FRACTION = 32;
+/// @dev From HAS_SPECULAR to IS_LIT; IS_LIT and IS_DIFFUSE.
+uint256 constant SPECULAR_TO_LIT = 2;
+uint256 constant IS_LIT_AND_DIFFUSE = 6;
+
 library Lighting {
     /// @notice Normal and light of a flat face, from its corners in the mesh.
     /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has highlights there, IS_DIFFUSE if a point
@@ -21,12 +30,12 @@ library Lighting {
                 // the coordinates of the normal out of their lanes, the uppermost first
                 let normal := mload(FACE_NORMAL)
                 let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
-                sum := mul(n, sub(mload(add(vector, 0x40)), shl(32, sar(rest, shl(shl(1, bits), corner)))))
+                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
                 normal := sub(normal, shl(UPPER_86_AT, n))
                 n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
-                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(32, sar(rest, shl(bits, corner))))))
+                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
                 n := sub(normal, shl(MIDDLE_86_AT, n))
-                sum := add(sum, mul(n, sub(mload(vector), shl(32, sar(rest, corner)))))
+                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
             // the length of the normal, which is twice the area of the face; its square at first
@@ -61,7 +70,7 @@ library Lighting {
                 length := add(add(mul(x, x), mul(p, p)), mul(a, a))
             }
             mstore(FACE_SQUARE, length)
-            length := shl(32, length)
+            length := shl(SQUARE_FRACTION, length)
             {
                 // The square root. With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is
                 // within 0.231 of the root of m, relatively; three steps of Newton's method leave less than 2^-22. Where the normal is
@@ -86,16 +95,15 @@ library Lighting {
             for { let record := LIGHTS } 1 {} {
                 // the middle coefficient of the product; what is below takes one away at most
                 let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
-                facing := sdiv(shl(16, facing), length)
+                facing := sdiv(shl(LENGTH_FRACTION, facing), length)
                 if mload(add(record, LIGHT_IS_POINT)) {
-                    facing := sdiv(sar(32, mul(dot(add(record, LIGHT_MESH_X), not(0)), mload(SCALE))), length)
-                    // IS_LIT | IS_DIFFUSE
-                    mode := or(mode, mul(6, sgt(facing, 0)))
+                    facing := sdiv(sar(MESH_FRACTION, mul(dot(add(record, LIGHT_MESH_X), not(0)), mload(SCALE))), length)
+                    mode := or(mode, mul(IS_LIT_AND_DIFFUSE, sgt(facing, 0)))
                 }
                 if sgt(facing, 0) {
-                    light := add(light, and(shr(24, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
+                    light := add(light, and(shr(COSINE_FRACTION, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
                     // a highlight wants the light of each fragment
-                    mode := or(mode, shr(2, and(mode, HAS_SPECULAR)))
+                    mode := or(mode, shr(SPECULAR_TO_LIT, and(mode, HAS_SPECULAR)))
                 }
                 mstore(add(record, LIGHT_N_DOT_L), facing)
                 record := add(record, LIGHT_SIZE)
@@ -118,12 +126,12 @@ library Lighting {
                 // the coordinates of the normal out of their lanes, the uppermost first
                 let normal := mload(FACE_NORMAL)
                 let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
-                sum := mul(n, sub(mload(add(vector, 0x40)), shl(32, sar(rest, shl(shl(1, bits), corner)))))
+                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
                 normal := sub(normal, shl(UPPER_86_AT, n))
                 n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
-                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(32, sar(rest, shl(bits, corner))))))
+                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
                 n := sub(normal, shl(MIDDLE_86_AT, n))
-                sum := add(sum, mul(n, sub(mload(vector), shl(32, sar(rest, corner)))))
+                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
             switch and(mload(OBJECT_MODE), IS_ORTHOGRAPHIC)

@@ -325,6 +325,15 @@ uint256 constant VERTEX_SCREEN = 0;
 uint256 constant VERTEX_ATTRIBUTES = 32;
 uint256 constant VERTEX_SIZE = 64;
 
+// ---------------------------------------------------------------------------------------------------------------------------- half vector
+// What the vertex of a flat surface keeps of each light, behind VERTEX_SIZE: see VertexHighlights.
+
+/// @dev In the space of the mesh, Q32, signed lanes of 86 bits, z lowest.
+uint256 constant HALF_VECTOR = 0;
+/// @dev Its square, in the unit in which it divides the square of a product to a place in the table of the highlight.
+uint256 constant HALF_SQUARE = 32;
+uint256 constant HALF_SIZE = 64;
+
 // ---------------------------------------------------------------------------------------------------- corner of a polygon that is clipped
 
 /// @dev Clip coordinates, Q32.

@@ -16,7 +16,6 @@ uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
 uint256 constant THREE_PIXELS = 0x60000;
 /// @dev Eight rows, as screen words have them.
 uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
-uint256 constant COLOR_LANES = 0xffffff00000000ffffff00000000ffffff;
 
 library Shading {
     /// @notice The attribute words of the vertices with these screen words.
@@ -137,10 +136,10 @@ library Shading {
             store(PATCH_SIZE, 1);
             store(PATCH_BEGIN, 0);
             store(PATCH_END, GUARD_BAND);
-            uint256 color = attributesA & COLOR_LANES;
+            uint256 color = attributesA & LANES_24;
             store(COLOR_0, (color << 24) + WEIGHTED_BIAS);
-            store(COLOR_1, (attributesB & COLOR_LANES) - color);
-            store(COLOR_2, (attributesC & COLOR_LANES) - color);
+            store(COLOR_1, (attributesB & LANES_24) - color);
+            store(COLOR_2, (attributesC & LANES_24) - color);
             attributesA >>= ATTRIBUTE_DEPTH_AT;
             attributesB >>= ATTRIBUTE_DEPTH_AT;
             attributesC >>= ATTRIBUTE_DEPTH_AT;
@@ -220,10 +219,10 @@ library Shading {
     /// @dev The attribute word with the light of the face on its colour.
     function lit(uint256 word, uint256 factor) private pure returns (uint256 product) {
         assembly ("memory-safe") {
-            let color := and(word, COLOR_LANES)
+            let color := and(word, LANES_24)
             product := and(factor, LANE_32)
             switch eq(factor, mul(product, ONES))
-            case 1 { product := and(shr(16, mul(color, product)), COLOR_LANES) }
+            case 1 { product := and(shr(16, mul(color, product)), LANES_24) }
             default {
                 product := shr(16, mul(product, and(color, LANE_24)))
                 product := or(

@@ -6,8 +6,8 @@ import "./Registers.sol";
 // The highlights of directional lights at the vertices of a flat face.
 //
 // The half vector H = L - V, for unit vectors L to the light and V along the ray, is kept in the space of the mesh, Q32, where the product
-// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
-// H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
+// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below
+// 2^83. H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
 //
 //   (N.H)^2 / (N.N * square)
 //
@@ -17,6 +17,13 @@ import "./Registers.sol";
 
 /// @dev 1 + 2^-21, Q24.
 uint256 constant ABOVE_ONE_24 = 0x1000008;
+/// @dev 1, Q56: divided by a length of Q24 it is Q32, which makes Q80 of what is Q48.
+uint256 constant ONE_56 = 0x100000000000000;
+/// @dev Between Q formats; and from a square (Q48, half of it times the length) to the unit in which it is kept.
+uint256 constant Q24_TO_Q80 = 56;
+uint256 constant Q80_TO_Q32 = 48;
+uint256 constant Q40_TO_Q10 = 30;
+uint256 constant SQUARE_SHIFT = 33;
 
 library VertexHighlights {
     /// @notice Adds the highlights at its vertices to the attribute words of a flat triangle. Records of vertices keep what does not depend
@@ -25,7 +32,7 @@ library VertexHighlights {
     /// @param p, q, r Their attribute words.
     function addTo(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
-            // for each light H, and its square
+            // for each light H, and its square, behind the first two words of a record, which are as many as those of a half vector
             function fill(vertex) {
                 let x := mload(vertex)
                 let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, x), mload(RAY_STEP))))
@@ -42,16 +49,16 @@ library VertexHighlights {
                     length := shr(1, add(length, div(square, length)))
                 }
                 // V, Q80
-                let ray := add(add(mul(x, mload(NORMAL_X)), mul(y, mload(NORMAL_Y))), shl(24, mload(NORMAL_Z)))
-                ray := mul(ray, div(0x100000000000000, length))
+                let ray := add(add(mul(x, mload(NORMAL_X)), mul(y, mload(NORMAL_Y))), shl(COSINE_FRACTION, mload(NORMAL_Z)))
+                ray := mul(ray, div(ONE_56, length))
                 for { let record := LIGHTS } 1 {} {
-                    vertex := add(vertex, 0x40)
-                    square := sub(shl(56, mload(add(record, LIGHT_MESH_X))), ray)
-                    mstore(vertex, sub(and(shr(48, add(square, HALF_86)), Q32_86), HALF_Q32_86))
+                    vertex := add(vertex, HALF_SIZE)
+                    square := sub(shl(Q24_TO_Q80, mload(add(record, LIGHT_MESH_X))), ray)
+                    mstore(add(vertex, HALF_VECTOR), sub(and(shr(Q80_TO_Q32, add(square, HALF_86)), Q32_86), HALF_Q32_86))
                     // H^2 = 2 * (length - L.V) / length
                     square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
-                    square := sub(mul(length, ABOVE_ONE_24), add(square, shl(24, mload(add(record, LIGHT_Z)))))
-                    mstore(add(vertex, 32), sdiv(shl(33, square), mul(length, mload(SPECULAR_SCALE))))
+                    square := sub(mul(length, ABOVE_ONE_24), add(square, shl(COSINE_FRACTION, mload(add(record, LIGHT_Z)))))
+                    mstore(add(vertex, HALF_SQUARE), sdiv(shl(SQUARE_SHIFT, square), mul(length, mload(SPECULAR_SCALE))))
                     record := add(record, LIGHT_SIZE)
                     if iszero(lt(record, mload(LIGHTS_END))) { break }
                 }
@@ -59,25 +66,25 @@ library VertexHighlights {
 
             // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
             function shine(record, kept) -> color {
-                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(kept)))
+                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(kept, HALF_VECTOR))))
                 // 0 where N.H is negative
                 place := mul(place, sgt(place, 0))
-                place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, 32))))
+                place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, HALF_SQUARE))))
                 place := sub(place, mload(SPECULAR_OFFSET))
                 if sgt(place, 0) {
                     color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
                     // (value * 2^24 + increase * what is behind the entry), Q40, is the upper half of a product
-                    color := shr(128, mul(color, or(ONE_24, and(shl(128, place), SPECULAR_REST_AT_128))))
-                    color := and(shr(30, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
+                    color := shr(SPECULAR_VALUE_AT, mul(color, or(ONE_24, and(shl(SPECULAR_VALUE_AT, place), SPECULAR_REST_AT_128))))
+                    color := and(shr(Q40_TO_Q10, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
                 }
             }
 
-            a := add(and(a, SCREEN_RECORD_MASK), 0x40)
-            b := add(and(b, SCREEN_RECORD_MASK), 0x40)
-            c := add(and(c, SCREEN_RECORD_MASK), 0x40)
-            if iszero(mload(a)) { fill(sub(a, 0x40)) }
-            if iszero(mload(b)) { fill(sub(b, 0x40)) }
-            if iszero(mload(c)) { fill(sub(c, 0x40)) }
+            a := add(and(a, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            b := add(and(b, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            c := add(and(c, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            if iszero(mload(a)) { fill(sub(a, VERTEX_SIZE)) }
+            if iszero(mload(b)) { fill(sub(b, VERTEX_SIZE)) }
+            if iszero(mload(c)) { fill(sub(c, VERTEX_SIZE)) }
             for { let record := LIGHTS } 1 {} {
                 if sgt(mload(add(record, LIGHT_N_DOT_L)), 0) {
                     p := add(p, shine(record, a))
@@ -86,9 +93,9 @@ library VertexHighlights {
                 }
                 record := add(record, LIGHT_SIZE)
                 if iszero(lt(record, mload(LIGHTS_END))) { break }
-                a := add(a, 0x40)
-                b := add(b, 0x40)
-                c := add(c, 0x40)
+                a := add(a, HALF_SIZE)
+                b := add(b, HALF_SIZE)
+                c := add(c, HALF_SIZE)
             }
         }
         return (p, q, r);

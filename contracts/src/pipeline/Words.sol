@@ -41,9 +41,8 @@ uint256 constant ONE_24 = 0x1000000;
 uint256 constant ONE_32 = 0x100000000;
 uint256 constant ONE_44 = 0x100000000000;
 uint256 constant ONE_48 = 0x1000000000000;
-/// @dev The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE; bits that one has more in the buffer.
+/// @dev The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE.
 uint256 constant DEPTH_BITS = 54;
-uint256 constant DEPTH_FRACTION = 8;
 
 // ----------------------------------------------------------------------------------------------------------------------- mesh in calldata
 
@@ -77,6 +76,10 @@ uint256 constant SCREEN_ROUND_UP = 0xff00000000000000ff0000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
+/// @dev The bits that a depth has more than in a vertex.
+uint256 constant DEPTH_FRACTION = 8;
+/// @dev A depth of the buffer has 2^3 bytes.
+uint256 constant DEPTH_SIZE_BITS = 3;
 /// @dev The bits that it has more than an attribute word.
 uint256 constant ACCUMULATOR_FRACTION = 32;
 /// @dev Depth as in a vertex.
@@ -146,6 +149,13 @@ uint256 constant GREEN_AT = 8;
 uint256 constant RED_AT = 16;
 uint256 constant GREEN_TO_LANE = 48;
 uint256 constant RED_TO_LANE = 96;
+/// @dev Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+uint256 constant LIGHT_FRACTION = 16;
+uint256 constant LIGHT_SUM_FRACTION = 40;
+uint256 constant COSINE_FRACTION = 24;
+/// @dev Where a lane of Q10 has what is above 255, and the six bits of it.
+uint256 constant OVERFLOW_AT = 18;
+uint256 constant OVERFLOW_MASK = 63;
 /// @dev Where green and red are in lanes.
 uint256 constant MIDDLE_AT = 56;
 uint256 constant UPPER_AT = 112;

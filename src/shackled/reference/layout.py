@@ -77,9 +77,8 @@ ONE_24 = 0x1000000
 ONE_32 = 0x100000000
 ONE_44 = 0x100000000000
 ONE_48 = 0x1000000000000
-#: The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE; bits that one has more in the buffer.
+#: The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE.
 DEPTH_BITS = 54
-DEPTH_FRACTION = 8
 
 # ---- mesh in calldata ----
 
@@ -113,6 +112,10 @@ SCREEN_ROUND_UP = 0xFF00000000000000FF0000000000000000
 
 # ---- parts of accumulators ----
 
+#: The bits that a depth has more than in a vertex.
+DEPTH_FRACTION = 8
+#: A depth of the buffer has 2^3 bytes.
+DEPTH_SIZE_BITS = 3
 #: The bits that it has more than an attribute word.
 ACCUMULATOR_FRACTION = 32
 #: Depth as in a vertex.
@@ -183,6 +186,13 @@ GREEN_AT = 8
 RED_AT = 16
 GREEN_TO_LANE = 48
 RED_TO_LANE = 96
+#: Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+LIGHT_FRACTION = 16
+LIGHT_SUM_FRACTION = 40
+COSINE_FRACTION = 24
+#: Where a lane of Q10 has what is above 255, and the six bits of it.
+OVERFLOW_AT = 18
+OVERFLOW_MASK = 63
 #: Where green and red are in lanes.
 MIDDLE_AT = 56
 UPPER_AT = 112
