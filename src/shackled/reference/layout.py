@@ -98,6 +98,10 @@ SCREEN_PIXEL_ROW_AT = 136
 
 # ---- parts of accumulators ----
 
+#: The bits that a depth has more than in a vertex.
+DEPTH_FRACTION = 8
+#: A depth of the buffer has 2^3 bytes.
+DEPTH_SIZE_BITS = 3
 #: The bits that it has more than an attribute word.
 ACCUMULATOR_FRACTION = 32
 #: Depth as in a vertex.
@@ -129,6 +133,8 @@ CLIP_HALF = 0x800000000000000000000000
 #: Bits of a column behind the point; where it stands for an address of a depth.
 EDGE_FRACTION = 48
 EDGE_ADDRESS_FRACTION = 45
+#: Where the right edge has the address.
+RIGHT_ADDRESS_AT = 173
 #: Brings sub-pixels to a column.
 EDGE_SUBPIXEL_SHIFT = 40
 HALF_COLUMN = 0x800000000000
@@ -146,6 +152,13 @@ GRADIENT_TO_ACCUMULATOR = 5
 
 # ---- parts of colours ----
 
+#: Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+LIGHT_FRACTION = 16
+LIGHT_SUM_FRACTION = 40
+COSINE_FRACTION = 24
+#: Where a lane of Q10 has what is above 255, and the six bits of it.
+OVERFLOW_AT = 18
+OVERFLOW_MASK = 63
 #: Where green and red are.
 MIDDLE_AT = 56
 UPPER_AT = 112
