@@ -4,7 +4,7 @@ pragma solidity 0.8.37;
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "./Patches.sol";
 import {Rasterizer} from "./Rasterizer.sol";
-import {COLOR_LANES, EIGHT_ROWS, Shading} from "./Shading.sol";
+import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
@@ -59,7 +59,7 @@ abstract contract FlatShading is Rasterizer {
             assembly ("memory-safe") {
                 // the attribute word of a vertex with coloured light on its colour
                 function lit(attributes, factor) -> product {
-                    let color := and(attributes, COLOR_LANES)
+                    let color := and(attributes, LANES_24)
                     product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24)))
                     product := or(
                         product,
@@ -77,12 +77,12 @@ abstract contract FlatShading is Rasterizer {
                 }
                 default {
                     light := and(light, LANE_32)
-                    let color := and(p, COLOR_LANES)
-                    p := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(p, color))
-                    color := and(q, COLOR_LANES)
-                    q := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(q, color))
-                    color := and(r, COLOR_LANES)
-                    r := or(and(shr(LIGHT_FRACTION, mul(color, light)), COLOR_LANES), xor(r, color))
+                    let color := and(p, LANES_24)
+                    p := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(p, color))
+                    color := and(q, LANES_24)
+                    q := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(q, color))
+                    color := and(r, LANES_24)
+                    r := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(r, color))
                 }
                 // as in `shade`
                 let second := mul(24, sub(q, p))

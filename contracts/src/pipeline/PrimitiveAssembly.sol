@@ -54,7 +54,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     c := mload(add(records, and(c, mask)))
                     // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), as the upper part of the product of
                     // K^2 * (yb - ya) + K * (xb - xa) and K * (xc - xa) - K^2 * (yc - ya), where K = 2^64; what is below K is noise,
-                    // and so are all bits of the product below 2^184. Columns are turned round by taking them from 2^20 - 1.
+                    // and so are all bits of the product below 2^186. Columns are turned round by taking them from 2^20 - 1.
                     area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS)))
                 }
                 if (area <= loadSigned(LEAST_AREA)) continue;

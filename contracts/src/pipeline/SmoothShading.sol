@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Quadratic} from "./Quadratic.sol";
-import {Shading, COLOR_LANES} from "./Shading.sol";
+import {Shading} from "./Shading.sol";
 import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
 import "./Registers.sol";
 
@@ -64,7 +64,7 @@ library SmoothShading {
     function weighted(uint256 word, uint256 nearest) private pure returns (uint256) {
         unchecked {
             uint256 depth = word >> ATTRIBUTE_DEPTH_AT;
-            return (depth << ATTRIBUTE_DEPTH_AT) | ((((word & COLOR_LANES) * ((depth << Q10) / nearest)) >> Q10) & COLOR_LANES);
+            return (depth << ATTRIBUTE_DEPTH_AT) | ((((word & LANES_24) * ((depth << Q10) / nearest)) >> Q10) & LANES_24);
         }
     }
 }
