@@ -22,6 +22,7 @@ from .layout import (
     LANES_24,
     ONES,
     OVERFLOW,
+    SCREEN_PIXEL_ROW_AT,
     WEIGHT_BIAS,
 )
 from .mesh import Mesh
@@ -272,9 +273,11 @@ def is_affine(attributes: list[int], triangle: Triangle) -> bool:
 
 
 def is_large(triangle: Triangle) -> bool:
-    """Whether a triangle has more than 8 rows, of more than 3 pixels in the mean.
+    """Whether a triangle is higher than 8 pixels, and its rows have more than 3 pixels in the mean.
 
     To shade others in blocks would be dear, and change little.
     """
+    a, b, c = triangle.a, triangle.b, triangle.c
     rows = triangle.bottom - triangle.top
-    return rows > 8 and double_area(triangle.a, triangle.b, triangle.c) > rows * (3 << 17)
+    is_high = rows > 8 and max(b.word, c.word) > a.word + (8 << SCREEN_PIXEL_ROW_AT)
+    return is_high and double_area(a, b, c) > rows * (3 << 17)
