@@ -47,7 +47,6 @@ def test_first_picture(tmp_path: Path) -> None:
         assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 500
 
 
-@pytest.mark.xfail(reason="the strip of the README was not drawn again", strict=False)
 def test_the_demo_costs_what_the_readme_says(tmp_path: Path) -> None:
     """The command as it stands in the Makefile, and the picture of the documentation that is said to be the same."""
     demo = (ROOT / "Makefile").read_text("utf-8").split("\ndemo:")[1].split("\n\n")[0].replace("\\\n", " ")
