@@ -9,8 +9,9 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 import numpy as np
 
 from shackled import render
-from shackled.datasets.genesis import generate, seed_of
+from shackled.datasets.genesis import seed_of
 from shackled.image import decode_bmp
+from shackled.reference.genesis import generate
 from tokens.show import document, pixels, traits
 from tokens.stage import Stage, stage
 from tokens.world import Refused
