@@ -15,8 +15,9 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import fmean
 
+from tools.anvil import Anvil, AnvilChain, find_anvil
+
 from shackled import Scene, load
-from shackled.bench.anvil import Anvil, AnvilChain, find_anvil
 from shackled.chain import open_chain
 from shackled.parallel import Listener, Where
 from shackled.parallel.part import Part

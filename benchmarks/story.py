@@ -13,11 +13,12 @@ from pathlib import Path
 from statistics import fmean
 
 from shackled.artifacts import RENDERER
-from shackled.bench import energy
 from shackled.bench.original import DEPLOYMENT_GAS, original_gas
 from shackled.bench.scenes import cube
 from shackled.chain.embedded import intrinsic_gas
 from shackled.scene.codec import encode
+
+from . import energy
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from tools.anvil import AnvilChain, find_anvil
 
 from shackled import InputError, bench, load
 from shackled.artifacts import artifact
-from shackled.bench import EXPERIMENTS, Lab, fits, scenes
-from shackled.bench.anvil import AnvilChain, find_anvil
+from shackled.bench import EXPERIMENTS, Lab, engines, fits, scenes
 from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
 from shackled.bench.measure import call, cost
 from shackled.bench.original import CODE_SIZES, original, original_gas
@@ -223,6 +223,17 @@ def test_a_node_draws_the_same_for_the_same_gas() -> None:
         scene = scenes.cube(16)
         assert node.draw(scene) == open_chain().draw(scene)
         assert node.count(scene) == open_chain().count(scene)
+
+
+@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+def test_a_node_is_one_more_engine() -> None:
+    with AnvilChain(str(find_anvil())) as chain:
+        chain.address("Renderer")
+        node = engines.opened(chain.node.url)["anvil"]
+        found = engines.measure(node, scenes.cube(8))
+    assert found.gas == cost(scenes.cube(8)).gas
+    # it found the contracts where every chain has them
+    assert node.name.endswith("(deployed)")
 
 
 # ---- parts ----

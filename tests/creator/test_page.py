@@ -14,10 +14,10 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from tools.page_server import ARGUMENTS, Started, browser_path, creator, pixels
 
 import shackled
 from nodes import anvil, needs_anvil
-from page_server import ARGUMENTS, Started, browser_path, creator, pixels
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("nicegui", reason="the page needs nicegui")

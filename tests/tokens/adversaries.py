@@ -9,8 +9,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-
-from tokens.world import Built
+from tools.tokens.world import Built
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(__file__).with_name("contracts")

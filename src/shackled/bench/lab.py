@@ -22,12 +22,13 @@ Result = TypeVar("Result")
 class Lab:
     """A context in which experiments are made."""
 
-    def __init__(self, quick: bool = False, processes: int | None = None) -> None:
+    def __init__(self, quick: bool = False, processes: int | None = None, rpc: str | None = None) -> None:
         """With as many processes as cores, unless `processes` says how many: embedded EVMs hold Python's lock, so that
         threads would not help.
 
-        quick: whether a few small scenes suffice, to see that everything works.
+        quick: whether a few small scenes suffice, to see that everything works. rpc: a node to be measured too.
         """
+        self.rpc = rpc
         self.quick = quick
         self.processes = processes or os.cpu_count() or 1
         self._pool: ProcessPoolExecutor | None = None
