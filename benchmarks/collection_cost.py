@@ -10,11 +10,11 @@ from tools.tokens.world import GAS, Contract
 
 from shackled import load
 from shackled.artifacts import artifact
+from shackled.bench.measure import call, gas
 from shackled.datasets import icons
 from shackled.datasets.genesis import seed_of
 
 from .cost import Row
-from .measure import call, gas
 from .studio import recorded as recorded_of_studio
 
 #: Seeds of the collection of 2021.

@@ -14,7 +14,7 @@ from shackled import InputError, bench, load
 from shackled.artifacts import artifact
 from shackled.bench import EXPERIMENTS, Lab, engines, fits, scenes
 from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
-from shackled.bench.measure import call, cost
+from shackled.bench.measure import call_renderer, cost
 from shackled.bench.original import CODE_SIZES, original, original_gas
 from shackled.bench.report import Report, wrapped
 from shackled.chain import open_chain
@@ -116,7 +116,7 @@ def test_without_a_name_all_are_made(
 def test_scenes_are_those_that_the_original_was_measured_with(name: str, scene: object) -> None:
     theirs, ours = load(SHARED / f"{name}.json"), scene
     assert reference_render(ours) == reference_render(theirs)  # type: ignore[arg-type]
-    assert call(ours) == call(theirs)  # type: ignore[arg-type]
+    assert call_renderer(ours) == call_renderer(theirs)  # type: ignore[arg-type]
 
 
 def test_the_figures_of_the_original() -> None:

@@ -18,9 +18,8 @@ from ..scene.scene import Scene
 from ..scene.staging import Look, stage
 from .lab import Lab
 from .plots import FOURTH, ORIGINAL, OURS, THIRD
-from .report import Cell, Report
+from .report import Cell, Report, millions, table
 from .scenes import cube, equal_triangles
-from .table import millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
