@@ -179,7 +179,8 @@ class Worker:
         finally:
             if timer is not None:
                 timer.cancel()
-                timer.join()  # it must not kill the process at its next work
+            if late.is_set():  # perhaps as the answer came: the process must not be given more work
+                self.end()
         if kind == _DONE:
             return content
         error, text = content
