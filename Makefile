@@ -80,7 +80,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
-	$(BIN)/python tools/readme.py
+	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
 	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
@@ -89,7 +89,7 @@ paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/res
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
-	$(BIN)/python tools/readme.py
+	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
 

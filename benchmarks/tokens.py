@@ -12,6 +12,7 @@ import statistics
 import sys
 from pathlib import Path
 
+from tools.pages import update
 from tools.tokens.merkle import proof_of, root_of
 from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import GAS, ZERO, account, keccak
@@ -21,7 +22,6 @@ from shackled.datasets.genesis import seed_of
 ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
 PAGE = ROOT / "docs" / "tokens.md"
-BEGIN, END = "<!-- begin gas -->\n", "<!-- end gas -->"
 
 #: Of the contracts of 2021, as their authors tell it.
 ORIGINAL = {"mint 1": 124_000, "mint 5": 712_000}
@@ -140,9 +140,7 @@ def main() -> int:
     figures = take()
     print(table(figures))
     FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
-    before, _, rest = PAGE.read_text("utf-8").partition(BEGIN)
-    PAGE.write_text(before + BEGIN + table(figures) + "\n" + END + rest.partition(END)[2], "utf-8")
-    return 0
+    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.tokens")
 
 
 if __name__ == "__main__":
