@@ -15,8 +15,11 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import fmean
 
+from tools.anvil import Anvil, AnvilChain, find_anvil
+
 from shackled import Scene, load
-from shackled.bench.anvil import Anvil, AnvilChain, find_anvil
+from shackled.bench.measure import gas
+from shackled.bench.report import millions, table
 from shackled.chain import open_chain
 from shackled.parallel import Listener, Where
 from shackled.parallel.part import Part
@@ -27,9 +30,7 @@ from shackled.parallel.tiles import grid
 from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
-from . import shared
-from .measure import gas
-from .table import Section, millions, table
+from . import Section, shared
 
 FOLDER = Path(__file__).parent
 SIDES = (128, 256, 512, 1024)

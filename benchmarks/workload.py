@@ -12,6 +12,7 @@ import numpy as np
 
 from shackled import Scene, reference
 from shackled.artifacts import artifact
+from shackled.bench.measure import faces_of
 from shackled.reference import fragment_shader, rasterizer
 from shackled.scene.codec import encode
 
@@ -40,7 +41,7 @@ def workload_of(scene: Scene) -> Workload:
         picture = reference.draw_call(data)
     return Workload(
         vertices=sum(len(np.asarray(o.mesh.positions)) for o in scene.objects),
-        faces=sum(len(np.asarray(o.mesh.faces)) for o in scene.objects),
+        faces=faces_of(scene),
         drawn=picture.triangles,
         rows=counts["rows"],
         tested=counts["tested"],

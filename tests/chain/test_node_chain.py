@@ -12,11 +12,11 @@ from random import Random
 from typing import Any
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
 from shackled import Background, Camera, Light, Material, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain import Drawing, open_chain, open_node
 from shackled.chain.address_book import VARIABLE, AddressBook
 from shackled.chain.addresses import show_address

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from shackled.artifacts import artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments

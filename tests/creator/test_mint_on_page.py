@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.page_server import ARGUMENTS, Started, browser_path, creator
 
-from page_server import ARGUMENTS, Started, browser_path, creator
 from shackled.tokens.contract import Interface
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")

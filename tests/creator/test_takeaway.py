@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import io
 import json
 import re
@@ -18,6 +17,7 @@ import numpy as np
 import pytest
 import requests
 from PIL import Image as PillowImage
+from tools import build_contracts as tool
 
 from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
@@ -320,11 +320,6 @@ def meshes(scene: Scene) -> bytes:
 
 def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
     """Creation code and selectors of the contract in each source, compiled as a user would, from the npm package."""
-    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
-    assert spec is not None
-    assert spec.loader is not None
-    tool = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(tool)
     found = tool.read_sources(["Renderer"])
     sources = {f"shackled/contracts/src/{name}": text for name, text in found.items()}
     names = [f"{number}.sol" for number in range(len(contracts))]

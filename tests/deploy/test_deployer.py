@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import AddressBook
 from shackled.chain.addresses import PROXY, SALT, create2_address, keccak256, parse_address, show_address
 from shackled.chain.connection import Connection

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor

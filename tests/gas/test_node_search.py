@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from tools.anvil import AnvilChain
 
 from nodes import ANVIL, needs_anvil
 from shackled import RenderError, Scene
 from shackled.artifacts import artifact
-from shackled.bench.anvil import AnvilChain
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError, RevertError
 from shackled.gas.exact import measure, render_call

@@ -9,8 +9,8 @@ import pytest
 from eth_abi.abi import decode
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tools.ledger import call_data
 
-from ledger import call_data
 from pictures import chain
 from shackled import InputError, Mesh, RenderError, load
 from shackled.chain.embedded import EmbeddedChain

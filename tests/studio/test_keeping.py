@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.ledger import World
 
-from ledger import World
 from shackled import InputError, Mesh, Object, Scene, load, render
 from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot

@@ -14,8 +14,8 @@ import pytest
 from eth_abi.abi import decode
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.ledger import World, call_data
 
-from ledger import World, call_data
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.chain.refusal import refusal
 from shackled.datasets.teapot import teapot
@@ -434,6 +434,6 @@ def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
 
 
 def test_errors_are_named() -> None:
-    from ledger import call_data as data
+    from tools.ledger import call_data as data
 
     assert "NotAScene" in str(refusal(data("NotAScene(address)", NOBODY), 1))

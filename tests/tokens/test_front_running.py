@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import anvil, needs_anvil
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE, AddressBook
 from shackled.chain.addresses import show_address
 from shackled.cli.app import run

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import KEY, anvil, needs_anvil
 from proxies import Liar
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.chain.connection import Connection
 from shackled.cli.app import run

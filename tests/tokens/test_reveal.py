@@ -11,10 +11,11 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.stage import PRICE, Stage, stage
+from tools.tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
+
 from shackled.tokens.header import encode_values
 from tokens.adversaries import adversary
-from tokens.stage import PRICE, Stage, stage
-from tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
 
 ROUND, DELAY = 32, 128
 

@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.merkle import leaf, pair, proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
+from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
+
 from tokens.adversaries import adversary
-from tokens.merkle import leaf, pair, proof_of, root_of
-from tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
-from tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 KEY = keccak(b"who signs")
 SIGNER = Account.from_key(KEY).address

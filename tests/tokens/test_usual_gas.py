@@ -8,6 +8,10 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="the tests of tokens need it")
 
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
+from tools.tokens.world import Contract, account
+
 from shackled.chain.addresses import show_address
 from shackled.chain.embedded import intrinsic_gas
 from shackled.deploy.contract import local_chain
@@ -16,9 +20,6 @@ from shackled.studio.keeping import store_scene as keep
 from shackled.tokens.actions import USUAL
 from shackled.tokens.contract import Interface
 from shackled.tokens.icons import add_call
-from tokens.merkle import proof_of, root_of
-from tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
-from tokens.world import Contract, account
 
 
 def test_the_usual_gas_of_each_function() -> None:

@@ -8,6 +8,9 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, PUBLIC
+from tools.tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 from web3 import Web3
 from web3.types import Wei
 
@@ -15,10 +18,7 @@ from nodes import needs_anvil
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
 from shackled.tokens.header import encode_header
-from tokens.merkle import proof_of, root_of
 from tokens.on_a_node import Node
-from tokens.stage import ALLOW_LIST, PUBLIC
-from tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 
 PRICE = 10**17
 

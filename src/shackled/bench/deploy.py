@@ -11,8 +11,7 @@ from ..deploy.contract import STANDARD
 from .lab import Lab
 from .original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from .plots import ORIGINAL, OURS
-from .report import Cell, Report
-from .table import millions, table
+from .report import Cell, Report, millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

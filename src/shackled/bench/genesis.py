@@ -11,11 +11,10 @@ from numpy.typing import ArrayLike
 from ..datasets import require
 from .fits import Column, r2_of
 from .lab import Lab
-from .measure import cost
+from .measure import cost, faces_of
 from .original import original
 from .plots import INK, ORIGINAL, OURS, THIRD
-from .report import Report
-from .table import millions, table
+from .report import Report, millions, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,8 +69,8 @@ def measure(number: int) -> Piece:
     """One piece."""
     scene = require(f"genesis/{number}").make()
     found = cost(scene)
-    faces = sum(len(np.asarray(o.mesh.faces)) for o in scene.objects)
-    return Piece(number, faces, found.triangles, found.lit_pixels, any(o.wireframe for o in scene.objects), found.gas)
+    wireframe = any(o.wireframe for o in scene.objects)
+    return Piece(number, faces_of(scene), found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
 def line(x: ArrayLike, y: ArrayLike) -> tuple[float, float, float]:

@@ -14,8 +14,7 @@ from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
-from .evm import limited
-from .part import draw_part
+from .evm import draw_limited, limited
 from .store import contracts_digest
 
 if TYPE_CHECKING:
@@ -93,7 +92,7 @@ class ClusterPlace:
         from distributed import KilledWorker
 
         try:
-            future = self._client.submit(render_there, self._chain, self.gas, scene, tile, pure=False)
+            future = self._client.submit(draw_limited, self._chain, self.gas, scene, tile, pure=False)
             answer = future.result()
         except KilledWorker:
             raise RenderError(
@@ -158,11 +157,6 @@ class ClusterPlace:
             if found != contracts_digest().hex():
                 raise InputError(f"the worker {worker} has other contracts: install the same version of shackled there")
         return len(facts)
-
-
-def render_there(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
-    """Runs on a worker."""
-    return draw_part(limited(chain, gas), scene, tile)
 
 
 def _facts_function() -> Any:

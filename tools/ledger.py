@@ -20,6 +20,7 @@ class World:
     """Contracts by their addresses. Each call finds the same addresses cold."""
 
     def __init__(self) -> None:
+        """Begin with the contracts of the renderer and the Studio. Skips the test where there is no pyrevm."""
         pytest.importorskip("pyrevm")
         chain = open_chain("pyrevm")
         assert isinstance(chain, EmbeddedChain)
@@ -30,6 +31,7 @@ class World:
         self.gas = 0
 
     def address(self, contract: str) -> bytes:
+        """Return where a contract of the package stands."""
         return self.chain.address(contract)
 
     def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
