@@ -19,8 +19,8 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.chain.connection import Connection
-from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode, extensions
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack

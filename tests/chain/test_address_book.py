@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from shackled.chain.address_book import VARIABLE, AddressBook, book_path
-from shackled.chain.addresses import parse_address, show_address
 from shackled.errors import InputError
+from shackled.ethereum import checksum_address, parse_address
 
 ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")
 
@@ -86,8 +86,8 @@ def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
 
 def test_capitals_are_the_checksum() -> None:
     """The first example of EIP-55."""
-    assert show_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
-    for text in (show_address(TWO), show_address(TWO).lower(), "0x" + TWO.hex().upper()):
+    assert checksum_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
+    for text in (checksum_address(TWO), checksum_address(TWO).lower(), "0x" + TWO.hex().upper()):
         assert parse_address(text, "it") == TWO
     with pytest.raises(InputError, match="it is mistyped"):
         parse_address("0x5aaeb6053F3E94C9b9A09f33669435E7Ef1BeAed", "it")

@@ -12,7 +12,8 @@ import pytest
 from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact, contracts
 from shackled.chain import CHAINS, ContractChain, open_chain
-from shackled.chain.embedded import EmbeddedChain, PyEvmChain, PyrevmChain, intrinsic_gas
+from shackled.chain.embedded import EmbeddedChain, PyEvmChain, PyrevmChain
+from shackled.ethereum import intrinsic_gas
 from shackled.image import decode_bmp
 from shackled.scene.codec import Rectangle, encode
 

@@ -14,11 +14,11 @@ from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serv
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.bench.anvil import Anvil
-from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
 from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
 from shackled.ether import ETHER, GWEI
+from shackled.ethereum import PROXY
 
 pytestmark = needs_anvil
 

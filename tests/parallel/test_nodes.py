@@ -13,8 +13,8 @@ from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, servin
 from proxies import after, always, at, each_third, proxy
 from shackled import Image, RenderError, load
 from shackled.chain import open_chain
-from shackled.chain.addresses import PROXY
 from shackled.errors import NodeError
+from shackled.ethereum import PROXY
 from shackled.parallel import Listener, Outline, Where, render_frames, scheduler
 from shackled.parallel import job as job_module
 from shackled.render import render_whole

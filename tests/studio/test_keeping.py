@@ -14,9 +14,9 @@ from PIL import Image as PillowImage
 
 from ledger import World
 from shackled import InputError, Mesh, Object, Scene, load, render
-from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
 from shackled.errors import RenderError
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.packed_mesh import pack
 from shackled.scene.rotation import from_euler, rotate
 from shackled.scene.staging import stage

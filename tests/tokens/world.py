@@ -21,7 +21,7 @@ from eth_abi.exceptions import DecodingError
 from eth_utils.abi import collapse_if_tuple
 
 from shackled.artifacts import artifact
-from shackled.chain.embedded import intrinsic_gas
+from shackled.ethereum import intrinsic_gas
 from shackled.tokens.header import encode_values
 
 #: EIP-2935: the contract that knows the hashes of blocks, and its code.

@@ -8,7 +8,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from Crypto.Hash import keccak
+from ..ethereum import keccak256
 
 #: What draws: the others are for those who want them.
 RENDERER = ("Engine", "FragmentEngine", "Renderer")
@@ -75,4 +75,4 @@ def contracts(group: str | None = None) -> list[str]:
 def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:
     parameters = [(parameter["name"], parameter["type"]) for parameter in entry["inputs"]]
     signature = f"{entry['name']}({','.join(kind for _, kind in parameters)})"
-    return keccak.new(digest_bits=256, data=signature.encode()).digest()[:4], (entry["name"], parameters)
+    return keccak256(signature.encode())[:4], (entry["name"], parameters)

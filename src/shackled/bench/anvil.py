@@ -14,8 +14,8 @@ from typing import Any, Self
 from ..artifacts import artifact
 from ..chain import CallResult, ContractChain
 from ..chain.connection import Connection
-from ..chain.embedded import intrinsic_gas
 from ..errors import NodeUnreachableError, RenderError
+from ..ethereum import intrinsic_gas
 
 #: Where `npm ci` puts it in a clone of the repository.
 BINARIES = Path(__file__).resolve().parents[3] / "contracts" / "node_modules" / ".bin"

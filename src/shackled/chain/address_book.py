@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ..errors import InputError
+from ..ethereum import checksum_address, parse_address
 from ..whole_file import write_whole
-from .addresses import parse_address, show_address
 
 #: Names the file, where it is set.
 VARIABLE = "SHACKLED_ADDRESS_BOOK"
@@ -64,7 +64,7 @@ class AddressBook:
         """
         chains = self._read()
         known = chains.setdefault(str(chain_id), {})
-        new = known | {name: show_address(address) for name, address in addresses.items()}
+        new = known | {name: checksum_address(address) for name, address in addresses.items()}
         if new == known:
             return
         chains[str(chain_id)] = new

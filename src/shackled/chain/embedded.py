@@ -11,7 +11,7 @@ from typing import Any
 
 from ..artifacts import artifact
 from ..errors import RenderError
-from .addresses import create2_address
+from ..ethereum import create2_address, intrinsic_gas, to_hex, word
 from .chain import CallResult, ContractChain
 from .refusal import out_of_gas, refusal
 
@@ -20,15 +20,8 @@ DEFAULT_GAS_LIMIT = 30_000_000_000
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
 
-
 #: Zeros that pyrevm appends to the code of a contract when it is created, for itself.
 PADDING = 33
-
-
-def intrinsic_gas(data: bytes) -> int:
-    """What a transaction with this data costs before anything is executed, in Cancun."""
-    zeros = data.count(0)
-    return 21000 + 4 * zeros + 16 * (len(data) - zeros)
 
 
 class EmbeddedChain(ContractChain):
@@ -60,7 +53,7 @@ class EmbeddedChain(ContractChain):
     def creation(self, contract: str) -> bytes:
         """What deploys a contract, with the arguments of its constructor."""
         built = artifact(contract)
-        return built.creation + b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
+        return built.creation + b"".join(word(self.address(part)) for part in built.parts)
 
     def code(self, contract: str) -> bytes:
         """What stands at the address of a contract."""
@@ -102,13 +95,13 @@ class PyrevmChain(EmbeddedChain):
         # a new one each time: it keeps addresses warm from call to call, and takes no more calls after one that failed
         evm = pyrevm.EVM(spec_id="Cancun")
         for address, code in self._codes.items():
-            evm.insert_account_info(_hex(address), pyrevm.AccountInfo(code=code))
+            evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
         return evm
 
     def _create(self, contract: str, creation: bytes) -> bytes:
         evm = self._evm()
         try:
-            address = evm.deploy(_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
+            address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
         except RuntimeError as error:
             raise RenderError(f"the contract {contract} could not be deployed: {error}") from None
         return bytes(evm.get_code(address))[:-PADDING]
@@ -116,7 +109,7 @@ class PyrevmChain(EmbeddedChain):
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
         evm, intrinsic = self._evm(), intrinsic_gas(data)
         try:
-            output = bytes(evm.message_call(_hex(SENDER), _hex(address), data, None, gas_limit + intrinsic))
+            output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas_limit + intrinsic))
         except RuntimeError as error:
             raise _pyrevm_error(str(error), gas_limit) from None
         return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
@@ -198,7 +191,3 @@ class PyEvmChain(EmbeddedChain):
         from eth_typing import Address
 
         return BaseTransactionContext(gas_price=0, origin=Address(SENDER))
-
-
-def _hex(address: bytes) -> str:
-    return "0x" + address.hex()

@@ -20,13 +20,13 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
+from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
 from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
 from .address_book import AddressBook
-from .addresses import show_address
 from .chain import Drawing, count_call, returned_bytes, returned_counts
 from .connection import Connection
-from .embedded import DEFAULT_GAS_LIMIT, EmbeddedChain, intrinsic_gas
+from .embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
 from .refusal import out_of_gas, refusal
 
 #: EIP-3860: the longest data of a call that creates a contract.
@@ -157,7 +157,7 @@ class NodeChain:
         assert self._address is not None
         if contract not in RENDERER:
             return None
-        where = f"{show_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
+        where = f"{checksum_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
         code = self._code(self._address)
         if not code:
             raise RenderError(
@@ -187,7 +187,7 @@ class NodeChain:
         """The addresses of those that it calls, from the code of a contract; None if the code is not its own."""
         expected, parts = self._local.code(contract), {}
         for part in artifact(contract).parts:
-            here = self._local.address(part).rjust(32, b"\0")
+            here = word(self._local.address(part))
             at = expected.find(here)
             there = code[at : at + 32]
             if at >= 0 and len(there) == 32:
@@ -196,7 +196,7 @@ class NodeChain:
         return parts if code == expected else None
 
     def _code(self, address: bytes) -> bytes:
-        return self.connection.data("eth_getCode", _hex(address), "latest")
+        return self.connection.data("eth_getCode", to_hex(address), "latest")
 
     def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
         """A call through the meter, which a state override places; so are the contracts that are not deployed."""
@@ -205,15 +205,15 @@ class NodeChain:
             place = self._local.address(contract)
             for name in [contract, *self._below(contract)]:
                 codes[self._local.address(name)] = self._local.code(name)
-        head = place.rjust(32, b"\0") + _limit(gas_limit)
-        overrides = {_hex(address): {"code": _hex(code)} for address, code in codes.items()}
-        request = {"to": _hex(METER), "data": _hex(head + data)} | self._probed.field
+        head = word(place) + _limit(gas_limit)
+        overrides = {to_hex(address): {"code": to_hex(code)} for address, code in codes.items()}
+        request = {"to": to_hex(METER), "data": to_hex(head + data)} | self._probed.field
         output = self.connection.data("eth_call", request, "latest", overrides)
         return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
         """A call of what is deployed, by a creation that counts its gas if that is possible."""
-        init = artifact("DeployedCall").creation + place.rjust(32, b"\0") + _limit(gas_limit) + _bytes(data, 96)
+        init = artifact("DeployedCall").creation + word(place) + _limit(gas_limit) + _bytes(data, 96)
         if len(init) <= MAX_INIT_CODE and self._answers_creations:
             try:
                 return self._answer_of(init)
@@ -222,7 +222,7 @@ class NodeChain:
             except NodeError:
                 self._answers_creations = False
         field = self._probed.field if gas_limit is None else {"gas": hex(gas_limit + intrinsic_gas(data))}
-        request = {"to": _hex(place), "data": _hex(data)} | field
+        request = {"to": to_hex(place), "data": to_hex(data)} | field
         return NodeResult(self.connection.data("eth_call", request, "latest"), None)
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
@@ -230,7 +230,7 @@ class NodeChain:
         names = [*reversed(self._below(contract)), contract]
         codes = [artifact(name).creation for name in names]
         packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
-        head = artifact("CreationCall").creation + _limit(gas_limit) + _word(len(codes))
+        head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
         # as it is if there is room, since what is packed has to be unpacked, for gas
         for level in (0, 9):
             deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
@@ -263,12 +263,12 @@ class NodeChain:
     def _answer_of(self, init: bytes) -> NodeResult:
         """What a creation that ends by a revert says of the call that it made."""
         try:
-            self.connection.request("eth_call", {"data": _hex(init)} | self._probed.field, "latest")
+            self.connection.request("eth_call", {"data": to_hex(init)} | self._probed.field, "latest")
         except RevertError as error:
             flag, gas, output = error.data[:32], int.from_bytes(error.data[32:64], "big"), error.data[64:]
-            if flag == _word(1):
+            if flag == word(1):
                 return NodeResult(output, gas)
-            if flag == _word(0):
+            if flag == word(0):
                 raise RevertError(str(error), output) from None
             if error.data[:4] in artifact("CreationCall").errors:
                 # NotCreated: one of the contracts ran out of gas
@@ -323,11 +323,11 @@ class _Probed:
 
 def _probe(connection: Connection) -> _Probed:
     """Whether a node knows state overrides, and how much gas a call gets if it asks for very much, or for none."""
-    override = {_hex(METER): {"code": _hex(GAS_LEFT)}}
+    override = {to_hex(METER): {"code": to_hex(GAS_LEFT)}}
     for overrides in (True, False):
         found = []
         for named in (True, False):
-            request = {"to": _hex(METER)} if overrides else {"data": _hex(GAS_LEFT)}
+            request = {"to": to_hex(METER)} if overrides else {"data": to_hex(GAS_LEFT)}
             if named:
                 request["gas"] = hex(DEFAULT_GAS_LIMIT)
             try:
@@ -350,19 +350,11 @@ def _probe(connection: Connection) -> _Probed:
         raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()
-
-
-def _word(value: int) -> bytes:
-    return value.to_bytes(32, "big")
-
-
 def _limit(gas: int | None) -> bytes:
     """As the contracts take it: 0 is none."""
-    return _word(0 if gas is None else max(1, gas))
+    return word(0 if gas is None else max(1, gas))
 
 
 def _bytes(data: bytes, offset: int) -> bytes:
     """The last argument, of type bytes, which begins so many bytes behind the first."""
-    return _word(offset) + _word(len(data)) + data + bytes(-len(data) % 32)
+    return word(offset) + word(len(data)) + data + bytes(-len(data) % 32)

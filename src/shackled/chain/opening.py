@@ -6,7 +6,7 @@ from functools import cache
 from importlib.util import find_spec
 
 from ..errors import InputError, RenderError
-from .addresses import parse_address
+from ..ethereum import parse_address
 from .chain import Chain
 from .connection import PATIENCE, Connection
 from .embedded import EmbeddedChain, PyEvmChain, PyrevmChain

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ..artifacts import artifact
-from ..chain.addresses import PROXY, SALT, create2_address
-from ..chain.embedded import EmbeddedChain, intrinsic_gas
+from ..chain.embedded import EmbeddedChain
 from ..chain.opening import open_chain
 from ..errors import InputError, RenderError
+from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 
 #: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
 STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")

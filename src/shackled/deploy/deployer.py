@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from ..chain.address_book import AddressBook
-from ..chain.addresses import PROXY, show_address
 from ..chain.connection import Connection
 from ..errors import (
     NodeBusyError,
@@ -17,6 +16,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ether import rounded
+from ..ethereum import PROXY, checksum_address, to_hex
 from .contract import PROXY_CODE, Deployment
 from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
 from .quote import Call, Fees, Quote, current_fees, make_quotes
@@ -134,10 +134,10 @@ class Deployer:
 
     def stands(self, wanted: Deployment) -> bool:
         """Whether a contract is where it belongs. TransactionError if anything else is there."""
-        code = self.connection.data("eth_getCode", "0x" + wanted.address.hex(), "latest")
+        code = self.connection.data("eth_getCode", to_hex(wanted.address), "latest")
         if code and code != wanted.code:
             raise TransactionError(
-                f"the code at {show_address(wanted.address)} on chain {self.connection.chain_id} is not that of "
+                f"the code at {checksum_address(wanted.address)} on chain {self.connection.chain_id} is not that of "
                 f"{wanted.name}: the chain or the node is not to be trusted"
             )
         return bool(code)
@@ -182,7 +182,7 @@ class Deployer:
     def _check_chain(self, missing: Sequence[Deployment]) -> None:
         """Whether contracts can be deployed, and used; else it would be found out when something was paid."""
         try:
-            self.connection.request("eth_call", {"data": "0x" + NEWEST.hex()}, "latest")
+            self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
         except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
             raise
         except RenderError:
@@ -226,7 +226,7 @@ def create(
         raise
     if not transactor.wait(lambda: stands() or None):
         raise TransactionError(
-            f"{name} is not at {show_address(address)}, though its transaction {receipt.hash} succeeded: is the node "
-            "in step?"
+            f"{name} is not at {checksum_address(address)}, though its transaction {receipt.hash} succeeded: is "
+            "the node in step?"
         )
     return receipt

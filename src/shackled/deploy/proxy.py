@@ -6,7 +6,6 @@ signed it, which is used for this only; it has to be given what the transaction 
 
 from __future__ import annotations
 
-from ..chain.addresses import PROXY, keccak256, show_address
 from ..chain.connection import Connection
 from ..errors import (
     NodeBusyError,
@@ -17,6 +16,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ether import GWEI
+from ..ethereum import PROXY, checksum_address, keccak256, to_hex
 from .contract import PROXY_CODE
 from .quote import Call, Quote, base_fee
 from .transactor import Receipt, Transactor
@@ -40,7 +40,7 @@ CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 def proxy_stands(connection: Connection) -> bool:
     """Whether the proxy is on the chain. TransactionError if something else is at its address."""
-    code = connection.data("eth_getCode", "0x" + PROXY.hex(), "latest")
+    code = connection.data("eth_getCode", to_hex(PROXY), "latest")
     if code and code != PROXY_CODE:
         raise TransactionError(
             f"chain {connection.chain_id} has something else where the deployment proxy belongs, at 0x{PROXY.hex()}: "
@@ -51,13 +51,13 @@ def proxy_stands(connection: Connection) -> bool:
 
 def missing_funds(connection: Connection) -> int:
     """The wei that the account that signed must be given."""
-    return max(0, COST - connection.number("eth_getBalance", "0x" + SIGNER.hex(), "latest"))
+    return max(0, COST - connection.number("eth_getBalance", to_hex(SIGNER), "latest"))
 
 
 def check_gas(connection: Connection) -> None:
     """TransactionError if the published transaction has too little gas for the chain, as the node estimates it."""
     try:
-        needed = connection.number("eth_estimateGas", {"data": "0x" + CREATION.hex()})
+        needed = connection.number("eth_estimateGas", {"data": to_hex(CREATION)})
     except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
         raise
     except RenderError:
@@ -70,8 +70,8 @@ def too_little_gas(connection: Connection, why: str) -> TransactionError:
     """The error of a chain whose gas is too dear for the published transaction."""
     return TransactionError(
         f"chain {connection.chain_id} has no deployment proxy, and the published transaction that deploys it has "
-        f"{GAS:,} gas, {why}: take a chain that has the proxy at {show_address(PROXY)}, or, on a development node, put "
-        "its code there (anvil_setCode, hardhat_setCode)"
+        f"{GAS:,} gas, {why}: take a chain that has the proxy at {checksum_address(PROXY)}, or, on a development node, "
+        "put its code there (anvil_setCode, hardhat_setCode)"
     )
 
 
@@ -95,7 +95,7 @@ def deploy_proxy(transactor: Transactor, quote: Quote | None) -> list[Receipt]:
             # a node that takes no such transaction shall say so before anything is paid
             transactor.offer(SIGNED)
             receipts.append(transactor.send(quote))
-        receipts.append(transactor.send_signed(SIGNED, "0x" + keccak256(SIGNED).hex(), COST))
+        receipts.append(transactor.send_signed(SIGNED, to_hex(keccak256(SIGNED)), COST))
     except OutOfGasError:
         raise too_little_gas(connection, "which the node finds too little") from None
     if not transactor.wait(lambda: proxy_stands(connection) or None):

@@ -9,6 +9,7 @@ from typing import Any
 from ..chain.connection import Connection, quantity
 from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
 from ..ether import GWEI
+from ..ethereum import to_hex
 
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
 MARGIN = (21, 20)
@@ -54,7 +55,7 @@ class Call:
     def request(self, sender: bytes | None = None) -> dict[str, str]:
         """As JSON-RPC has it."""
         parts = {"from": sender, "to": self.to, "data": self.data}
-        return {key: _hex(part) for key, part in parts.items() if part is not None} | {"value": hex(self.value)}
+        return {key: to_hex(part) for key, part in parts.items() if part is not None} | {"value": hex(self.value)}
 
 
 @dataclass(frozen=True)
@@ -166,7 +167,7 @@ def make_quotes(
 def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
     """The gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
     plain: list[Any] = [call.request(sender)]
-    overrides = {_hex(place): {"code": _hex(code)} for place, code in call.needs.items()}
+    overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}
     # nodes that know no overrides refuse them
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
         try:
@@ -186,7 +187,3 @@ def _require(price: int, max_fee: int) -> None:
             f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of --max-fee: wait until "
             "it is cheaper, or raise it"
         )
-
-
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()

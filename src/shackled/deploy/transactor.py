@@ -8,7 +8,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection, quantity
 from ..chain.refusal import refusal
 from ..errors import (
@@ -22,6 +21,7 @@ from ..errors import (
     TransactionError,
 )
 from ..ether import GWEI, rounded
+from ..ethereum import checksum_address, to_hex
 from .quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 
 if TYPE_CHECKING:
@@ -68,11 +68,11 @@ class Transactor:
     @property
     def name(self) -> str:
         """The account, for people."""
-        return f"the account {show_address(self.address)}"
+        return f"the account {checksum_address(self.address)}"
 
     def balance(self) -> int:
         """In wei."""
-        return self.connection.number("eth_getBalance", _hex(self.address), "latest")
+        return self.connection.number("eth_getBalance", to_hex(self.address), "latest")
 
     def fees(self) -> Fees:
         """What gas costs now; TransactionError as `current_fees` has it."""
@@ -111,7 +111,7 @@ class Transactor:
                 f"gas has become more expensive meanwhile, {base / GWEI:,.12g} gwei, and at most "
                 f"{quote.fees.most / GWEI:,.12g} were told: the transaction was not sent; run the same again"
             )
-        nonce = self.connection.number("eth_getTransactionCount", _hex(self.address), "pending")
+        nonce = self.connection.number("eth_getTransactionCount", to_hex(self.address), "pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} says that {self.name} has made {nonce:,} transactions")
         transaction: dict[str, Any] = {
@@ -119,13 +119,13 @@ class Transactor:
             "nonce": max(self._nonce, nonce),
             "gas": quote.gas,
             "value": call.value,
-            "data": _hex(call.data),
+            "data": to_hex(call.data),
             **quote.fees.fields,
         }
         if call.to is not None:
-            transaction["to"] = show_address(call.to)
+            transaction["to"] = checksum_address(call.to)
         signed = self._account.sign_transaction(transaction)
-        digest = "0x" + bytes(signed.hash).hex()
+        digest = to_hex(bytes(signed.hash))
         receipt = self.send_signed(bytes(signed.raw_transaction), digest, quote.ceiling, transaction)
         self._nonce = transaction["nonce"] + 1
         return receipt
@@ -133,7 +133,7 @@ class Transactor:
     def send_signed(self, raw: bytes, digest: str, cost: int = 0, transaction: dict[str, Any] | None = None) -> Receipt:
         """Sends what is signed, and waits for its receipt. cost: what the account must have, in wei, for messages."""
         try:
-            self.connection.request("eth_sendRawTransaction", _hex(raw))
+            self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except NodeError as error:
             said = str(error).lower()
             # it may have come through before; whether it did shows when it is asked for
@@ -156,7 +156,7 @@ class Transactor:
         TransactionError if the node would not take it then, OutOfGasError if its gas would not do.
         """
         try:
-            self.connection.request("eth_sendRawTransaction", _hex(raw))
+            self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except OutOfGasError:
             raise
         except NodeError as error:
@@ -170,7 +170,7 @@ class Transactor:
 
         def waiting() -> int:
             count = [
-                self.connection.number("eth_getTransactionCount", _hex(self.address), block)
+                self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
                 for block in ("pending", "latest")
             ]
             return count[0] - count[1]
@@ -208,7 +208,7 @@ class Transactor:
         """Why a transaction failed, by making it again as a call."""
         if transaction is None:
             return ""
-        call = {"from": _hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
+        call = {"from": to_hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
         call |= {"gas": hex(transaction["gas"])} | ({"to": transaction["to"]} if "to" in transaction else {})
         try:
             self.connection.request("eth_call", call, hex(max(0, block - 1)))
@@ -297,7 +297,3 @@ def _is_hex(value: Any, size: int) -> bool:
 def _why(data: bytes, gas: int = 0) -> str:
     """What a contract that reverted a transaction said."""
     return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"
-
-
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from Crypto.Hash import keccak
 
 from ..artifacts import artifact
 from ..chain import ContractChain, open_chain
 from ..errors import InputError
+from ..ethereum import create2_address, intrinsic_gas, keccak256, word
 from ..scene.codec import encode_scene
 from ..scene.fit import fit
 from ..scene.object import Object
@@ -92,9 +92,9 @@ def store_scene(
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
         result += _storings(f"mesh {number}", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
     struct = pointing(fitted, [kept_at(mesh, studio) for mesh in meshes])
-    data = artifact(STUDIO).selectors["storeScene"] + (32).to_bytes(32, "big") + struct
+    data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
     # as the ABI says, a struct is encoded behind the offset of itself
-    kept = bytes([SCENE]) + compress_zeros((32).to_bytes(32, "big") + struct)
+    kept = bytes([SCENE]) + compress_zeros(word(32) + struct)
     return result + _storings("scene", kept, data, studio, chain)
 
 
@@ -111,7 +111,7 @@ def read_mesh(pointer: bytes, chain: ContractChain) -> bytes:
     """The packed mesh that the Studio of a chain keeps there."""
     from eth_abi.abi import decode
 
-    output = chain.call(STUDIO, artifact(STUDIO).selectors["mesh"] + check_address(pointer).rjust(32, b"\0")).output
+    output = chain.call(STUDIO, artifact(STUDIO).selectors["mesh"] + word(check_address(pointer))).output
     return bytes(decode(["bytes"], output)[0])
 
 
@@ -155,7 +155,7 @@ def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
     """The struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
     from eth_abi.abi import decode, encode
 
-    (struct,) = decode([SCENE_STRUCT], (32).to_bytes(32, "big") + encode_scene(scene))
+    (struct,) = decode([SCENE_STRUCT], word(32) + encode_scene(scene))
     *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
     return encode([SCENE_STRUCT], [(*others, pointed, extensions)])[32:]
@@ -200,7 +200,9 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     listed = _list(parts, studio)
     joining = _call("join(address[])", ["address[]"], [addresses])
     # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
-    gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
+    gas = (
+        intrinsic_gas(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
+    )
     return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), listed, gas)]
 
 
@@ -222,19 +224,10 @@ def _list(parts: Sequence[bytes], studio: bytes) -> bytes:
 def _created(data: bytes, studio: bytes) -> bytes:
     """Where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
     code = bytes.fromhex("61") + (len(data) + 1).to_bytes(2, "big") + bytes.fromhex("80600a3d393df300") + data
-    return _hash(b"\xff" + studio + bytes(32) + _hash(code))[12:]
-
-
-def _hash(data: bytes) -> bytes:
-    return keccak.new(digest_bits=256, data=data).digest()
+    return create2_address(code, creator=studio)
 
 
 def _call(signature: str, kinds: list[str], values: list[Any]) -> bytes:
     from eth_abi.abi import encode
 
-    return _hash(signature.encode())[:4] + encode(kinds, values)
-
-
-def _intrinsic(data: bytes) -> int:
-    zeros = data.count(0)
-    return 21_000 + 4 * zeros + 16 * (len(data) - zeros)
+    return keccak256(signature.encode())[:4] + encode(kinds, values)

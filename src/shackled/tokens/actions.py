@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..chain.embedded import intrinsic_gas
 from ..deploy import Call, Quote, Receipt, Transactor
 from ..errors import NodeError, RevertError
+from ..ethereum import intrinsic_gas, to_hex
 from .contract import Contract, Interface
 
 #: About the gas that each function takes, without what is paid for the call and its data.
@@ -51,7 +51,7 @@ def plan(
     prices of the node are not to be believed.
     """
     try:
-        contract.call(function, *arguments, sender="0x" + transactor.address.hex(), value=value)
+        contract.call(function, *arguments, sender=to_hex(transactor.address), value=value)
     except RevertError:
         raise
     except NodeError:

@@ -15,8 +15,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..chain.addresses import keccak256, parse_address, show_address
 from ..errors import InputError
+from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..json_text import read_json
 
 FORMAT = "standard-v1"
@@ -37,7 +37,7 @@ class AllowList:
 
     def allowance(self, account: str) -> int:
         """How many tokens an account may mint in all. InputError if it is not on the list."""
-        address = show_address(parse_address(account, "the account"))
+        address = checksum_address(parse_address(account, "the account"))
         if address not in self.allowances:
             raise InputError(f"the account {address} is not among the {len(self.allowances):,} of the allow-list")
         return self.allowances[address]
@@ -57,7 +57,7 @@ class AllowList:
             {"value": [account, str(quantity)], "treeIndex": self._place(leaf_of(account, quantity))}
             for account, quantity in self.allowances.items()
         ]
-        tree = ["0x" + node.hex() for node in self._tree]
+        tree = [to_hex(node) for node in self._tree]
         return {"format": FORMAT, "leafEncoding": ENCODING, "tree": tree, "values": values}
 
     @cached_property
@@ -79,7 +79,7 @@ class AllowList:
 
 def leaf_of(account: str, quantity: int) -> bytes:
     """The hash of an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
-    return keccak256(keccak256(bytes(12) + bytes.fromhex(account.removeprefix("0x")) + quantity.to_bytes(32, "big")))
+    return keccak256(keccak256(word(bytes.fromhex(account.removeprefix("0x"))) + word(quantity)))
 
 
 def hash_pair(one: bytes, other: bytes) -> bytes:
@@ -99,7 +99,7 @@ def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the all
     """The list of (account, quantity) entries. InputError where one is wrong, or an account stands there twice."""
     allowances: dict[str, int] = {}
     for number, (account, quantity) in enumerate(entries, 1):
-        address = show_address(parse_address(str(account), f"{where}, entry {number}: the account"))
+        address = checksum_address(parse_address(str(account), f"{where}, entry {number}: the account"))
         text = str(quantity).strip()
         if not re.fullmatch("[0-9]{1,78}", text) or not 0 < int(text) <= MAX_QUANTITY:
             raise InputError(f"{where}, entry {number}: the quantity must be a whole number from 1, not {text!r:.60}")
@@ -147,6 +147,6 @@ def _from_json(text: str, where: str) -> AllowList:
     if kind != FORMAT or encoding != ENCODING or any(len(entry) != 2 for entry in entries):
         raise InputError(f"{where} must be a tree of the format {FORMAT} over {ENCODING}")
     found = make_allow_list(entries, where)
-    if not isinstance(tree, list) or not tree or tree[0] != "0x" + found.root.hex():
+    if not isinstance(tree, list) or not tree or tree[0] != to_hex(found.root):
         raise InputError(f"{where}: the root of its tree is not that of its entries, which is 0x{found.root.hex()}")
     return found

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..chain.addresses import parse_address, show_address
 from ..errors import InputError
+from ..ethereum import checksum_address, parse_address, to_hex
 from ..json_text import read_json
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class Allowance:
             "account": self.account,
             "quantity": str(self.quantity),
             "deadline": str(self.deadline),
-            "signature": "0x" + self.signature.hex(),
+            "signature": to_hex(self.signature),
         }
 
 
@@ -84,5 +84,5 @@ def read_allowance(path: Path) -> Allowance:
         and re.fullmatch("0x([0-9a-fA-F]{2}){1,1024}", signature)
     ):
         raise InputError(f"{path} holds no permission: its quantity, deadline or signature is damaged")
-    address = show_address(parse_address(account, f"the account of {path}"))
+    address = checksum_address(parse_address(account, f"the account of {path}"))
     return Allowance(address, int(quantity), int(deadline), bytes.fromhex(signature[2:]))

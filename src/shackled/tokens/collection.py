@@ -9,10 +9,10 @@ from functools import cached_property
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..chain.node import GAS_LEFT
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, RevertError
+from ..ethereum import checksum_address, to_hex
 from .contract import Contract
 from .kinds import KINDS, Kind
 from .metadata import Metadata, read_contract_uri, read_token_uri
@@ -111,7 +111,7 @@ class Collection:
     def _given(self) -> str:
         """How much gas the node gives a call, for people; nothing if it does not tell."""
         try:
-            left = int.from_bytes(self.connection.data("eth_call", {"data": "0x" + GAS_LEFT.hex()}, "latest"), "big")
+            left = int.from_bytes(self.connection.data("eth_call", {"data": to_hex(GAS_LEFT)}, "latest"), "big")
         except RenderError:
             return ""
         return f", about {left:,}" if 0 < left < 1 << 64 else ""
@@ -165,7 +165,7 @@ class Collection:
 
     @staticmethod
     def _address(value: Any) -> str:
-        return show_address(bytes.fromhex(value[2:]))
+        return checksum_address(bytes.fromhex(value[2:]))
 
 
 def open_collection(connection: Connection, address: str) -> Collection:

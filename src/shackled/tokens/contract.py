@@ -14,6 +14,7 @@ from ..errors import (
     OutOfGasError,
     RevertError,
 )
+from ..ethereum import to_hex
 from .refusals import in_words
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ class Contract(Interface):
 
         RevertError, in words, where the contract refuses; NodeError where the node fails.
         """
-        request = {"to": self.address, "data": "0x" + self.encode(function, *arguments).hex()}
+        request = {"to": self.address, "data": to_hex(self.encode(function, *arguments))}
         if sender is not None:
             request["from"] = sender
         if value:
@@ -105,8 +106,8 @@ class Contract(Interface):
 
         # a contract that counts gas is placed beside this one, for the length of the call
         data = bytes(12) + bytes.fromhex(self.address[2:]) + bytes(32) + self.encode(function, *arguments)
-        request = {"to": "0x" + METER.hex(), "data": "0x" + data.hex()}
-        code = {"0x" + METER.hex(): {"code": "0x" + artifact("Meter").runtime.hex()}}
+        request = {"to": to_hex(METER), "data": to_hex(data)}
+        code = {to_hex(METER): {"code": to_hex(artifact("Meter").runtime)}}
         try:
             answer = self.connection.data("eth_call", request, "latest", code)
         except RevertError as error:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Receipt, Transactor
 from ..deploy.contract import local_chain
 from ..errors import RenderError
+from ..ethereum import checksum_address
 from ..whole_file import make_output_folder, write_output
 from .actions import perform
 from .allow_list import make_allow_list
@@ -228,7 +228,7 @@ def _pay(demo: Demo, name: str, receipt: Receipt, original: tuple[int, int] | No
 
 
 def _name(user: Transactor) -> str:
-    return show_address(user.address)
+    return checksum_address(user.address)
 
 
 def _require(failure: str, what: str) -> Any:

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain.addresses import PROXY, create2_address, show_address
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Deployment, Fees, Plan, Quote, Receipt, Step, Transactor
 from ..deploy.contract import deployment, local_chain
@@ -15,6 +14,7 @@ from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
 from ..ether import ether
+from ..ethereum import PROXY, checksum_address, create2_address, to_hex, word
 from .collection import Collection
 from .contract import constructor_arguments
 from .immutables import immutable_values
@@ -91,7 +91,7 @@ def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
 
 def address_of(deployments: Sequence[Deployment], name: str) -> str:
     """Where one of some contracts stands."""
-    return show_address(next(each.address for each in deployments if each.name == name))
+    return checksum_address(next(each.address for each in deployments if each.name == name))
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ class Launch:
     @property
     def address(self) -> str:
         """Where it will stand."""
-        return show_address(create2_address(self.creation, self.salt))
+        return checksum_address(create2_address(self.creation, self.salt))
 
     @property
     def quotes(self) -> list[Quote]:
@@ -134,7 +134,7 @@ def plan_launch(connection: Connection, kind: Kind, offer: Offer, fees: Fees | N
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(kind.contract)
     creation = creation_code(kind, parts, offer)
-    salt = offer.salt.to_bytes(32, "big")
+    salt = word(offer.salt)
     plan = Deployer(connection).plan(parts, fees)
     if _stands(connection, kind, create2_address(creation, salt)):
         return Launch(kind, plan, creation, salt, None)
@@ -169,7 +169,7 @@ def launch(
 
 def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
     """Whether a collection is at its address. RenderError if anything else is there."""
-    code = connection.data("eth_getCode", "0x" + place.hex(), "latest")
+    code = connection.data("eth_getCode", to_hex(place), "latest")
     if code:
         immutable_values(code, artifact(kind.contract).runtime)
     return bool(code)

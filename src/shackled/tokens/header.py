@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from Crypto.Hash import keccak
-
 from ..errors import InputError
+from ..ethereum import keccak256
 
 #: The fields in their order: as JSON-RPC names them, and how many bytes they have; 0 for a number, None for any length.
 FIELDS: dict[str, int | None] = {
@@ -54,7 +53,7 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
             break
         items.append(_field(block[name], size))
     header = _list(items)
-    found, said = keccak.new(digest_bits=256, data=header).digest(), _field(block.get("hash") or b"", 32)
+    found, said = keccak256(header), _field(block.get("hash") or b"", 32)
     if found != said:
         raise InputError(
             f"the header of block {_number(block)} has the hash 0x{found.hex()}, not 0x{said.hex()}:"

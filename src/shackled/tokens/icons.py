@@ -6,12 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..chain.addresses import show_address
 from ..datasets import Piece, find, pieces
 from ..deploy import Call
 from ..deploy.contract import local_chain
 from ..errors import InputError
 from ..ether import amount
+from ..ethereum import checksum_address
 from ..studio.keeping import STUDIO
 from .actions import call_of
 from .collection import Collection
@@ -59,7 +59,7 @@ class Icon:
 def icon_at(collection: Collection, number: int) -> Icon:
     """An icon of a collection. RevertError if there is none of that number."""
     name, scene, *numbers = collection.contract.call("iconAt", number)
-    return Icon(number, name, show_address(bytes.fromhex(scene[2:])), *numbers)
+    return Icon(number, name, checksum_address(bytes.fromhex(scene[2:])), *numbers)
 
 
 def icons_of(collection: Collection) -> list[Icon]:

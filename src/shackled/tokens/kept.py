@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..errors import RenderError
+from ..ethereum import checksum_address, to_hex
 from ..studio.keeping import PARTS, POINTED, SCENE, SCENE_STRUCT, kept_at
 
 
@@ -19,12 +19,12 @@ def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterato
 
     def read(place: bytes) -> bytes:
         """The bytes that are kept at a place, parts and all."""
-        code = connection.data("eth_getCode", "0x" + place.hex(), "latest")
+        code = connection.data("eth_getCode", to_hex(place), "latest")
         if not code:
-            raise RenderError(f"nothing is kept at {show_address(place)}")
+            raise RenderError(f"nothing is kept at {checksum_address(place)}")
         # it starts with an instruction that stops all calls; the bytes after it make the address
         if code[:1] != b"\0" or kept_at(code[1:], studio) != place:
-            raise RenderError(f"the bytes at {show_address(place)} are not those that belong there")
+            raise RenderError(f"the bytes at {checksum_address(place)} are not those that belong there")
         kept[place] = code
         data = code[1:]
         if data[:1] != bytes([PARTS]):

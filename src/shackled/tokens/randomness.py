@@ -6,6 +6,7 @@ from typing import Any
 
 from ..chain.connection import Connection, quantity
 from ..errors import InputError, NodeError, RenderError, RevertError, TransactionError
+from ..ethereum import to_hex
 from .header import encode_header
 
 #: Ethereum, its test networks Sepolia and Hoodi, and development nodes.
@@ -62,7 +63,7 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
         if type(error) is NodeError:
             return
         raise
-    if "0x" + found.hex() != str(block.get("hash")).lower():
+    if to_hex(found) != str(block.get("hash")).lower():
         raise TransactionError(
             f"tokens could never be revealed on chain {chain}: its contracts see 0x{found.hex()} as the hash of block "
             f"{number:,}, whose header has {block.get('hash')!s:.66}"

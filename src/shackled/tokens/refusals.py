@@ -8,6 +8,7 @@ from typing import Any
 from ..artifacts import artifact, contracts
 from ..errors import RevertError
 from ..ether import ether
+from ..ethereum import to_hex
 
 PHASES = ("closed", "open for the allow-list", "open for all")
 
@@ -96,4 +97,4 @@ def _phase(number: int) -> str:
 
 
 def _shown(value: Any) -> str:
-    return "0x" + value.hex() if isinstance(value, bytes) else str(value)
+    return to_hex(value) if isinstance(value, bytes) else str(value)

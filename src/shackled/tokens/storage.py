@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import RenderError
+from ..ethereum import checksum_address, to_hex
 from ..image import Image, decode_bmp
 from ..render import render
 from ..scene.scene import Scene
@@ -78,7 +78,7 @@ def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | 
     for each in wanted:
         render(each.scene)
         storings = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
-        pointers.append(show_address(storings[-1].pointer))
+        pointers.append(checksum_address(storings[-1].pointer))
         for storing in storings:
             codes[storing.pointer] = storing.code
             if storing.pointer not in missing and not _stands(connection, storing):
@@ -132,4 +132,4 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
 
 
 def _stands(connection: Connection, storing: Storing) -> bool:
-    return bool(connection.data("eth_getCode", "0x" + storing.pointer.hex(), "latest"))
+    return bool(connection.data("eth_getCode", to_hex(storing.pointer), "latest"))

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain.addresses import keccak256, parse_address, show_address
 from ..chain.embedded import EmbeddedChain
 from ..deploy import Deployer
 from ..deploy.contract import deployment, local_chain
 from ..errors import NodeError, OutOfGasError, RenderError
+from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..studio.keeping import STUDIO
 from .collection import Collection
 from .contract import Interface
@@ -48,7 +48,7 @@ def check_code(collection: Collection) -> Iterator[Check]:
     parts = parts_of(collection.kind.contract)
     deployer = Deployer(connection)
     for part in parts:
-        what = f"{part.name} at {show_address(part.address)}"
+        what = f"{part.name} at {checksum_address(part.address)}"
         try:
             yield Check(what, "" if deployer.stands(part) else "it is not there")
         except RenderError as error:
@@ -76,15 +76,15 @@ def check_collection_code(collection: Collection) -> None:
     trial, local = trial_code(kind, sentinels)
     told = {"price": sentinels.price, "reserve": sentinels.reserve, "perTransaction": sentinels.per_transaction}
     meaning = {
-        _word(number): _word(collection.contract.call(name))
+        word(number): word(collection.contract.call(name))
         for name, number in told.items()
         if name in ("perTransaction", *kind.terms)
     }
     fixed = _fixed_values(kind)
-    here = {_word(local.chain_id): {_word(connection.chain_id)}}
+    here = {word(local.chain_id): {word(connection.chain_id)}}
     if kind.hidden:
-        here.setdefault(_word(local.block), set()).add(_word(collection.contract.call("firstBlock")))
-    place = _word(int(collection.address, 16))
+        here.setdefault(word(local.block), set()).add(word(collection.contract.call("firstBlock")))
+    place = word(int(collection.address, 16))
     for at in immutable_places(runtime):
         value, found = trial[at : at + 32], code[at : at + 32]
         if value in fixed:
@@ -151,10 +151,8 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     randomness = collection.contract.call("randomnessOf", number)
     block_number = collection.contract.call("blockOf", number)
     block = block_of(collection, block_number)
-    drawn = keccak256(
-        randomness + parse_address(collection.address, "the collection").rjust(32, b"\0") + token.to_bytes(32, "big")
-    )
-    if block.get("mixHash") != "0x" + randomness.hex():
+    drawn = keccak256(randomness + word(parse_address(collection.address, "the collection")) + word(token))
+    if block.get("mixHash") != to_hex(randomness):
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
     return drawn, ""
 
@@ -194,15 +192,11 @@ def trial_code(kind: Kind, offer: Offer) -> tuple[bytes, Surroundings]:
 def _fixed_values(kind: Kind) -> set[bytes]:
     """What every collection of a kind has in its code, on any chain: the contracts that it uses, and its name."""
     names = [kind.title.encode(), b"1"]
-    parts = {part.address.rjust(32, b"\0") for part in parts_of(kind.contract)}
+    parts = {word(part.address) for part in parts_of(kind.contract)}
     # short strings as OpenZeppelin keeps them: the characters, and their number in the last byte
     return parts | {keccak256(name) for name in names} | {name.ljust(31, b"\0") + bytes([len(name)]) for name in names}
 
 
 def _domain(kind: Kind, chain_id: int, place: bytes) -> bytes:
     """EIP-712: the hash of the domain of a collection's permissions."""
-    return keccak256(keccak256(DOMAIN) + keccak256(kind.title.encode()) + keccak256(b"1") + _word(chain_id) + place)
-
-
-def _word(number: int) -> bytes:
-    return number.to_bytes(32, "big")
+    return keccak256(keccak256(DOMAIN) + keccak256(kind.title.encode()) + keccak256(b"1") + word(chain_id) + place)

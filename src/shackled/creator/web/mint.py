@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...chain.address_book import AddressBook
-from ...chain.addresses import show_address
 from ...datasets import require
 from ...errors import InputError
 from ...ether import ether
+from ...ethereum import checksum_address
 from ...tokens.contract import Interface
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
@@ -85,7 +85,7 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
             ) from None
         if await wallet.number("eth_chainId") != chain:
             raise InputError(f"the wallet must be on {chain_name(chain)} for this")
-    sale = _Sale(offer, wallet, show_address(offer.places[chain]))
+    sale = _Sale(offer, wallet, checksum_address(offer.places[chain]))
     data, price = await sale.order()
     await tell(f"The price is {ether(price)}. Confirm it in the wallet …")
     transaction = {"from": accounts[0], "to": sale.address, "data": "0x" + data.hex(), "value": hex(price)}
