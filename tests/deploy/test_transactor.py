@@ -17,8 +17,7 @@ from shackled.bench.anvil import Anvil
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
 from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
-from shackled.ether import ETHER, GWEI
-from shackled.ethereum import PROXY
+from shackled.ethereum import ETHER, GWEI, PROXY
 
 pytestmark = needs_anvil
 

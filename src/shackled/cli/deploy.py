@@ -107,7 +107,7 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..ether import GWEI, at_most, rounded
+    from ..ethereum import GWEI, at_most, rounded
 
     console = Console(file=sys.stderr if quiet else sys.stdout, width=None if sys.stdout.isatty() else 120)
     table = Table("contract", "address", "gas", "the node's", "ether", "at most", box=None, header_style="bold")

@@ -15,8 +15,7 @@ from ..errors import (
     TransactionError,
     WrongChainError,
 )
-from ..ether import rounded
-from ..ethereum import PROXY, checksum_address, to_hex
+from ..ethereum import PROXY, checksum_address, rounded, to_hex
 from .contract import PROXY_CODE, Deployment
 from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
 from .quote import Call, Fees, Quote, current_fees, make_quotes

@@ -15,8 +15,7 @@ from ..errors import (
     RenderError,
     TransactionError,
 )
-from ..ether import GWEI
-from ..ethereum import PROXY, checksum_address, keccak256, to_hex
+from ..ethereum import GWEI, PROXY, checksum_address, keccak256, to_hex
 from .contract import PROXY_CODE
 from .quote import Call, Quote, base_fee
 from .transactor import Receipt, Transactor

@@ -8,8 +8,7 @@ from typing import Any
 
 from ..chain.connection import Connection, quantity
 from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
-from ..ether import GWEI
-from ..ethereum import to_hex
+from ..ethereum import GWEI, to_hex
 
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
 MARGIN = (21, 20)

@@ -20,8 +20,7 @@ from ..errors import (
     RevertError,
     TransactionError,
 )
-from ..ether import GWEI, rounded
-from ..ethereum import checksum_address, to_hex
+from ..ethereum import GWEI, checksum_address, rounded, to_hex
 from .quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 
 if TYPE_CHECKING:

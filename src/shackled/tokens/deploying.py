@@ -13,8 +13,7 @@ from ..deploy.contract import deployment, local_chain
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
-from ..ether import ether
-from ..ethereum import PROXY, checksum_address, create2_address, to_hex, word
+from ..ethereum import PROXY, checksum_address, create2_address, ether, to_hex, word
 from .collection import Collection
 from .contract import constructor_arguments
 from .immutables import immutable_values

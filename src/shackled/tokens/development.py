@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..chain.connection import Connection
 from ..deploy import Transactor
 from ..errors import InputError
-from ..ether import ETHER, ether
+from ..ethereum import ETHER, ether
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount

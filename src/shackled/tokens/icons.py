@@ -10,8 +10,7 @@ from ..datasets import Piece, find, pieces
 from ..deploy import Call
 from ..deploy.contract import local_chain
 from ..errors import InputError
-from ..ether import amount
-from ..ethereum import checksum_address
+from ..ethereum import amount, checksum_address
 from ..studio.keeping import STUDIO
 from .actions import call_of
 from .collection import Collection

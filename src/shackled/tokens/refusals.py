@@ -7,8 +7,7 @@ from typing import Any
 
 from ..artifacts import artifact, contracts
 from ..errors import RevertError
-from ..ether import ether
-from ..ethereum import to_hex
+from ..ethereum import ether, to_hex
 
 PHASES = ("closed", "open for the allow-list", "open for all")
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError
-from ...ether import parse_ether
+from ...ethereum import parse_ether
 from ...studio.keeping import STUDIO
 from ..option import option
 from ..telling import tell

@@ -11,8 +11,7 @@ import typer
 
 from ...checks import choice, number
 from ...errors import InputError
-from ...ether import parse_ether
-from ...ethereum import checksum_address
+from ...ethereum import checksum_address, parse_ether
 from ...tokens.icons import SCALE
 from ...tokens.kinds import KINDS
 from ..option import option

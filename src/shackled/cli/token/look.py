@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError, RenderError
-from ...ether import amount, ether
+from ...ethereum import amount, ether
 from ..option import option
 from ..telling import tell
 from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table

@@ -8,8 +8,7 @@ import typer
 
 from ...checks import choice, number
 from ...errors import InputError
-from ...ether import ether
-from ...ethereum import checksum_address
+from ...ethereum import checksum_address, ether
 from ..option import option
 from ..payer import open_signer
 from ..telling import tell

@@ -10,8 +10,7 @@ from typing import Any
 from ...chain.address_book import AddressBook
 from ...datasets import require
 from ...errors import InputError
-from ...ether import ether
-from ...ethereum import checksum_address
+from ...ethereum import checksum_address, ether
 from ...tokens.contract import Interface
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
