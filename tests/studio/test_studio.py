@@ -21,8 +21,9 @@ from shackled.chain.refusal import refusal
 from shackled.datasets.teapot import teapot
 from shackled.image import decode_bmp
 from shackled.scene.rotation import from_euler
-from shackled.studio.keeping import SCENE_STRUCT, store_scene
+from shackled.studio.keeping import scene_struct, store_scene
 
+SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
 TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
 SCENE = Scene(

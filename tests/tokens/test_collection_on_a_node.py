@@ -217,7 +217,7 @@ def test_what_a_node_does_not_let_be_read_is_not_wrong(
     node: Node, address: str, shackled: Shackled, capsys: pytest.CaptureFixture[str], silent: bool
 ) -> None:
     """Some nodes give a call less gas than a tokenURI takes, and say of it only that it was reverted."""
-    data = Contract(Connection(node.url), "GenesisCollection", address).encode("tokenURI", 0).hex()
+    data = Contract(Connection(node.url), "GenesisCollection", address).interface.encode("tokenURI", 0).hex()
 
     def answer(request: dict[str, Any]) -> Reply:
         if data in json.dumps(request):

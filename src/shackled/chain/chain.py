@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..artifacts import artifact
 from ..errors import RenderError
@@ -60,6 +60,11 @@ class ContractChain(ABC):
 
         RenderError if the contract refuses or the gas does not suffice.
         """
+
+    def ask(self, contract: str, function: str, *arguments: Any) -> Any:
+        """Call a function of a contract by its ABI, and return its value, or a tuple of them if there are several."""
+        interface = artifact(contract).interface
+        return interface.decode(function, self.call(contract, interface.encode(function, *arguments)).output)
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
         """The picture of a scene, or of a part of its canvas."""

@@ -11,7 +11,7 @@ import numpy as np
 from ..artifacts import artifact
 from ..chain import ContractChain, open_chain
 from ..errors import InputError
-from ..ethereum import create2_address, intrinsic_gas, keccak256, word
+from ..ethereum import create2_address, intrinsic_gas, word
 from ..scene.codec import encode_scene
 from ..scene.fit import fit
 from ..scene.object import Object
@@ -28,15 +28,6 @@ MAX_PART = 24575
 PARTS = 0x13
 POINTED = 0x12
 SCENE = 0x20
-
-#: The struct Scene of contracts/src/scene/Scene.sol.
-VECTOR = "(int256,int256,int256)"
-MATERIAL = "(uint256,int256,int256,int256,uint256)"
-OBJECT = f"(bytes,{VECTOR},(int256,int256,int256,int256),int256,{MATERIAL},uint256)"
-SCENE_STRUCT = (
-    f"((uint256,uint256),({VECTOR},{VECTOR},{VECTOR},uint256,int256,int256),(uint256,uint256),uint256,uint256,"
-    f"(uint256,{VECTOR},uint256)[],{OBJECT}[],bytes)"
-)
 
 
 @dataclass(frozen=True)
@@ -90,7 +81,7 @@ def store_scene(
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[Storing] = []
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
-        result += _storings(f"mesh {number}", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+        result += _storings(f"mesh {number}", mesh, _call("storeMesh", mesh), studio, chain)
     struct = pointing(fitted, [kept_at(mesh, studio) for mesh in meshes])
     data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
     # as the ABI says, a struct is encoded behind the offset of itself
@@ -104,23 +95,12 @@ def store_mesh(
     """The transactions that store a packed mesh; mostly one. The last has its pointer."""
     check_address(studio)
     mesh = compact(packed, normal_bits)
-    return _storings("mesh", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+    return _storings("mesh", mesh, _call("storeMesh", mesh), studio, chain)
 
 
 def read_mesh(pointer: bytes, chain: ContractChain) -> bytes:
     """The packed mesh that the Studio of a chain keeps there."""
-    from eth_abi.abi import decode
-
-    output = chain.call(STUDIO, artifact(STUDIO).selectors["mesh"] + word(check_address(pointer))).output
-    return bytes(decode(["bytes"], output)[0])
-
-
-def read_picture(pointer: bytes, scale: int, chain: ContractChain) -> bytes:
-    """The PNG file of a scene that the Studio of a chain keeps there."""
-    from eth_abi.abi import decode
-
-    data = _call("renderPNG(address,uint256)", ["address", "uint256"], [check_address(pointer), scale])
-    return bytes(decode(["bytes"], chain.call(STUDIO, data).output)[0])
+    return bytes(chain.ask(STUDIO, "mesh", check_address(pointer)))
 
 
 def kept_at(data: bytes, studio: bytes) -> bytes:
@@ -155,10 +135,16 @@ def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
     """The struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
     from eth_abi.abi import decode, encode
 
-    (struct,) = decode([SCENE_STRUCT], word(32) + encode_scene(scene))
+    kind = scene_struct()
+    (struct,) = decode([kind], word(32) + encode_scene(scene))
     *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
-    return encode([SCENE_STRUCT], [(*others, pointed, extensions)])[32:]
+    return encode([kind], [(*others, pointed, extensions)])[32:]
+
+
+def scene_struct() -> str:
+    """Return the type of the struct Scene of the contracts, as eth_abi takes it."""
+    return artifact(STUDIO).interface.parameter_type("storeScene")
 
 
 def compress_zeros(data: bytes) -> bytes:
@@ -189,7 +175,7 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     result = [
         _storing(
             f"{what}, part {number} of {len(parts)}",
-            _call("storePart(bytes)", ["bytes"], [part]),
+            _call("storePart", part),
             _created(part, studio),
             part,
             chain,
@@ -198,7 +184,7 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     ]
     addresses = [storing.pointer for storing in result]
     listed = _list(parts, studio)
-    joining = _call("join(address[])", ["address[]"], [addresses])
+    joining = _call("join", addresses)
     # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
     gas = (
         intrinsic_gas(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
@@ -227,7 +213,5 @@ def _created(data: bytes, studio: bytes) -> bytes:
     return create2_address(code, creator=studio)
 
 
-def _call(signature: str, kinds: list[str], values: list[Any]) -> bytes:
-    from eth_abi.abi import encode
-
-    return keccak256(signature.encode())[:4] + encode(kinds, values)
+def _call(function: str, *arguments: Any) -> bytes:
+    return artifact(STUDIO).interface.encode(function, *arguments)

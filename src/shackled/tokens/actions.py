@@ -7,7 +7,8 @@ from typing import Any
 from ..deploy import Call, Quote, Receipt, Transactor
 from ..errors import NodeError, RevertError
 from ..ethereum import intrinsic_gas, to_hex
-from .contract import Contract, Interface
+from ..ethereum.abi import Interface
+from .contract import Contract
 
 #: About the gas that each function takes, without what is paid for the call and its data.
 USUAL = {
@@ -56,7 +57,7 @@ def plan(
         raise
     except NodeError:
         pass  # what the estimate says in better words, such as an account without ether
-    return transactor.quote(call_of(contract, contract.address, function, *arguments, value=value, ours=ours))
+    return transactor.quote(call_of(contract.interface, contract.address, function, *arguments, value=value, ours=ours))
 
 
 def perform(

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..artifacts import artifact
 from ..chain.connection import Connection
 from ..chain.node import GAS_LEFT
+from ..chain.refusal import describe
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, RevertError
 from ..ethereum import checksum_address, to_hex
 from .contract import Contract
@@ -100,7 +100,7 @@ class Collection:
         try:
             return str(self._of_token("tokenURI", token))
         except RevertError as error:
-            if error.data and artifact("Renderer").errors.get(error.data[:4], ("",))[0] != "OutOfGas":
+            if error.data and describe(error.data) != "OutOfGas()":
                 raise
             # a call within a call that runs out of gas says nothing, unless it is the renderer's to the engine
             raise OutOfGasError(

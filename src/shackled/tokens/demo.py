@@ -134,7 +134,7 @@ def _icons(connection: Connection, users: Sequence[Transactor], demo: Demo, tell
     added = []
     for piece, pointer in zip(chosen, storage.pointers, strict=True):
         terms = (piece.title, pointer, SCALE, ICON_PRICE, 100, 1)
-        ours = add_call(contract, contract.address, terms, storage.codes).ours
+        ours = add_call(contract.interface, contract.address, terms, storage.codes).ours
         added.append(perform(owner, contract, "add", *terms, ours=ours).gas)
     demo.costs.append(Cost("Icons: add an icon, mean", sum(added) // len(added)))
     _pay(demo, "Icons: seal the set", perform(owner, contract, "seal"))

@@ -15,7 +15,6 @@ from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
 from ..ethereum import PROXY, checksum_address, create2_address, ether, to_hex, word
 from .collection import Collection
-from .contract import constructor_arguments
 from .immutables import immutable_values
 from .kinds import Kind
 
@@ -125,7 +124,8 @@ def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> byte
     """What deploys a collection, its terms included."""
     arguments: list[Any] = [address_of(parts, part) for part in artifact(kind.contract).parts]
     arguments += [getattr(offer, term) for term in kind.terms]
-    return artifact(kind.contract).creation + constructor_arguments(kind.contract, *arguments, offer.struct)
+    built = artifact(kind.contract)
+    return built.creation + built.interface.construct(*arguments, offer.struct)
 
 
 def plan_launch(connection: Connection, kind: Kind, offer: Offer, fees: Fees | None = None) -> Launch:

@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..artifacts import artifact
 from ..chain.connection import Connection
 from ..deploy import Call, Fees, Quote
 from ..deploy.quote import make_quotes
 from ..errors import InputError
 from .actions import call_of
 from .collection import Collection
-from .contract import Interface
 from .deploying import Launch
 from .icons import add_call, icons_of
 
@@ -44,7 +44,7 @@ def plan_equipment(
     InputError if icons are missing in a collection that is sealed.
     """
     made = None if launch.quote is not None else Collection(connection, launch.kind, launch.address)
-    interface = Interface(launch.kind.contract)
+    interface = artifact(launch.kind.contract).interface
     wanted: list[tuple[str, Call]] = []
     if listing is not None:
         root, signer = listing[0], listing[1] or NOBODY

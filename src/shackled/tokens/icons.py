@@ -6,15 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ..artifacts import artifact
 from ..datasets import Piece, find, pieces
 from ..deploy import Call
 from ..deploy.contract import local_chain
 from ..errors import InputError
 from ..ethereum import amount, checksum_address
+from ..ethereum.abi import Interface
 from ..studio.keeping import STUDIO
 from .actions import call_of
 from .collection import Collection
-from .contract import Interface
 from .licence import licence_of
 
 #: Pixels that each pixel becomes in the picture of a token: 128 become 512.
@@ -116,11 +117,11 @@ def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
     local.address(STUDIO)
     for place, code in codes.items():
         local.put(place, code)
-    studio, renderer = Interface(STUDIO), Interface("Renderer")
+    studio, renderer = artifact(STUDIO).interface, artifact("Renderer").interface
     reading = local.call(STUDIO, studio.encode("scene(address)", pointer))
     scene = studio.decode("scene(address)", reading.output)
     drawing = local.call("Renderer", renderer.encode("renderTile", scene, (0, 0, 1, 1)))
-    return (reading.gas or 0) + (drawing.gas or 0)
+    return reading.gas + drawing.gas
 
 
 def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ..chain.connection import Connection
 from ..errors import RenderError
 from ..ethereum import checksum_address, to_hex
-from ..studio.keeping import PARTS, POINTED, SCENE, SCENE_STRUCT, kept_at
+from ..studio.keeping import PARTS, POINTED, SCENE, kept_at, scene_struct
 
 
 def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterator[tuple[bytes, bytes]]:
@@ -45,7 +45,7 @@ def meshes_of(data: bytes) -> list[bytes]:
     if data[:1] != bytes([SCENE]):
         raise RenderError("what is kept there is no scene")
     try:
-        (struct,) = decode([SCENE_STRUCT], expand_zeros(data[1:]))
+        (struct,) = decode([scene_struct()], expand_zeros(data[1:]))
     except (DecodingError, IndexError, OverflowError) as error:
         raise RenderError(f"what is kept there is no whole scene: {error}") from None
     *_, objects, _ = struct

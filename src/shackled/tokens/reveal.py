@@ -79,7 +79,9 @@ def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[S
     first, *rest = todo
     contract = collection.contract
     quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
-    calls = [call_of(contract, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest]
+    calls = [
+        call_of(contract.interface, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest
+    ]
     return [quote, *make_quotes(transactor.connection, calls, quote.fees, [quote], transactor.address)]
 
 

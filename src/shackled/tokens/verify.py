@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,6 @@ from ..errors import NodeError, OutOfGasError, RenderError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..studio.keeping import STUDIO
 from .collection import Collection
-from .contract import Interface
 from .deploying import Offer, creation_code, parts_of
 from .icons import icon_at
 from .immutables import immutable_places, immutable_values
@@ -112,16 +110,16 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
             return Check(f"{what}, {metadata.name}", _icon_failure(collection, token, metadata, local))
         if not collection.is_revealed(token):
             block = collection.contract.call("blockOf", collection.round_of(token))
-            expected = _local_call(local, "GenesisMetadata", "hiddenURI", token, block)
+            expected = local.ask("GenesisMetadata", "hiddenURI", token, block)
             return Check(f"{what}, not revealed", "" if uri == expected else "it shows something else than it should")
         drawn, failure = draw(collection, token)
         if failure:
             return Check(what, failure)
-        seed, _ = _local_call(local, "GenesisMetadata", "settle", drawn)
+        seed, _ = local.ask("GenesisMetadata", "settle", drawn)
         if seed != collection.contract.call("seedOf", token):
             return Check(what, "its seed is not that which its block and its number give")
-        bmp = _local_call(local, "Genesis", "render", seed)
-        if uri != _local_call(local, "GenesisMetadata", "tokenURI", token, drawn):
+        bmp = local.ask("Genesis", "render", seed)
+        if uri != local.ask("GenesisMetadata", "tokenURI", token, drawn):
             return Check(what, "what it says of itself is not what is computed here from its seed")
         return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture is not that of its seed")
     except OutOfGasError as error:
@@ -137,7 +135,7 @@ def _icon_failure(collection: Collection, token: int, metadata: Metadata, local:
     icon = icon_at(collection, collection.contract.call("iconOf", token))
     for pointer, code in kept_codes(collection.connection, local.address(STUDIO), bytes.fromhex(icon.scene[2:])):
         local.put(pointer, code)
-    picture = _local_call(local, STUDIO, "renderPNG(address,uint256)", icon.scene, icon.scale)
+    picture = local.ask(STUDIO, "renderPNG(address,uint256)", icon.scene, icon.scale)
     if metadata.picture != picture:
         return "its picture is not that of its scene"
     if metadata.traits != {"Icon": icon.name, "Supply": icon.supply}:
@@ -162,12 +160,6 @@ def _same_picture(pixels: NDArray[np.uint8], bmp: bytes) -> bool:
 
     small = shrink(pixels, SIDE, SIDE)
     return small is not None and bool((small == decode_bmp(bmp, SIDE, SIDE)).all())
-
-
-def _local_call(local: EmbeddedChain, contract: str, function: str, *arguments: object) -> Any:
-    """What a contract answers in the EVM here."""
-    asked = Interface(contract)
-    return asked.decode(function, local.call(contract, asked.encode(function, *arguments)).output)
 
 
 @dataclass(frozen=True)

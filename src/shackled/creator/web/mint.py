@@ -7,11 +7,11 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ...artifacts import artifact
 from ...chain.address_book import AddressBook
 from ...datasets import require
 from ...errors import InputError
 from ...ethereum import checksum_address, ether
-from ...tokens.contract import Interface
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
 from ..state import Source
@@ -104,7 +104,7 @@ class _Sale:
     def __init__(self, offer: Offer, wallet: Wallet, address: str) -> None:
         self.address = address
         self._offer, self._wallet = offer, wallet
-        self._interface = Interface(offer.kind.contract)
+        self._interface = artifact(offer.kind.contract).interface
 
     async def order(self) -> tuple[bytes, int]:
         """The data that mints one token, and the price in wei. InputError if the sale is not open, or sold out."""
