@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -199,17 +200,13 @@ class NodeChain:
         return self.connection.data("eth_getCode", to_hex(address), "latest")
 
     def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A call through the meter, which a state override places; so are the contracts that are not deployed."""
-        codes = {METER: artifact("Meter").runtime}
+        """Call a contract through the Meter, with the contracts that are not deployed in the same state override."""
+        codes = {}
         if place is None:
             place = self._local.address(contract)
             for name in [contract, *self._below(contract)]:
                 codes[self._local.address(name)] = self._local.code(name)
-        head = word(place) + _limit(gas_limit)
-        overrides = {to_hex(address): {"code": to_hex(code)} for address, code in codes.items()}
-        request = {"to": to_hex(METER), "data": to_hex(head + data)} | self._probed.field
-        output = self.connection.data("eth_call", request, "latest", overrides)
-        return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
+        return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
         """A call of what is deployed, by a creation that counts its gas if that is possible."""
@@ -319,6 +316,25 @@ class _Probed:
     @property
     def field(self) -> dict[str, str]:
         return {"gas": hex(self.gas)} if self.named else {}
+
+
+def metered(
+    connection: Connection,
+    place: bytes,
+    data: bytes,
+    gas_limit: int | None = None,
+    codes: Mapping[bytes, bytes] | None = None,
+    fields: Mapping[str, str] | None = None,
+) -> NodeResult:
+    """Call a contract through the Meter, which counts gas and which a state override puts on the chain for that long.
+
+    codes: more code for the override, by its address. fields: more fields of the request, such as its gas.
+    """
+    codes = {METER: artifact("Meter").runtime, **(codes or {})}
+    overrides = {to_hex(address): {"code": to_hex(code)} for address, code in codes.items()}
+    request = {"to": to_hex(METER), "data": to_hex(word(place) + _limit(gas_limit) + data), **(fields or {})}
+    output = connection.data("eth_call", request, "latest", overrides)
+    return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
 
 
 def _probe(connection: Connection) -> _Probed:

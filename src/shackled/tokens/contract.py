@@ -6,6 +6,7 @@ from typing import Any
 
 from ..artifacts import artifact
 from ..chain.connection import Connection
+from ..chain.node import metered
 from ..errors import (
     NodeBusyError,
     NodeError,
@@ -59,18 +60,13 @@ class Contract:
         """The exact gas of the execution of a read call; None where the node takes no state overrides, or gives a call
         too little to count it.
         """
-        from ..chain.node import METER
-
-        # a contract that counts gas is placed beside this one, for the length of the call
-        data = bytes(12) + bytes.fromhex(self.address[2:]) + bytes(32) + self.interface.encode(function, *arguments)
-        request = {"to": to_hex(METER), "data": to_hex(data)}
-        code = {to_hex(METER): {"code": to_hex(artifact("Meter").runtime)}}
+        data = self.interface.encode(function, *arguments)
         try:
-            answer = self.connection.data("eth_call", request, "latest", code)
+            result = metered(self.connection, bytes.fromhex(self.address[2:]), data)
         except RevertError as error:
             raise in_words(error) from None
         except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
             raise
         except (NodeError, OutOfGasError):
             return None
-        return int.from_bytes(answer[:32], "big") if len(answer) > 32 else None
+        return result.gas if result.output else None

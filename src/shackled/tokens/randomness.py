@@ -7,7 +7,7 @@ from typing import Any
 from ..chain.connection import Connection, quantity
 from ..errors import InputError, NodeError, RenderError, RevertError, TransactionError
 from ..ethereum import to_hex
-from .header import encode_header
+from ..ethereum.header import encode_header
 
 #: Ethereum, its test networks Sepolia and Hoodi, and development nodes.
 CHAINS = (1, 11155111, 560048, 31337, 1337)

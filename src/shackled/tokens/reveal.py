@@ -9,9 +9,9 @@ from typing import Any
 from ..deploy import Quote, Transactor
 from ..deploy.quote import make_quotes
 from ..errors import InputError, NodeError
+from ..ethereum.header import encode_header
 from .actions import call_of, plan
 from .collection import Collection
-from .header import encode_header
 
 #: Rounds in a transaction.
 ROUNDS_AT_ONCE = 40
