@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from web3 import HTTPProvider, Web3
 from web3.contract import Contract
 from web3.types import Wei
 
@@ -69,7 +70,7 @@ class Node:
     """The contracts on a node."""
 
     def __init__(self, connection: Connection) -> None:
-        self.w3 = connection.web3
+        self.w3 = Web3(HTTPProvider(connection.url, {"timeout": PATIENCE}, exception_retry_configuration=None))
         self.sender = self.w3.eth.accounts[0]
         self.contracts: dict[str, Contract] = {}
         for name in ("Engine", "FragmentEngine", "Renderer", "Original"):

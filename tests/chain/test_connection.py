@@ -290,12 +290,6 @@ def test_results_of_another_type(value: Any) -> None:
         Connection(url).data("eth_call", {})
 
 
-def test_web3_over_a_connection() -> None:
-    with serving(lambda request: result({"eth_chainId": "0x5", "eth_blockNumber": "0x20"}[request["method"]])) as url:
-        web3 = Connection(url).web3
-        assert (web3.eth.chain_id, web3.eth.block_number) == (5, 32)
-
-
 @pytest.mark.parametrize(
     "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
 )

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import re
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from ..errors import InputError, NodeBusyError, NodeError, RenderError, WrongChainError
 from .failures import rpc_failure
-
-if TYPE_CHECKING:
-    from web3 import Web3
 
 #: Seconds that a node may take for an answer, and that it may be given at most.
 PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
@@ -52,8 +49,7 @@ class Connection:
         long = [piece for piece in pieces if piece and len(piece) >= 8]
         long += [label for label in host.split(".") if _KEY.fullmatch(label)]
         self._secrets = {*long, *map(unquote, long)}
-        #: What carries the requests, a provider of web3.
-        self.transport = Transport(self.url, self.name, timeout, local)
+        self._transport = Transport(self.url, self.name, timeout, local)
         self._chain_id: int | None = None
 
     def request(self, method: str, *parameters: Any) -> Any:
@@ -102,18 +98,9 @@ class Connection:
         if chain_id is not None and self.chain_id != chain_id:
             raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
 
-    @property
-    def web3(self) -> Web3:
-        """web3 over this connection."""
-        from web3 import Web3
-
-        return Web3(self.transport)
-
     def _request(self, method: str, parameters: tuple[Any, ...]) -> Any:
-        from web3.types import RPCEndpoint
-
         try:
-            answer = self.transport.make_request(RPCEndpoint(method), list(parameters))
+            answer = self._transport.send(method, parameters)
             if answer.get("error"):
                 raise rpc_failure(self.name, answer["error"])
             return answer["result"]
