@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import fmean
 
-from shackled import RenderError, Scene
+from shackled import ChainError, Scene
 
 from . import shared
 from .measure import gas, measure
@@ -138,7 +138,7 @@ def largest_row() -> Row:
         if is_usual(scene):
             try:
                 result = measure(scene)
-            except RenderError:
+            except ChainError:
                 refused += 1
             else:
                 costs[name] = result.gas + result.intrinsic_gas

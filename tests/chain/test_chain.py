@@ -13,6 +13,7 @@ from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderEr
 from shackled.artifacts import artifact, contracts
 from shackled.chain import CHAINS, ContractChain, open_chain
 from shackled.chain.embedded import EmbeddedChain, PyEvmChain, PyrevmChain
+from shackled.errors import OutOfGasError
 from shackled.ethereum import intrinsic_gas
 from shackled.image import decode_bmp
 from shackled.scene.codec import Rectangle, encode
@@ -100,7 +101,7 @@ def test_out_of_gas_says_the_limit(chain: EmbeddedChain) -> None:
     data = encode(artifact("Renderer").selectors["render"], SCENE)
     used = chain.call("Renderer", data).gas
     for limit in (5_000, used // 2):
-        with pytest.raises(RenderError, match=f"^the call ran out of gas: {limit:,} did not suffice$"):
+        with pytest.raises(OutOfGasError, match=f"^the call ran out of gas: {limit:,} did not suffice$"):
             chain.call("Renderer", data, limit)
     assert type(chain)(2 * used).call("Renderer", data).gas == used
 

@@ -19,13 +19,13 @@ from nodes import Reply, failure, free_port, result, serving
 from shackled.chain.connection import Connection
 from shackled.chain.failures import retry_after, revert_data
 from shackled.errors import (
+    ChainError,
     InputError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
@@ -40,7 +40,7 @@ def ask(reply: Reply, timeout: float = 20, attempts: int = 1) -> Any:
         return Connection(f"{url}/v3/{SECRET}", timeout, attempts).request("eth_call", {}, "latest")
 
 
-def check(error: RenderError) -> None:
+def check(error: ChainError) -> None:
     """One line, with the name of the node, and without the key."""
     assert "\n" not in str(error)
     assert SECRET not in str(error)
@@ -88,7 +88,7 @@ def test_an_answer() -> None:
         (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
     ],
 )
-def test_answers_over_http_that_are_none(reply: Reply, kind: type[RenderError], words: str) -> None:
+def test_answers_over_http_that_are_none(reply: Reply, kind: type[ChainError], words: str) -> None:
     with pytest.raises(kind, match=re.escape(words)) as error:
         ask(reply)
     assert type(error.value) is kind
@@ -143,7 +143,7 @@ WORDINGS = [
 
 
 @pytest.mark.parametrize(("kind", "code", "message"), WORDINGS)
-def test_what_nodes_say(kind: type[RenderError], code: int, message: str) -> None:
+def test_what_nodes_say(kind: type[ChainError], code: int, message: str) -> None:
     with pytest.raises(kind) as error:
         ask(failure(message, code))
     assert type(error.value) is kind

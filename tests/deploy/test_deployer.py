@@ -19,7 +19,7 @@ from shackled.chain.connection import Connection
 from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
 from shackled.deploy.contract import CONTRACTS, PROXY_CODE, STANDARD, deployment, local_chain
 from shackled.deploy.proxy import COST, SIGNED, SIGNER
-from shackled.errors import InputError, RenderError, TransactionError, WrongChainError
+from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
 from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
 
 #: A chain without the proxy.
@@ -83,7 +83,7 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
 
 def test_a_constructor_that_refuses() -> None:
     engines = 2 * (bytes(31) + b"\x05")
-    with pytest.raises(RenderError, match=r"Renderer could not be deployed|the contract refused"):
+    with pytest.raises(ChainError, match=r"Renderer could not be deployed|the contract refused"):
         deployment("Renderer", artifact("Renderer").creation + engines)
 
 

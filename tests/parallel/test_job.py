@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import shackled
-from shackled import Image, InputError, RenderError, Scene, load
+from shackled import ChainError, Image, InputError, Scene, load
 from shackled.chain import open_chain
 from shackled.chain.embedded import PyrevmChain
 from shackled.parallel import Where, referee, render_frames
@@ -68,7 +68,7 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
+    with pytest.raises(ChainError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
         render_frames([SCENE], Where(gas_limit=500_000))
 
 
@@ -112,7 +112,7 @@ def test_a_worker_that_dies_is_replaced() -> None:
 
 
 def test_errors_of_a_worker_are_told() -> None:
-    with pytest.raises(RenderError, match="still too much"):
+    with pytest.raises(ChainError, match="still too much"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
     with pytest.raises(InputError, match="counts no gas: leave out --gas-limit"):
         render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))

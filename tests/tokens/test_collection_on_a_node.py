@@ -20,7 +20,7 @@ from shackled.chain.address_book import AddressBook
 from shackled.chain.connection import Connection
 from shackled.cli.app import run
 from shackled.deploy.contract import local_chain
-from shackled.errors import NodeError, RenderError, RevertError
+from shackled.errors import ChainError, NodeError, RevertError
 from shackled.ethereum import checksum_address
 from shackled.tokens.allow_list import read_allow_list
 from shackled.tokens.collection import open_collection
@@ -203,7 +203,7 @@ def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> 
         for at, complaint in changes.items():
             changed = code[:at] + bytes([code[at] ^ 1]) + code[at + 1 :]
             node.rpc("anvil_setCode", address, "0x" + changed.hex())
-            with pytest.raises(RenderError, match=complaint):
+            with pytest.raises(ChainError, match=complaint):
                 check_collection_code(collection)
         said = shackled("token", "verify", 0, expect=1)
     finally:

@@ -58,7 +58,7 @@ class ContractChain(ABC):
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses or the gas does not suffice.
+        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
         """
 
     def ask(self, contract: str, function: str, *arguments: Any) -> Any:

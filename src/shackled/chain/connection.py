@@ -7,7 +7,7 @@ import time
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
-from ..errors import InputError, NodeBusyError, NodeError, RenderError, WrongChainError
+from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
 from .failures import rpc_failure
 
 #: Seconds that a node may take for an answer, and that it may be given at most.
@@ -104,7 +104,7 @@ class Connection:
             if answer.get("error"):
                 raise rpc_failure(self.name, answer["error"])
             return answer["result"]
-        except RenderError as error:
+        except ChainError as error:
             # some nodes repeat the address of a request in what they say of it
             error.args = tuple(self._clean(str(each)) for each in error.args)
             raise

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ..artifacts import artifact
-from ..errors import RenderError
+from ..errors import ChainError, RenderError
 from ..ethereum import create2_address, intrinsic_gas, to_hex, word
 from .chain import CallResult, ContractChain
 from .refusal import out_of_gas, refusal
@@ -36,7 +36,7 @@ class EmbeddedChain(ContractChain):
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses or the gas does not suffice.
+        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
         """
         return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
 
@@ -64,7 +64,7 @@ class EmbeddedChain(ContractChain):
         self._codes[address] = code
 
     def create(self, name: str, creation: bytes) -> bytes:
-        """The code that creation code, arguments included, leaves. `name` is for people. RenderError if it refuses."""
+        """The code that creation code, arguments included, leaves. ChainError if it refuses."""
         return self._create(name, creation)
 
     def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
@@ -103,7 +103,7 @@ class PyrevmChain(EmbeddedChain):
         try:
             address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
         except RuntimeError as error:
-            raise RenderError(f"the contract {contract} could not be deployed: {error}") from None
+            raise ChainError(f"the contract {contract} could not be deployed: {error}") from None
         return bytes(evm.get_code(address))[:-PADDING]
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -115,7 +115,7 @@ class PyrevmChain(EmbeddedChain):
         return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
 
 
-def _pyrevm_error(message: str, gas_limit: int) -> RenderError:
+def _pyrevm_error(message: str, gas_limit: int) -> ChainError:
     if message.startswith("Revert"):
         return refusal(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
     if "OutOfGas" in message:
@@ -136,7 +136,7 @@ class PyEvmChain(EmbeddedChain):
         message = self._message(creation, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=address)
         computation = state.computation_class.apply_create_message(state, message, self._transaction)
         if computation.is_error:
-            raise RenderError(f"the contract {contract} could not be deployed: {computation.error!r}")
+            raise ChainError(f"the contract {contract} could not be deployed: {computation.error!r}")
         return bytes(state.get_code(address))
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:

@@ -10,12 +10,12 @@ from email.utils import parsedate_to_datetime
 from typing import Any
 
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
@@ -124,7 +124,7 @@ def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes
     return NodeError(f"{said}{_quote(_words(body))}; check its address")
 
 
-def rpc_failure(name: str, error: Any) -> RenderError:
+def rpc_failure(name: str, error: Any) -> ChainError:
     """The error that a node gave in place of a result, by its words, its number and its data."""
     fields = error if isinstance(error, dict) else {"message": error}
     message, code, data = str(fields.get("message", error)), fields.get("code"), fields.get("data")

@@ -11,6 +11,7 @@ from functools import cached_property
 
 from ..artifacts import RENDERER, artifact
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
@@ -108,7 +109,7 @@ class NodeChain:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
         None leaves the limit to the node.
-        RenderError if the contract refuses, the gas does not suffice, or the node fails.
+        ChainError of the kind that says what failed: the contract, the gas, or the node.
         """
         try:
             place = self.place(contract)
@@ -280,7 +281,7 @@ class NodeChain:
         parts = artifact(contract).parts
         return parts + [each for part in parts for each in self._below(part)]
 
-    def _refused(self, data: bytes | None, gas_limit: int | None) -> RenderError:
+    def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
         """The error of a call whose contract said this, or, with None, that had too little gas."""
         failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
@@ -350,7 +351,7 @@ def _probe(connection: Connection) -> _Probed:
                 output = connection.data("eth_call", request, "latest", *([override] if overrides else []))
             except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
                 raise
-            except RenderError:
+            except ChainError:
                 continue
             if len(output) == 32:
                 left = int.from_bytes(output, "big")

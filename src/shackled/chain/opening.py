@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from importlib.util import find_spec
 
-from ..errors import InputError, RenderError
+from ..errors import ChainError, InputError
 from ..ethereum import parse_address
 from .chain import Chain
 from .connection import PATIENCE, Connection
@@ -36,7 +36,7 @@ def open_chain(name: str | None = None) -> Chain:
     if name is None:
         name = next((each for each in ("pyrevm", "pyevm") if find_spec(CHAINS[each])), None)
         if name is None:
-            raise RenderError("there is no EVM to run the contracts: install pyrevm or py-evm")
+            raise ChainError("there is no EVM to run the contracts: install pyrevm or py-evm")
     if name not in CHAINS:
         raise InputError(f"there is no chain {name!r}; the chains are {', '.join(CHAINS)}")
     if not find_spec(CHAINS[name]):

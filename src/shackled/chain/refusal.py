@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from ..artifacts import known_errors
-from ..errors import OutOfGasError, RenderError
+from ..errors import ChainError, OutOfGasError, RenderError
 from ..ethereum import to_hex
 from ..ethereum.abi import decode_error
 
 
-def refusal(data: bytes, gas_limit: int) -> RenderError:
+def refusal(data: bytes, gas_limit: int) -> ChainError:
     """Return the error of a call that a contract reverted.
 
     data: what it reverted with. gas_limit: of the call, for the message of an `OutOfGasError`.

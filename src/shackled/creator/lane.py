@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..errors import InputError, RenderError
+from ..errors import InputError, RenderError, ShackledError
 from .limits import Limits
 from .seat import GONE, LATE, Seat
 from .tasks import Desk
@@ -25,7 +25,7 @@ Progress = Callable[[int, int], None]
 BEHIND = 1.0
 
 
-class PoolError(RenderError):
+class PoolError(ShackledError):
     """The work could not be done here: it took too long, or too much, or too many are waiting. One line."""
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from typing import Any
 
-from ..errors import InputError, RenderError
+from ..errors import ChainError, InputError
 from .limits import Limits
 
 #: What stands first in an answer. After DONE come the result and the seconds that the processor took for it.
@@ -71,7 +71,7 @@ def _answer(desk: Any, request: Request) -> tuple[Any, ...]:
         return MISSING, error.sha256
     except InputError as error:
         return INPUT, str(error)
-    except RenderError as error:
+    except ChainError as error:
         return RENDER, str(error)
     except (MemoryError, RecursionError):
         return (MEMORY,)

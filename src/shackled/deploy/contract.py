@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..artifacts import artifact
 from ..chain.embedded import EmbeddedChain
 from ..chain.opening import open_chain
-from ..errors import InputError, RenderError
+from ..errors import ChainError, InputError
 from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 
 #: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
@@ -67,7 +67,7 @@ def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
 def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: EmbeddedChain | None = None) -> Deployment:
     """A contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
 
-    name: for people, and the address book. RenderError if the constructor refuses.
+    name: for people, and the address book. ChainError if the constructor refuses.
     """
     local = local_chain() if local is None else local
     for part in parts:
@@ -76,7 +76,7 @@ def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: Emb
     data = SALT + creation
     result = local.run(PROXY, data)
     if result.output != create2_address(creation):
-        raise RenderError(
+        raise ChainError(
             f"the contract {name} could not be deployed: the proxy gave {result.output.hex() or 'nothing'}"
         )
     return Deployment(name, creation, local.create(name, creation), result.gas + intrinsic_gas(data))

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from ..chain.address_book import AddressBook
 from ..chain.connection import Connection
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeTimeoutError,
     NodeUnreachableError,
-    RenderError,
     TransactionError,
     WrongChainError,
 )
@@ -184,7 +184,7 @@ class Deployer:
             self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
         except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
             raise
-        except RenderError:
+        except ChainError:
             pass  # some nodes make no calls without a receiver
         limit = block_gas(self.connection)
         for each in missing:
@@ -218,7 +218,7 @@ def create(
     except TransactionError as error:
         try:
             there = stands()
-        except RenderError:
+        except ChainError:
             raise error from None
         if there:
             return None

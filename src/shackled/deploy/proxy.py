@@ -7,14 +7,7 @@ signed it, which is used for this only; it has to be given what the transaction 
 from __future__ import annotations
 
 from ..chain.connection import Connection
-from ..errors import (
-    NodeBusyError,
-    NodeTimeoutError,
-    NodeUnreachableError,
-    OutOfGasError,
-    RenderError,
-    TransactionError,
-)
+from ..errors import ChainError, NodeBusyError, NodeTimeoutError, NodeUnreachableError, OutOfGasError, TransactionError
 from ..ethereum import GWEI, PROXY, checksum_address, keccak256, to_hex
 from .contract import PROXY_CODE
 from .quote import Call, Quote, base_fee
@@ -59,7 +52,7 @@ def check_gas(connection: Connection) -> None:
         needed = connection.number("eth_estimateGas", {"data": to_hex(CREATION)})
     except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
         raise
-    except RenderError:
+    except ChainError:
         return
     if needed > GAS:
         raise too_little_gas(connection, f"and {needed:,} are needed there")

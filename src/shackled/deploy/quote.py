@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..chain.connection import Connection, quantity
-from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
+from ..errors import ChainError, NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, TransactionError
 from ..ethereum import GWEI, to_hex
 
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
@@ -102,7 +102,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         tip = connection.number("eth_maxPriorityFeePerGas")
     except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
         raise
-    except RenderError:
+    except ChainError:
         tip = TIP
     if max_fee is None:
         if tip > MOST_TIP:
@@ -173,7 +173,7 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
             estimate = connection.number("eth_estimateGas", *parameters)
         except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
             raise
-        except RenderError:
+        except ChainError:
             continue
         # a call of what is not there does nothing, for almost nothing
         return estimate if 2 * estimate >= call.ours else None

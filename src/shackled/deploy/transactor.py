@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 from ..chain.connection import Connection, quantity
 from ..chain.refusal import refusal
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TransactionError,
 )
@@ -145,7 +145,7 @@ class Transactor:
             return self._follow(digest, transaction)
         except TransactionError:
             raise
-        except RenderError as error:
+        except ChainError as error:
             error.args = (f"the transaction {digest} was sent, {LOOK_FIRST}: {error}",)
             raise
 
@@ -161,7 +161,7 @@ class Transactor:
         except NodeError as error:
             if _unbound(error):
                 raise self._rejected(error, 0) from None
-        except RenderError:
+        except ChainError:
             pass
 
     def settle(self) -> None:
@@ -213,7 +213,7 @@ class Transactor:
             self.connection.request("eth_call", call, hex(max(0, block - 1)))
         except RevertError as error:
             return f": {_why(error.data, transaction['gas'])}"
-        except RenderError as error:
+        except ChainError as error:
             return f": {error}"
         return ""
 
@@ -242,7 +242,7 @@ class Transactor:
             time.sleep(pause)
             pause = min(2.0, pause * 1.5)
 
-    def _rejected(self, error: NodeError, cost: int) -> RenderError:
+    def _rejected(self, error: NodeError, cost: int) -> ChainError:
         """What a node says against a transaction, with what to do."""
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:

@@ -91,7 +91,7 @@ def search(
 
 
 def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
-    """Whether a call of a contract succeeds with a gas limit; what it refuses for another reason is a RenderError."""
+    """Whether a call of a contract succeeds with a gas limit; raises ChainError if it fails for another reason."""
 
     def call(limit: int) -> bool:
         try:

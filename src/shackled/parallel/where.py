@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..chain import Chain, open_node
 from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..checks import integer
-from ..errors import InputError, NodeError, OutOfGasError, RenderError
+from ..errors import ChainError, InputError, NodeError, OutOfGasError
 from .evm import limited
 from .listener import Listener
 from .place import ChainPlace, Place
@@ -105,7 +105,7 @@ class Where:
 
     def _open_nodes(self, listener: Listener) -> list[Place]:
         places: list[Place] = []
-        last: RenderError
+        last: ChainError
         urls = list(dict.fromkeys(self.rpc))
         for url in urls:
             try:

@@ -11,11 +11,11 @@ from typing import Any
 from ..chain.connection import Connection
 from ..chain.node import GAS_LEFT
 from ..chain.refusal import describe
-from ..errors import InputError, NodeError, OutOfGasError, RenderError, RevertError
+from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
 from ..ethereum import checksum_address, to_hex
 from .contract import Contract
 from .kinds import KINDS, Kind
-from .metadata import Metadata, read_contract_uri, read_token_uri
+from .metadata import Metadata, read_token_uri
 from .refusals import PHASES
 
 #: Requests under way at once.
@@ -112,17 +112,13 @@ class Collection:
         """How much gas the node gives a call, for people; nothing if it does not tell."""
         try:
             left = int.from_bytes(self.connection.data("eth_call", {"data": to_hex(GAS_LEFT)}, "latest"), "big")
-        except RenderError:
+        except ChainError:
             return ""
         return f", about {left:,}" if 0 < left < 1 << 64 else ""
 
     def metadata(self, token: int) -> Metadata:
         """What a token says of itself."""
         return read_token_uri(self.token_uri(token))
-
-    def contract_metadata(self) -> dict[str, Any]:
-        """What the collection says of itself."""
-        return read_contract_uri(str(self.contract.call("contractURI")))
 
     def terms(self) -> Terms:
         """How the collection stands now."""

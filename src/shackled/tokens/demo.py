@@ -11,7 +11,7 @@ from typing import Any
 from ..chain.connection import Connection
 from ..deploy import Receipt, Transactor
 from ..deploy.contract import local_chain
-from ..errors import RenderError
+from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ..whole_file import make_output_folder, write_output
 from .actions import perform
@@ -53,7 +53,7 @@ class Demo:
 def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_fee: int | None = None) -> Demo:
     """Plays both collections through and writes the files. tell: is told what happens. max_fee: see `current_fees`.
 
-    InputError if the node is not a fresh development node; RenderError if anything is not as it should be.
+    InputError if the node is not a fresh development node; VerificationError if anything is not as it should be.
     """
     users = development_transactors(connection, max_fee)
     make_output_folder(folder)
@@ -106,7 +106,7 @@ def _genesis(
 
     rounds = hidden_rounds(collection)
     if collection.metadata(0).traits != {"Revealed": "No"}:
-        raise RenderError("a token shows traits before it is revealed")
+        raise VerificationError("a token shows traits before it is revealed")
     blocks = rounds[-1].block - latest_block(collection) + 1
     tell(f"{blocks} blocks pass, and a passer-by reveals all tokens")
     connection.request("anvil_mine", hex(blocks))
@@ -186,12 +186,12 @@ def _after_sale(
     arguments = (_name(giver), _name(receiver), token)
     _pay(demo, f"{title}: transfer", perform(giver, collection.contract, "transferFrom", *arguments))
     if collection.owner_of(token) != _name(receiver) or collection.token_uri(token) != before:
-        raise RenderError(f"token {token} did not change hands as it should")
+        raise VerificationError(f"token {token} did not change hands as it should")
     sold, balance = collection.terms().balance, owner.balance()
     receipt = perform(owner, collection.contract, "withdraw", _name(owner))
     _pay(demo, f"{title}: withdraw", receipt)
     if not sold or collection.terms().balance or owner.balance() != balance + sold - receipt.fee:
-        raise RenderError("the ether of the sale did not arrive")
+        raise VerificationError("the ether of the sale did not arrive")
 
 
 def _read_back(collection: Collection, demo: Demo, tell: Callable[[str], None]) -> None:
@@ -233,4 +233,4 @@ def _name(user: Transactor) -> str:
 
 def _require(failure: str, what: str) -> Any:
     if failure:
-        raise RenderError(f"{what}: {failure}")
+        raise VerificationError(f"{what}: {failure}")

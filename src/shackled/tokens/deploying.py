@@ -129,7 +129,7 @@ def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> byte
 
 
 def plan_launch(connection: Connection, kind: Kind, offer: Offer, fees: Fees | None = None) -> Launch:
-    """What is to be deployed. fees: None asks for those of now. RenderError if something else is at its address."""
+    """Return what is to be deployed. fees: None asks for those of now. VerificationError if other code is there."""
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(kind.contract)
     creation = creation_code(kind, parts, offer)
@@ -167,7 +167,7 @@ def launch(
 
 
 def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
-    """Whether a collection is at its address. RenderError if anything else is there."""
+    """Whether a collection is at its address. VerificationError if anything else is there."""
     code = connection.data("eth_getCode", to_hex(place), "latest")
     if code:
         immutable_values(code, artifact(kind.contract).runtime)

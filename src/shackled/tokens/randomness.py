@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..chain.connection import Connection, quantity
-from ..errors import InputError, NodeError, RenderError, RevertError, TransactionError
+from ..errors import ChainError, InputError, NodeError, RevertError, TransactionError
 from ..ethereum import to_hex
 from ..ethereum.header import encode_header
 
@@ -59,7 +59,7 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
         found = connection.data("eth_call", {"data": "0x" + program}, "latest")
     except RevertError:
         return  # not every node makes calls without a receiver
-    except RenderError as error:
+    except ChainError as error:
         if type(error) is NodeError:
             return
         raise

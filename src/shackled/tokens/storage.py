@@ -11,7 +11,7 @@ from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
-from ..errors import RenderError
+from ..errors import VerificationError
 from ..ethereum import checksum_address, to_hex
 from ..image import Image, decode_bmp
 from ..render import render
@@ -119,7 +119,7 @@ def store(
 def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted) -> Image:
     """The picture that the Studio of a chain draws of a scene that it keeps.
 
-    RenderError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
+    VerificationError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
     """
     contract = Contract(connection, STUDIO, studio)
     started = time.perf_counter()
@@ -127,7 +127,7 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
     seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
-        raise RenderError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
+        raise VerificationError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
     return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
 
 

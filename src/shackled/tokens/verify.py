@@ -12,7 +12,7 @@ from ..artifacts import artifact
 from ..chain.embedded import EmbeddedChain
 from ..deploy import Deployer
 from ..deploy.contract import deployment, local_chain
-from ..errors import NodeError, OutOfGasError, RenderError
+from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..studio.keeping import STUDIO
 from .collection import Collection
@@ -49,20 +49,20 @@ def check_code(collection: Collection) -> Iterator[Check]:
         what = f"{part.name} at {checksum_address(part.address)}"
         try:
             yield Check(what, "" if deployer.stands(part) else "it is not there")
-        except RenderError as error:
+        except ChainError as error:
             yield Check(what, str(error))
     what = f"{collection.kind.contract} at {collection.address}"
     try:
         check_collection_code(collection)
         yield Check(what)
-    except RenderError as error:
+    except ChainError as error:
         if isinstance(error, NodeError):
             raise
         yield Check(what, str(error))
 
 
 def check_collection_code(collection: Collection) -> None:
-    """RenderError if a byte of the code differs from what the compiled contract would be with the terms that the
+    """VerificationError if a byte of the code differs from what the compiled contract would be with the terms that the
     collection tells.
     """
     connection, kind = collection.connection, collection.kind
@@ -94,7 +94,7 @@ def check_collection_code(collection: Collection) -> None:
         else:
             allowed = {place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, connection.chain_id, place)}
         if found not in allowed:
-            raise RenderError(f"at byte {at:,} of its code stands 0x{found.hex()}, not 0x{min(allowed).hex()}")
+            raise VerificationError(f"at byte {at:,} of its code stands 0x{found.hex()}, not 0x{min(allowed).hex()}")
 
 
 def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: str | None = None) -> Check:
@@ -124,7 +124,7 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
         return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture is not that of its seed")
     except OutOfGasError as error:
         return Check(what, unread=str(error))
-    except RenderError as error:
+    except ChainError as error:
         if isinstance(error, NodeError):
             raise
         return Check(what, str(error))

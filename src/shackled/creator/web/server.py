@@ -28,7 +28,7 @@ from starlette.websockets import WebSocket
 
 from ...chain import open_node
 from ...datasets import Piece
-from ...errors import InputError, RenderError
+from ...errors import InputError, ShackledError
 from ...load import locate
 from ..link import from_link, is_local
 from ..pool import Pool
@@ -158,7 +158,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
                 state = wanted = from_link(p)
                 await pool.open(state.source)
                 wanted = None
-            except (InputError, RenderError) as error:
+            except ShackledError as error:
                 greeting, state = str(error), State(first)
         try:
             visitor = visitors.add(state, await pool.open(state.source))
@@ -195,7 +195,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
             scale = int(request.query_params.get("scale", "1")[:4])
             link = str(request.base_url).rstrip("/") + visitor.link
             file = await pool.take(visitor.name, visitor.state, kind, scale, link)
-        except (InputError, RenderError, ValueError) as error:
+        except (ShackledError, ValueError) as error:
             return PlainTextResponse(str(error), 400)
         return _download(file.data, file.name, file.media_type)
 
@@ -210,7 +210,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
             name, data = unpack(body)
             read = await pool.upload(visitor.name, name, data)
             visitor.show(read.facts)
-        except (InputError, RenderError) as error:
+        except ShackledError as error:
             return PlainTextResponse(str(error), 400)
         for note in read.notes:
             await visitor.tell({"note": note})
