@@ -70,7 +70,7 @@ def test_an_answer() -> None:
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
         (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
-        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller --size"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
         (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
         (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
         (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
@@ -198,13 +198,13 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"--rpc must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+    with pytest.raises(InputError, match=r"`rpc` must be the address of a node, as http://127\.0\.0\.1:8545") as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 
 
 def test_timeouts_that_are_none() -> None:
-    with pytest.raises(InputError, match="--rpc-timeout must be more than 0 seconds and at most 86,400, not 0"):
+    with pytest.raises(InputError, match="`timeout` must be more than 0 seconds and at most 86,400, not 0"):
         Connection("http://127.0.0.1", 0)
 
 
@@ -218,7 +218,7 @@ def test_nobody_there() -> None:
 @pytest.mark.parametrize("reply", [Reply(delay=5), Reply(b"x" * 100, drip=0.05)])
 def test_too_slow(reply: Reply) -> None:
     """It ends in time even if a byte comes now and then."""
-    with pytest.raises(NodeTimeoutError, match=r"did not answer within 0.3 seconds.* --rpc-timeout"):
+    with pytest.raises(NodeTimeoutError, match=r"did not answer within 0.3 seconds.* `timeout`"):
         ask(reply, timeout=0.3)
 
 

@@ -241,9 +241,9 @@ def test_addresses_that_are_wrong(bare: Anvil) -> None:
     proxy = "0x4e59b44847b379578588920cA78FbF26c0B4956C"
     with pytest.raises(RenderError, match=r"^the contract at 0x4e59.* is not the renderer of this version"):
         open_node(bare.url, proxy).draw(SCENES["empty"])
-    with pytest.raises(InputError, match="--address must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
+    with pytest.raises(InputError, match="`address` must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
         open_node(bare.url, "0x12")
-    with pytest.raises(InputError, match="--address is mistyped"):
+    with pytest.raises(InputError, match="`address` is mistyped"):
         open_node(bare.url, proxy.replace("cA78F", "Ca78F"))
 
 
@@ -336,7 +336,7 @@ def geth(request: dict[str, object], url: str, cap: int) -> Reply:
 
 def test_too_little_gas_on_a_node(bare: Anvil) -> None:
     with serving(lambda request: geth(request, bare.url, 300_000)) as url:
-        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller --size"):
+        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller `size`"):
             open_node(url).draw(SCENES["smooth"])
         with without_overrides(url) as other:
             assert open_node(other).gas_limit == 0
@@ -354,7 +354,7 @@ def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> N
             with pytest.raises(OutOfGasError, match=words) as error:
                 draw(scene)
             assert "run shackled deploy" in str(error.value)
-            assert "--size" not in str(error.value)
+            assert "`size`" not in str(error.value)
 
 
 def test_a_node_without_overrides_and_creation_calls(bare: Anvil) -> None:

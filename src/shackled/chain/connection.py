@@ -37,11 +37,9 @@ class Connection:
             parts, host, port = urlsplit(""), None, None
         if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
             shown = _without_key(url)
-            raise InputError(f"--rpc must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
+            raise InputError(f"`rpc` must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
         if not 0 < timeout <= MOST_PATIENCE:
-            raise InputError(
-                f"--rpc-timeout must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}"
-            )
+            raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}")
         shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
         self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
         local = host in ("localhost", "::1") or host.startswith("127.")

@@ -110,7 +110,7 @@ def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes
     if status == 413:
         return too_large(name, len(body) and _words(body))
     if status in (408, 504, 522, 524):
-        return NodeTimeoutError(f"{said}: it took too long; take a smaller --size, or another node")
+        return NodeTimeoutError(f"{said}: it took too long; take a smaller `size`, or another node")
     if status in (401, 403, 407):
         return NodeError(f"{said}: it lets nobody in without the right key; check its address")
     if status in (404, 405):
@@ -142,7 +142,7 @@ def rpc_failure(name: str, error: Any) -> ChainError:
         return too_often(name, None, _quote(message))
     if says(TOO_LITTLE_GAS):
         return OutOfGasError(
-            f"the {name} allows a call too little gas for this: take a smaller --size, or raise its limit"
+            f"the {name} allows a call too little gas for this: take a smaller `size`, or raise its limit"
         )
     if says(OLD_CHAIN):
         return WrongChainError(
@@ -152,7 +152,7 @@ def rpc_failure(name: str, error: Any) -> ChainError:
         return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or take another node")
     if says(TOO_SLOW):
         return NodeTimeoutError(
-            f"the {name} gave up a call that took too long{_quote(message)}; take a smaller --size, or another node"
+            f"the {name} gave up a call that took too long{_quote(message)}; take a smaller `size`, or another node"
         )
     if "revert" in letters:
         return RevertError(f"the call was reverted: {_shorten(message)}")
@@ -178,7 +178,7 @@ def too_large(name: str, said: object = "") -> TooLargeError:
     """The error of a node that takes no request, or gives no answer, of this size."""
     return TooLargeError(
         f"the {name} does not take a request or give an answer of this size{_quote(str(said or ''))}: "
-        "take a smaller --size or --max-triangles, or raise its limit"
+        "take a smaller `size` or `max_triangles`, or raise its limit"
     )
 
 

@@ -163,13 +163,13 @@ class NodeChain:
         code = self._code(self._address)
         if not code:
             raise RenderError(
-                f"there is no contract at {where}: put one there with shackled deploy, or leave out --address"
+                f"there is no contract at {where}: put one there with shackled deploy, or leave out `address`"
             )
         parts = self._parts("Renderer", code)
         if parts is None or any(self._code(place) != self._local.code(part) for part, place in parts.items()):
             raise RenderError(
                 f"the contract at {where} is not the renderer of this version of shackled: "
-                "name another one, or leave out --address"
+                "name another one, or leave out `address`"
             )
         return parts.get(contract, self._address)
 
@@ -238,7 +238,7 @@ class NodeChain:
         raise NodeError(
             f"the {self.connection.name} knows no state overrides, and the scene of {len(data):,} bytes is too large "
             f"for a creation call with the contracts: {len(init):,} bytes packed, of {MAX_INIT_CODE:,} allowed; "
-            "run shackled deploy, take a smaller --max-triangles, or another node"
+            "run shackled deploy, take a smaller `max_triangles`, or another node"
         )
 
     def _carried(self, init: bytes) -> NodeResult:
@@ -285,7 +285,7 @@ class NodeChain:
         """The error of a call whose contract said this, or, with None, that had too little gas."""
         failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
-            hint = "take a smaller --size, or raise its limit"
+            hint = "take a smaller `size`, or raise its limit"
             return OutOfGasError(f"the {self.connection.name} allows a call too little gas for this: {hint}")
         return failure
 

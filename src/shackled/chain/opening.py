@@ -26,7 +26,7 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
     """
     local = open_chain(None)
     assert isinstance(local, EmbeddedChain)
-    renderer = None if address is None else parse_address(address, "--address")
+    renderer = None if address is None else parse_address(address, "`address`")
     return NodeChain(Connection(url, PATIENCE if timeout is None else timeout), local, renderer)
 
 

@@ -125,7 +125,7 @@ def _failure(error: Exception) -> tuple[type[NodeError], str]:
     if isinstance(error, requests.exceptions.ConnectTimeout):
         return NodeUnreachableError, "takes no connection; is it running, and is its address right?"
     if isinstance(error, requests.Timeout | urllib3.exceptions.TimeoutError | TimeoutError):
-        return NodeTimeoutError, "did not answer within {} seconds: take a smaller --size, or a larger --rpc-timeout"
+        return NodeTimeoutError, "did not answer within {} seconds: take a smaller `size`, or a larger `timeout`"
     if isinstance(error, requests.exceptions.SSLError):
         return NodeUnreachableError, "cannot be reached by a safe connection; is its address right, http or https?"
     if isinstance(error, requests.exceptions.ProxyError):

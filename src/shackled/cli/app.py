@@ -22,6 +22,7 @@ from .deploy import deploy
 from .gas import gas
 from .genesis import genesis
 from .mint import mint
+from .option import with_options
 from .render import render
 from .stages import stages
 from .token import token
@@ -100,7 +101,7 @@ def _note(show: Callable[..., object]) -> Callable[..., None]:
             show(message, category, *place, **more)
         elif str(message) not in told:
             told.add(str(message))
-            print(f"shackled: note: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+            print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
 
     return showwarning
 
@@ -115,5 +116,5 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+    print(f"shackled: {plain(with_options(str(message)))}", file=sys.stderr)
     return code

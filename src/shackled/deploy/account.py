@@ -23,8 +23,8 @@ def environment_account(name: str) -> LocalAccount:
         # what is no name may be a key, or a mnemonic, typed wrong
         if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]{0,39}", name) or re.fullmatch("[0-9a-fA-F]{16,}", name):
             raise InputError(
-                "there is no private key in an environment variable of that name: --private-key-env takes the name of "
-                "a variable, not the key"
+                "there is no private key in an environment variable of that name: the name of a variable is wanted, "
+                "not the key"
             )
         raise InputError(f"there is no private key in the environment variable {name}: set it to one")
     if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
@@ -44,7 +44,7 @@ def read_keystore(path: Path) -> str:
         # a key, or a mnemonic, may stand where the name of a file should
         if re.search("[0-9A-Za-z]{41,}", path.name) or len(path.name.split()) >= 6:
             raise InputError(
-                "there is no keystore file of that name: --account takes the name of a file, not a key"
+                "there is no keystore file of that name: the name of a file is wanted, not a key"
             ) from None
         if isinstance(error, FileNotFoundError):
             raise InputError(f"there is no keystore file {path}") from None

@@ -14,16 +14,16 @@ from ..ethereum import GWEI, to_hex
 MARGIN = (21, 20)
 #: A tip for those who make blocks, where a node suggests none, in wei.
 TIP = GWEI
-#: The highest tip that is paid unless --max-fee says otherwise, in wei.
+#: The highest tip that is paid unless `max_fee` is given, in wei.
 MOST_TIP = 3 * GWEI
-#: How many times the gas that is counted here a node may estimate unless --max-fee says otherwise.
+#: How many times the gas that is counted here a node may estimate unless `max_fee` is given.
 MOST_TIMES = 10
 
 
 @dataclass(frozen=True)
 class Fees:
     """Prices of gas in wei. likely: what is probably paid. most: what is paid at most. tip: None on a chain without the
-    fees of EIP-1559, where `most` is the price. named: whether `most` is what somebody named (--max-fee).
+    fees of EIP-1559, where `most` is the price. named: whether `most` is what somebody named (`max_fee`).
     """
 
     likely: int
@@ -94,7 +94,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         if max_fee is None:
             raise TransactionError(
                 f"the {connection.name} tells no base fee, and asks {price / GWEI:,.12g} gwei for a gas, which nothing "
-                "bounds: if its chain is one without EIP-1559, say how much a gas may cost, --max-fee GWEI"
+                "bounds: if its chain is one without EIP-1559, say how much a gas may cost, `max_fee`"
             )
         _require(price, max_fee)
         return Fees(price, price, None, True)
@@ -109,7 +109,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
             raise TransactionError(
                 f"the {connection.name} suggests a tip of {tip / GWEI:,.12g} gwei for a gas, and "
                 f"{MOST_TIP // GWEI} at most are paid unasked: if so much is right, say how much a gas may cost, "
-                "--max-fee GWEI"
+                "`max_fee`"
             )
         # the base may rise by an eighth each block
         return Fees(base + tip, 2 * base + tip, tip)
@@ -135,7 +135,7 @@ def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: fl
         raise TransactionError(
             f"the {name} estimates {estimate:,} gas for a transaction that takes about {call.ours:,} as counted here, "
             f"more than {MOST_TIMES} times as much: if its chain counts like that, say how much a gas may cost, "
-            "--max-fee GWEI"
+            "`max_fee`"
         )
     expected = int(call.ours * rate) if estimate is None else estimate
     limit = max(call.ours, expected) * MARGIN[0] // MARGIN[1]
@@ -183,6 +183,6 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
 def _require(price: int, max_fee: int) -> None:
     if price > max_fee:
         raise TransactionError(
-            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of --max-fee: wait until "
+            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of `max_fee`: wait until "
             "it is cheaper, or raise it"
         )

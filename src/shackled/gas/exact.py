@@ -43,7 +43,7 @@ class Exact:
 def counting(chain: Chain) -> ContractChain:
     """The chain, if it counts gas; otherwise InputError."""
     if not isinstance(chain, ContractChain):
-        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take --chain pyrevm or pyevm")
+        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take `chain` pyrevm or pyevm")
     return chain
 
 

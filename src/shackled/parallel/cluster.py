@@ -51,7 +51,7 @@ class ClusterPlace:
             from distributed import Client
         except ImportError:
             raise InputError(
-                "--cluster needs a package that is not installed: pip install 'shackled[cluster]'"
+                "`cluster` needs a package that is not installed: pip install 'shackled[cluster]'"
             ) from None
 
         class QuietClient(Client):  # type: ignore[misc,unused-ignore]

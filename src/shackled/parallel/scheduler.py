@@ -310,7 +310,7 @@ class Scheduler:
         if len(parts) == 1 and not others:
             self._error = type(error)(
                 f"{error}; a part of {part.tile.width} x {part.tile.height} pixels is still too much: "
-                "take fewer triangles (--max-triangles)"
+                "take fewer triangles (`max_triangles`)"
             )
             return
         self._put_first(parts)

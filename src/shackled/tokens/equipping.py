@@ -55,7 +55,7 @@ def plan_equipment(
     there = {} if made is None or not icons else {icon.name: icon.scene for icon in icons_of(made)}
     missing = [each for each in icons if there.get(each[0]) != each[1]]
     if made is not None and missing and made.contract.call("isSealed"):
-        raise InputError(f"{made.name} at {made.address} is sealed, and has no {missing[0][0]}: take another --salt")
+        raise InputError(f"{made.name} at {made.address} is sealed, and has no {missing[0][0]}: take another `salt`")
     wanted += [(f"{each[0]}: added", add_call(interface, launch.address, each, codes)) for each in missing]
     quotes = make_quotes(connection, [call for _, call in wanted], fees, known)
     return [Equipment(what, quote) for (what, _), quote in zip(wanted, quotes, strict=True)]

@@ -27,7 +27,7 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
     if chain not in CHAINS and not any_chain:
         raise InputError(
             f"chain {chain} is neither Ethereum nor one of its test networks (chains {CHAINS[0]}, {CHAINS[1]} and "
-            f"{CHAINS[2]}): on many others seeds are known before the mint, or can never be revealed; --any-chain "
+            f"{CHAINS[2]}): on many others seeds are known before the mint, or can never be revealed; `any_chain` "
             "deploys all the same"
         )
     latest = connection.number("eth_blockNumber")

@@ -299,9 +299,9 @@ def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
     try:
         family = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0][0]
     except OSError:
-        raise InputError(f"--host must be an address of this machine such as 127.0.0.1, not {host!r}") from None
+        raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
     if port is not None and port > 65535:
-        raise InputError(f"--port must be from 1 to 65535, not {port}")
+        raise InputError(f"`port` must be from 1 to 65535, not {port}")
     wanted = (fallback, 0) if port is None else (port,)
     for number in wanted:
         # the protocol is said, or asyncio would not know that it may turn off the delay of small packets
@@ -312,10 +312,10 @@ def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
         except OSError as error:
             listening.close()
             if error.errno == errno.EADDRNOTAVAIL:
-                raise InputError(f"--host must be an address of this machine such as 127.0.0.1, not {host!r}") from None
+                raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
             if number == wanted[-1]:
                 reason = error.strerror or str(error)
-                raise InputError(f"port {number} of {host} cannot be had: {reason}; choose another by --port") from None
+                raise InputError(f"port {number} of {host} cannot be had: {reason}; choose another by `port`") from None
             continue
         return listening
     raise AssertionError("one of the ports was had or refused")
