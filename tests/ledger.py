@@ -36,7 +36,7 @@ class World:
     def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
         """Where a new contract stands."""
         address = b"\xde" + len(self.codes).to_bytes(19, "big")
-        self.codes[address] = self.chain._create("a contract", creation + arguments)
+        self.codes[address] = self.chain.create("a contract", creation + arguments)
         return address
 
     def run(self, to: bytes, data: bytes, gas: int = GAS, created: bool = False, before: Sequence[bytes] = ()) -> bytes:

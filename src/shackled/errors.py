@@ -60,11 +60,15 @@ class NodeError(ChainError):
     """A node failed, not the contract that it ran."""
 
 
-class NodeUnreachableError(NodeError):
+class NoAnswerError(NodeError):
+    """A node gave no answer now; it may give one later. The base of errors of that kind."""
+
+
+class NodeUnreachableError(NoAnswerError):
     """There is no whole answer: nobody listens, the connection broke, or something else than a node answers."""
 
 
-class NodeBusyError(NodeError):
+class NodeBusyError(NoAnswerError):
     """A node is busy. retry_after: the seconds after which it wants to be asked again, if it says so."""
 
     def __init__(self, message: str, retry_after: float | None = None) -> None:
@@ -73,7 +77,7 @@ class NodeBusyError(NodeError):
         self.retry_after = retry_after
 
 
-class NodeTimeoutError(NodeError):
+class NodeTimeoutError(NoAnswerError):
     """A node took too long, or gave up a call that did."""
 
 

@@ -43,11 +43,6 @@ class Artifact:
         """Name and parameters (name, type) of each error, by its selector."""
         return error_table(self.abi)
 
-    @property
-    def functions(self) -> dict[bytes, str]:
-        """The name of each function, by its selector."""
-        return {selector: name for name, selector in self.selectors.items()}
-
 
 @cache
 def artifact(name: str) -> Artifact:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import InputError, OutputError
 from ..ethereum import checksum_address, parse_address
 from ..whole_file import write_whole
 
@@ -48,19 +49,19 @@ class AddressBook:
         return {chain: address for chain, address in found.items() if address is not None}
 
     def check(self) -> None:
-        """InputError if `write` would fail; makes the folder."""
+        """Make the folder. Raises InputError if the book is broken, OutputError if it could not be written."""
         self._read()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise self._unwritable(error.strerror) from None
+            raise self._unwritable(error) from None
         if not os.access(self.path.parent, os.W_OK):
-            raise self._unwritable("nothing can be written to its folder")
+            raise self._unwritable(PermissionError(errno.EACCES, "nothing can be written to its folder"))
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
         """Adds addresses of a chain to the file, or puts them in place of those that are there.
 
-        InputError if the file cannot be read or written; then nothing has changed.
+        Raises InputError if the file cannot be read, OutputError if it cannot be written; then nothing has changed.
         """
         chains = self._read()
         known = chains.setdefault(str(chain_id), {})
@@ -73,10 +74,11 @@ class AddressBook:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, text.encode())
         except OSError as error:
-            raise self._unwritable(error.strerror) from None
+            raise self._unwritable(error) from None
 
-    def _unwritable(self, why: str | None) -> InputError:
-        return InputError(f"the address book {self.path} cannot be written: {why}; name another file in {VARIABLE}")
+    def _unwritable(self, error: OSError) -> OutputError:
+        why = f"{error.strerror}; name another file in {VARIABLE}"
+        return OutputError(error.errno, why, f"the address book {self.path}")
 
     def _read(self) -> dict[str, dict[str, str]]:
         hint = f"repair or remove it, or name another file in {VARIABLE}"

@@ -8,6 +8,7 @@ from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
+from ..ethereum import to_hex
 from .failures import rpc_failure
 
 #: Seconds that a node may take for an answer, and that it may be given at most.
@@ -83,6 +84,32 @@ class Connection:
         except ValueError:
             pass
         raise NodeError(f"the {self.name} answered {method} with what is no string of bytes: {result!r:.60}")
+
+    def code(self, address: bytes) -> bytes:
+        """Return the code at an address, empty if there is none."""
+        return self.data("eth_getCode", to_hex(address), "latest")
+
+    def balance(self, address: bytes) -> int:
+        """Return the balance of an account, in wei."""
+        return self.number("eth_getBalance", to_hex(address), "latest")
+
+    def block(self, number: int | None = None) -> dict[str, Any]:
+        """Return a block, by default the latest, without its transactions. Raises NodeError if the node has it not."""
+        which = "latest" if number is None else hex(number)
+        block = self.request("eth_getBlockByNumber", which, False)
+        if block is None and number is not None:
+            raise NodeError(f"the {self.name} does not have block {number:,}; take one that keeps them all")
+        if not isinstance(block, dict):
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}")
+        return block
+
+    def block_gas_limit(self) -> int:
+        """Return the gas that all transactions of a block may use."""
+        block = self.block()
+        try:
+            return quantity(block.get("gasLimit"))
+        except ValueError:
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}") from None
 
     @property
     def chain_id(self) -> int:

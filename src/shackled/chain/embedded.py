@@ -44,7 +44,7 @@ class EmbeddedChain(ContractChain):
         """Where a contract stands: here as on every chain on which `shackled deploy` has put it."""
         if contract not in self._addresses:
             creation = self.creation(contract)
-            code = self._create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
+            code = self.create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
             address = create2_address(creation)
             self._codes[address] = code
             self._addresses[contract] = address
@@ -63,10 +63,6 @@ class EmbeddedChain(ContractChain):
         """Places code that is none of the package's contracts."""
         self._codes[address] = code
 
-    def create(self, name: str, creation: bytes) -> bytes:
-        """The code that creation code, arguments included, leaves. ChainError if it refuses."""
-        return self._create(name, creation)
-
     def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls whatever stands at an address."""
         return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
@@ -76,8 +72,11 @@ class EmbeddedChain(ContractChain):
         return dict(self._codes)
 
     @abstractmethod
-    def _create(self, contract: str, creation: bytes) -> bytes:
-        """The runtime code that creation code leaves."""
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves.
+
+        name: for the message of the ChainError that is raised if the constructor refuses.
+        """
 
     @abstractmethod
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -98,12 +97,13 @@ class PyrevmChain(EmbeddedChain):
             evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
         return evm
 
-    def _create(self, contract: str, creation: bytes) -> bytes:
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
         evm = self._evm()
         try:
             address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
         except RuntimeError as error:
-            raise ChainError(f"the contract {contract} could not be deployed: {error}") from None
+            raise ChainError(f"the contract {name} could not be deployed: {error}") from None
         return bytes(evm.get_code(address))[:-PADDING]
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -128,7 +128,8 @@ class PyEvmChain(EmbeddedChain):
 
     name = "embedded EVM (py-evm)"
 
-    def _create(self, contract: str, creation: bytes) -> bytes:
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
         from eth.constants import CREATE_CONTRACT_ADDRESS
 
         address = bytes.fromhex("c0de") + bytes(18)
@@ -136,7 +137,7 @@ class PyEvmChain(EmbeddedChain):
         message = self._message(creation, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=address)
         computation = state.computation_class.apply_create_message(state, message, self._transaction)
         if computation.is_error:
-            raise ChainError(f"the contract {contract} could not be deployed: {computation.error!r}")
+            raise ChainError(f"the contract {name} could not be deployed: {computation.error!r}")
         return bytes(state.get_code(address))
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:

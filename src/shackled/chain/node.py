@@ -12,10 +12,8 @@ from functools import cached_property
 from ..artifacts import RENDERER, artifact
 from ..errors import (
     ChainError,
-    NodeBusyError,
+    NoAnswerError,
     NodeError,
-    NodeTimeoutError,
-    NodeUnreachableError,
     OutOfGasError,
     RenderError,
     RevertError,
@@ -198,7 +196,7 @@ class NodeChain:
         return parts if code == expected else None
 
     def _code(self, address: bytes) -> bytes:
-        return self.connection.data("eth_getCode", to_hex(address), "latest")
+        return self.connection.code(address)
 
     def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
         """Call a contract through the Meter, with the contracts that are not deployed in the same state override."""
@@ -215,7 +213,7 @@ class NodeChain:
         if len(init) <= MAX_INIT_CODE and self._answers_creations:
             try:
                 return self._answer_of(init)
-            except (RevertError, OutOfGasError, NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+            except (RevertError, OutOfGasError, NoAnswerError):
                 raise
             except NodeError:
                 self._answers_creations = False
@@ -245,7 +243,7 @@ class NodeChain:
         """What a creation says that brings the contracts along."""
         try:
             return self._answer_of(init)
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, TooLargeError, WrongChainError):
+        except (NoAnswerError, TooLargeError, WrongChainError):
             raise
         except NodeError as error:
             if not self._probed.creations:
@@ -349,7 +347,7 @@ def _probe(connection: Connection) -> _Probed:
                 request["gas"] = hex(DEFAULT_GAS_LIMIT)
             try:
                 output = connection.data("eth_call", request, "latest", *([override] if overrides else []))
-            except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+            except (NoAnswerError, WrongChainError):
                 raise
             except ChainError:
                 continue
@@ -360,11 +358,7 @@ def _probe(connection: Connection) -> _Probed:
             # what need not be named is better not named
             return max(found, key=lambda each: (each.gas, not each.named))
     # it makes no creation calls, and what is deployed has to do
-    block = connection.request("eth_getBlockByNumber", "latest", False)
-    try:
-        return _Probed(False, int(block["gasLimit"], 16), False, creations=False)
-    except (TypeError, LookupError, ValueError):
-        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
+    return _Probed(False, connection.block_gas_limit(), False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:

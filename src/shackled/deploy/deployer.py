@@ -7,19 +7,12 @@ from dataclasses import dataclass, replace
 
 from ..chain.address_book import AddressBook
 from ..chain.connection import Connection
-from ..errors import (
-    ChainError,
-    NodeBusyError,
-    NodeTimeoutError,
-    NodeUnreachableError,
-    TransactionError,
-    WrongChainError,
-)
+from ..errors import ChainError, NoAnswerError, TransactionError, WrongChainError
 from ..ethereum import PROXY, checksum_address, rounded, to_hex
 from .contract import PROXY_CODE, Deployment
 from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
 from .quote import Call, Fees, Quote, current_fees, make_quotes
-from .transactor import Receipt, Transactor, block_gas
+from .transactor import Receipt, Transactor
 
 #: The newest instruction that the contracts use, in a program that does nothing: PUSH0 PUSH0 PUSH0 MCOPY STOP.
 NEWEST = bytes.fromhex("5f5f5f5e00")
@@ -133,7 +126,7 @@ class Deployer:
 
     def stands(self, wanted: Deployment) -> bool:
         """Whether a contract is where it belongs. TransactionError if anything else is there."""
-        code = self.connection.data("eth_getCode", to_hex(wanted.address), "latest")
+        code = self.connection.code(wanted.address)
         if code and code != wanted.code:
             raise TransactionError(
                 f"the code at {checksum_address(wanted.address)} on chain {self.connection.chain_id} is not that of "
@@ -182,11 +175,11 @@ class Deployer:
         """Whether contracts can be deployed, and used; else it would be found out when something was paid."""
         try:
             self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+        except (NoAnswerError, WrongChainError):
             raise
         except ChainError:
             pass  # some nodes make no calls without a receiver
-        limit = block_gas(self.connection)
+        limit = self.connection.block_gas_limit()
         for each in missing:
             if each.gas > limit:
                 raise TransactionError(

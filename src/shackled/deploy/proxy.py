@@ -7,7 +7,7 @@ signed it, which is used for this only; it has to be given what the transaction 
 from __future__ import annotations
 
 from ..chain.connection import Connection
-from ..errors import ChainError, NodeBusyError, NodeTimeoutError, NodeUnreachableError, OutOfGasError, TransactionError
+from ..errors import ChainError, NoAnswerError, OutOfGasError, TransactionError
 from ..ethereum import GWEI, PROXY, checksum_address, keccak256, to_hex
 from .contract import PROXY_CODE
 from .quote import Call, Quote, base_fee
@@ -32,7 +32,7 @@ CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 def proxy_stands(connection: Connection) -> bool:
     """Whether the proxy is on the chain. TransactionError if something else is at its address."""
-    code = connection.data("eth_getCode", to_hex(PROXY), "latest")
+    code = connection.code(PROXY)
     if code and code != PROXY_CODE:
         raise TransactionError(
             f"chain {connection.chain_id} has something else where the deployment proxy belongs, at 0x{PROXY.hex()}: "
@@ -43,14 +43,14 @@ def proxy_stands(connection: Connection) -> bool:
 
 def missing_funds(connection: Connection) -> int:
     """The wei that the account that signed must be given."""
-    return max(0, COST - connection.number("eth_getBalance", to_hex(SIGNER), "latest"))
+    return max(0, COST - connection.balance(SIGNER))
 
 
 def check_gas(connection: Connection) -> None:
     """TransactionError if the published transaction has too little gas for the chain, as the node estimates it."""
     try:
         needed = connection.number("eth_estimateGas", {"data": to_hex(CREATION)})
-    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+    except NoAnswerError:
         raise
     except ChainError:
         return

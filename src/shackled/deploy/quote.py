@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..chain.connection import Connection, quantity
-from ..errors import ChainError, NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, TransactionError
+from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
 from ..ethereum import GWEI, to_hex
 
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
@@ -100,7 +100,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         return Fees(price, price, None, True)
     try:
         tip = connection.number("eth_maxPriorityFeePerGas")
-    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+    except NoAnswerError:
         raise
     except ChainError:
         tip = TIP
@@ -119,10 +119,10 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
 
 def base_fee(connection: Connection) -> int | None:
     """The base fee of the last block, in wei; None on a chain without EIP-1559."""
-    block = connection.request("eth_getBlockByNumber", "latest", False)
+    block = connection.block()
     try:
         return None if block.get("baseFeePerGas") is None else quantity(block["baseFeePerGas"])
-    except (AttributeError, ValueError):
+    except ValueError:
         raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
@@ -171,7 +171,7 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
         try:
             estimate = connection.number("eth_estimateGas", *parameters)
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+        except NoAnswerError:
             raise
         except ChainError:
             continue

@@ -12,7 +12,7 @@ from ..chain.connection import Connection, quantity
 from ..chain.refusal import refusal
 from ..errors import (
     ChainError,
-    NodeBusyError,
+    NoAnswerError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
@@ -71,7 +71,7 @@ class Transactor:
 
     def balance(self) -> int:
         """In wei."""
-        return self.connection.number("eth_getBalance", to_hex(self.address), "latest")
+        return self.connection.balance(self.address)
 
     def fees(self) -> Fees:
         """What gas costs now; TransactionError as `current_fees` has it."""
@@ -230,7 +230,7 @@ class Transactor:
                 answer = ask()
                 if answer is not None:
                     return answer
-            except (NodeBusyError, NodeTimeoutError, NodeUnreachableError) as error:
+            except NoAnswerError as error:
                 failure = error
             if self.late is not None and not told and time.monotonic() - started > LATE:
                 told = True
@@ -267,15 +267,6 @@ def _unbound(error: NodeError) -> bool:
     """Whether a node takes only transactions that are bound to a chain (EIP-155)."""
     said = str(error).lower()
     return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
-
-
-def block_gas(connection: Connection) -> int:
-    """The gas that all transactions of a block may use."""
-    block = connection.request("eth_getBlockByNumber", "latest", False)
-    try:
-        return quantity(block["gasLimit"])
-    except (TypeError, LookupError, ValueError):
-        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
 def _are_logs(logs: Any) -> bool:

@@ -17,7 +17,7 @@ SUMMARY = "contracts.json"
 def write_verification(folder: Path, chain_id: int, standing: Sequence[Deployment]) -> list[Path]:
     """Writes the compiler's input in standard JSON, and a list of the contracts with all that is asked about them.
 
-    InputError if the folder cannot be written to.
+    Raises OutputError if the folder cannot be written to.
     """
     contracts, inputs = [], {}
     artifacts = files("shackled.artifacts")

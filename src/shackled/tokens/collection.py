@@ -135,7 +135,7 @@ class Collection:
             allow_list_signer=self._address(call("allowListSigner")),
             royalty_receiver=self._address(receiver),
             royalty=royalty,
-            balance=self.connection.number("eth_getBalance", self.address, "latest"),
+            balance=self.connection.balance(bytes.fromhex(self.address[2:])),
         )
 
     def _phase(self) -> int:

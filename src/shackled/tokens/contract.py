@@ -7,14 +7,7 @@ from typing import Any
 from ..artifacts import artifact
 from ..chain.connection import Connection
 from ..chain.node import metered
-from ..errors import (
-    NodeBusyError,
-    NodeError,
-    NodeTimeoutError,
-    NodeUnreachableError,
-    OutOfGasError,
-    RevertError,
-)
+from ..errors import NoAnswerError, NodeError, OutOfGasError, RevertError
 from ..ethereum import to_hex
 from .refusals import in_words
 
@@ -65,7 +58,7 @@ class Contract:
             result = metered(self.connection, bytes.fromhex(self.address[2:]), data)
         except RevertError as error:
             raise in_words(error) from None
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+        except NoAnswerError:
             raise
         except (NodeError, OutOfGasError):
             return None

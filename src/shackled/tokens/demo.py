@@ -62,11 +62,10 @@ def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_f
         collection = play(connection, users, demo, tell)
         _read_back(collection, demo, tell)
     gas = [token.gas for token in demo.tokens if token.gas is not None]
-    block = connection.request("eth_getBlockByNumber", "latest", False)
     facts = [
         ("tokens", f"{len(demo.tokens)}"),
         ("chain", f"{connection.chain_id} (a development node)"),
-        ("the node's limit on gas", f"{int(block['gasLimit'], 16):,}"),
+        ("the node's limit on gas", f"{connection.block_gas_limit():,}"),
         ("tokenURI, gas", f"{min(gas) / 1e6:.1f} to {max(gas) / 1e6:.1f} million"),
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]

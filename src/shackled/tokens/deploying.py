@@ -13,7 +13,7 @@ from ..deploy.contract import deployment, local_chain
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
-from ..ethereum import PROXY, checksum_address, create2_address, ether, to_hex, word
+from ..ethereum import PROXY, checksum_address, create2_address, ether, word
 from .collection import Collection
 from .immutables import immutable_values
 from .kinds import Kind
@@ -168,7 +168,7 @@ def launch(
 
 def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
     """Whether a collection is at its address. VerificationError if anything else is there."""
-    code = connection.data("eth_getCode", to_hex(place), "latest")
+    code = connection.code(place)
     if code:
         immutable_values(code, artifact(kind.contract).runtime)
     return bool(code)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ..chain.connection import Connection
 from ..errors import VerificationError
-from ..ethereum import checksum_address, to_hex
+from ..ethereum import checksum_address
 from ..studio.keeping import PARTS, POINTED, SCENE, kept_at, scene_struct
 
 
@@ -19,7 +19,7 @@ def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterato
 
     def read(place: bytes) -> bytes:
         """The bytes that are kept at a place, parts and all."""
-        code = connection.data("eth_getCode", to_hex(place), "latest")
+        code = connection.code(place)
         if not code:
             raise VerificationError(f"nothing is kept at {checksum_address(place)}")
         # it starts with an instruction that stops all calls; the bytes after it make the address

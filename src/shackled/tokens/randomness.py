@@ -32,7 +32,7 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
         )
     latest = connection.number("eth_blockNumber")
     # the first block of all is made by whoever begins the chain
-    blocks = [_block(connection, number) for number in range(max(1, latest - BLOCKS + 1), latest + 1)]
+    blocks = [connection.block(number) for number in range(max(1, latest - BLOCKS + 1), latest + 1)]
     randomness = [block.get("mixHash") for block in blocks]
     if len(set(randomness)) < len(blocks):
         raise TransactionError(
@@ -68,10 +68,3 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
             f"tokens could never be revealed on chain {chain}: its contracts see 0x{found.hex()} as the hash of block "
             f"{number:,}, whose header has {block.get('hash')!s:.66}"
         )
-
-
-def _block(connection: Connection, number: int) -> dict[str, Any]:
-    block = connection.request("eth_getBlockByNumber", hex(number), False)
-    if not isinstance(block, dict):
-        raise NodeError(f"the {connection.name} does not have block {number:,}, of which it told")
-    return block

@@ -87,7 +87,7 @@ def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[S
 
 def header_of(collection: Collection, number: int) -> bytes:
     """The header of a block, whose hash the node says and we check."""
-    block = block_of(collection, number)
+    block = collection.connection.block(number)
     try:
         return encode_header(block)
     except InputError:
@@ -96,17 +96,6 @@ def header_of(collection: Collection, number: int) -> bytes:
         raise NodeError(
             f"the {collection.connection.name} tells a block {number:,} with fields that are none: {block!r:.60}"
         ) from None
-
-
-def block_of(collection: Collection, number: int) -> dict[str, Any]:
-    """A block as the node tells it. NodeError if it does not have it."""
-    block = collection.connection.request("eth_getBlockByNumber", hex(number), False)
-    if not isinstance(block, dict):
-        raise NodeError(
-            f"the {collection.connection.name} does not have block {number:,}; take one that keeps them all"
-        )
-    found: dict[str, Any] = block
-    return found
 
 
 def _proofs(collection: Collection, forgotten: list[int]) -> Iterator[Step]:

@@ -12,7 +12,7 @@ from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transacto
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import VerificationError
-from ..ethereum import checksum_address, to_hex
+from ..ethereum import checksum_address
 from ..image import Image, decode_bmp
 from ..render import render
 from ..scene.scene import Scene
@@ -132,4 +132,4 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
 
 
 def _stands(connection: Connection, storing: Storing) -> bool:
-    return bool(connection.data("eth_getCode", to_hex(storing.pointer), "latest"))
+    return bool(connection.code(storing.pointer))

@@ -22,7 +22,6 @@ from .immutables import immutable_places, immutable_values
 from .kept import kept_codes
 from .kinds import Kind
 from .metadata import Metadata, read_token_uri, shrink
-from .reveal import block_of
 
 #: EIP-712: what the domain of permissions is made of.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
@@ -67,7 +66,7 @@ def check_collection_code(collection: Collection) -> None:
     """
     connection, kind = collection.connection, collection.kind
     runtime = artifact(kind.contract).runtime
-    code = connection.data("eth_getCode", collection.address, "latest")
+    code = connection.code(bytes.fromhex(collection.address[2:]))
     immutable_values(code, runtime)
     # the constructor is run here with numbers that nothing else has, which shows where it writes each of them
     sentinels = Offer("0x" + "11" * 20, "0x" + "11" * 20, price=0xABCDEF01, reserve=513, per_transaction=77)
@@ -148,7 +147,7 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     number = collection.round_of(token)
     randomness = collection.contract.call("randomnessOf", number)
     block_number = collection.contract.call("blockOf", number)
-    block = block_of(collection, block_number)
+    block = collection.connection.block(block_number)
     drawn = keccak256(randomness + word(parse_address(collection.address, "the collection")) + word(token))
     if block.get("mixHash") != to_hex(randomness):
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
