@@ -1,4 +1,4 @@
-"""Choosing where contracts run."""
+"""Choosing where contracts run, or the NumPy renderer in their place."""
 
 from __future__ import annotations
 
@@ -7,11 +7,33 @@ from importlib.util import find_spec
 
 from ..errors import ChainError, InputError
 from ..ethereum import parse_address
-from .chain import Chain
+from ..scene.codec import Rectangle
+from ..scene.scene import Scene
+from .chain import Chain, Drawing
 from .connection import PATIENCE, Connection
 from .embedded import EmbeddedChain, PyEvmChain, PyrevmChain
 from .node import NodeChain
-from .reference import ReferenceChain
+
+
+class ReferenceChain:
+    """The NumPy reference renderer."""
+
+    name = "NumPy reference"
+
+    def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
+        """The picture of a scene, or of a part of its canvas."""
+        from .. import reference
+
+        return Drawing(reference.render(scene, tile), None, None)
+
+    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
+        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
+        any of them covers.
+        """
+        from .. import reference
+
+        return reference.count(scene, tile)
+
 
 #: The names of chains, and the module that each needs.
 CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}

@@ -47,7 +47,19 @@ class Deployment:
 
 
 def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
-    """The contracts of these names, each after those that it calls, which are added. InputError for an unknown one."""
+    """Return the contracts of these names, each after those that it calls, which are added.
+
+    Raises InputError for a name that is not in `CONTRACTS`.
+    """
+    chosen = list(names)
+    for name in chosen:
+        if name not in CONTRACTS:
+            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(CONTRACTS)}")
+    return in_order(chosen)
+
+
+def in_order(names: Iterable[str]) -> list[Deployment]:
+    """Return any contracts whose constructors take nothing but other contracts, each after those that it calls."""
     chosen: list[str] = []
 
     def add(name: str) -> None:
@@ -57,8 +69,6 @@ def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
             chosen.append(name)
 
     for name in names:
-        if name not in CONTRACTS:
-            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(CONTRACTS)}")
         add(name)
     local = local_chain()
     return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]

@@ -9,7 +9,7 @@ from typing import Any
 from ..artifacts import artifact
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Deployment, Fees, Plan, Quote, Receipt, Step, Transactor
-from ..deploy.contract import deployment, local_chain
+from ..deploy.contract import deployment, in_order
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
@@ -68,23 +68,11 @@ class Offer:
 
 
 def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
-    """The contracts that one needs, in the order in which they are deployed; the same on every chain.
+    """Return the contracts that one needs, in the order in which they are deployed; the same on every chain.
 
-    itself: that one too, which needs nothing but these.
+    itself: whether to add that one, which needs nothing but these.
     """
-    chosen: list[str] = []
-
-    def add(name: str) -> None:
-        for part in artifact(name).parts:
-            add(part)
-            if part not in chosen:
-                chosen.append(part)
-
-    add(contract)
-    if itself:
-        chosen.append(contract)
-    local = local_chain()
-    return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]
+    return in_order([contract] if itself else artifact(contract).parts)
 
 
 def address_of(deployments: Sequence[Deployment], name: str) -> str:

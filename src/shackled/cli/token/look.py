@@ -11,6 +11,7 @@ import typer
 
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
+from ...whole_file import write_output
 from ..option import option
 from ..telling import tell
 from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table
@@ -28,7 +29,7 @@ def show(
 ) -> None:
     """Show a token: its traits, and its picture as a file, both from its `tokenURI`."""
     from ...tokens.gallery import Shown
-    from ...tokens.picture_file import check_picture_file, save_picture
+    from ...tokens.metadata import check_picture_file, save_picture
 
     if output is not None:
         check_picture_file(output)
@@ -115,7 +116,7 @@ def picture(
     from ...studio.keeping import STUDIO
     from ...tokens.contract import Contract
     from ...tokens.deploying import address_of, parts_of
-    from ...tokens.picture_file import check_picture_file, write_picture
+    from ...tokens.metadata import check_picture_file
 
     place = address(pointer, "the pointer")
     if output.suffix.lower() != ".png":
@@ -123,7 +124,7 @@ def picture(
     check_picture_file(output)
     studio = Contract(connect(rpc, chain_id), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
     content = studio.call("renderPNG(address,uint256)", place, scale)
-    write_picture(output, content)
+    write_output(output, content)
     gas = studio.gas("renderPNG(address,uint256)", place, scale)
     tell(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 

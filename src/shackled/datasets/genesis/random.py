@@ -7,12 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from Crypto.Hash import keccak
-
-
-def keccak256(data: bytes) -> bytes:
-    """The hash that Ethereum uses."""
-    return keccak.new(digest_bits=256, data=data).digest()
+from ...ethereum import keccak256
 
 
 @dataclass(frozen=True)
