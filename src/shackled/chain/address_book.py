@@ -18,7 +18,7 @@ VARIABLE = "SHACKLED_ADDRESS_BOOK"
 
 
 def book_path() -> Path:
-    """That of the variable SHACKLED_ADDRESS_BOOK, or else in the system's folder for such files; it may not exist."""
+    """Return the path in the variable SHACKLED_ADDRESS_BOOK, or one in the system's folder for data of users."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return Path(chosen)
@@ -35,16 +35,16 @@ class AddressBook:
         self.path = book_path() if path is None else path
 
     def find(self, chain_id: int, contract: str) -> bytes | None:
-        """The address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
+        """Return the address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
         return self.entries(chain_id).get(contract)
 
     def entries(self, chain_id: int) -> dict[str, bytes]:
-        """All that is known of a chain. InputError if the file cannot be read."""
+        """Return all that is known of a chain. InputError if the file cannot be read."""
         chain = self._read().get(str(chain_id), {})
         return {name: parse_address(text, f"{name} on chain {chain_id} in {self.path}") for name, text in chain.items()}
 
     def places(self, contract: str) -> dict[int, bytes]:
-        """The addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
+        """Return the addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
         found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
         return {chain: address for chain, address in found.items() if address is not None}
 

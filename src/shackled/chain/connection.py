@@ -23,7 +23,7 @@ class Connection:
     """Asks a node by JSON-RPC; several threads may at once. No message shows a key that the address holds."""
 
     def __init__(self, url: str, timeout: float = PATIENCE, attempts: int = 1) -> None:
-        """Nothing is sent yet.
+        """Prepare requests; nothing is sent yet.
 
         timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
         InputError if the address is none.
@@ -52,7 +52,7 @@ class Connection:
         self._chain_id: int | None = None
 
     def request(self, method: str, *parameters: Any) -> Any:
-        """The result of a method.
+        """Return the result of a method.
 
         NodeError or its kinds if the node fails, RevertError or OutOfGasError if the call does that was asked for.
         """
@@ -68,7 +68,7 @@ class Connection:
         raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
 
     def number(self, method: str, *parameters: Any) -> int:
-        """The result of a method that answers with a number, of at most 256 bits."""
+        """Return the result of a method that answers with a number, of at most 256 bits."""
         result = self.request(method, *parameters)
         try:
             return quantity(result)
@@ -76,7 +76,7 @@ class Connection:
             raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
 
     def data(self, method: str, *parameters: Any) -> bytes:
-        """The result of a method that answers with bytes."""
+        """Return the result of a method that answers with bytes."""
         result = self.request(method, *parameters)
         try:
             if isinstance(result, str) and result.startswith("0x"):
@@ -119,7 +119,7 @@ class Connection:
         return self._chain_id
 
     def expect_chain(self, chain_id: int | None) -> None:
-        """WrongChainError if the node belongs to another chain; None expects none."""
+        """Raise WrongChainError if the node belongs to another chain; None expects none."""
         if chain_id is not None and self.chain_id != chain_id:
             raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
 
@@ -141,14 +141,14 @@ class Connection:
 
 
 def quantity(value: Any) -> int:
-    """The number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
+    """Return the number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
     if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
         return int(value, 16)
     raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
 
 
 def _without_key(url: str) -> str:
-    """The address up to where a key may stand."""
+    """Return the address up to where a key may stand."""
     scheme, mark, rest = url.partition("://")
     if not mark:
         scheme, rest = "", url

@@ -41,7 +41,7 @@ class EmbeddedChain(ContractChain):
         return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
 
     def address(self, contract: str) -> bytes:
-        """Where a contract stands: here as on every chain on which `shackled deploy` has put it."""
+        """Return where a contract stands: here as on every chain on which `shackled deploy` has put it."""
         if contract not in self._addresses:
             creation = self.creation(contract)
             code = self.create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
@@ -51,12 +51,12 @@ class EmbeddedChain(ContractChain):
         return self._addresses[contract]
 
     def creation(self, contract: str) -> bytes:
-        """What deploys a contract, with the arguments of its constructor."""
+        """Return what deploys a contract, with the arguments of its constructor."""
         built = artifact(contract)
         return built.creation + b"".join(word(self.address(part)) for part in built.parts)
 
     def code(self, contract: str) -> bytes:
-        """What stands at the address of a contract."""
+        """Return what stands at the address of a contract."""
         return self._codes[self.address(contract)]
 
     def put(self, address: bytes, code: bytes) -> None:
@@ -68,7 +68,7 @@ class EmbeddedChain(ContractChain):
         return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
 
     def codes(self) -> dict[bytes, bytes]:
-        """The code of every contract that was set up, by its address."""
+        """Return the code of every contract that was set up, by its address."""
         return dict(self._codes)
 
     @abstractmethod

@@ -103,7 +103,7 @@ REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -
 
 
 def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes) -> NodeError:
-    """The error of an answer with an HTTP status that is not 200."""
+    """Return the error of an answer with an HTTP status that is not 200."""
     said = f"the {name} answered with HTTP status {status}"
     if status == 429 or (status == 503 and retry_after(headers) is not None):
         return too_often(name, retry_after(headers), f" (HTTP status {status})")
@@ -125,7 +125,7 @@ def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes
 
 
 def rpc_failure(name: str, error: Any) -> ChainError:
-    """The error that a node gave in place of a result, by its words, its number and its data."""
+    """Return the error that a node gave in place of a result, by its words, its number and its data."""
     fields = error if isinstance(error, dict) else {"message": error}
     message, code, data = str(fields.get("message", error)), fields.get("code"), fields.get("data")
     reverted = revert_data(data)
@@ -167,7 +167,7 @@ def rpc_failure(name: str, error: Any) -> ChainError:
 
 
 def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError:
-    """The error of a node that wants to be asked less often."""
+    """Return the error of a node that wants to be asked less often."""
     when = "later" if seconds is None else f"in {math.ceil(seconds)} s"
     return NodeBusyError(
         f"the {name} asks to be called less often{said}; try again {when}, or take another node", seconds
@@ -175,7 +175,7 @@ def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError
 
 
 def too_large(name: str, said: object = "") -> TooLargeError:
-    """The error of a node that takes no request, or gives no answer, of this size."""
+    """Return the error of a node that takes no request, or gives no answer, of this size."""
     return TooLargeError(
         f"the {name} does not take a request or give an answer of this size{_quote(str(said or ''))}: "
         "take a smaller `size` or `max_triangles`, or raise its limit"
@@ -183,7 +183,7 @@ def too_large(name: str, said: object = "") -> TooLargeError:
 
 
 def retry_after(headers: Mapping[str, str]) -> float | None:
-    """The seconds that the header Retry-After asks for, given as such or as a date."""
+    """Return the seconds that the header Retry-After asks for, given as such or as a date."""
     value = headers.get("Retry-After", "").strip()
     if not value:
         return None
@@ -201,7 +201,7 @@ def retry_after(headers: Mapping[str, str]) -> float | None:
 
 
 def revert_data(data: Any) -> bytes | None:
-    """The bytes of a revert, wherever a node puts them: bare, behind a word, or in an object; None if nowhere."""
+    """Find the bytes of a revert: nodes put them bare, behind a word, or in an object. None if there are none."""
     if isinstance(data, dict):
         for key in ("data", "result", "output", "return"):
             found = revert_data(data.get(key))
@@ -222,5 +222,5 @@ def _shorten(said: str, most: int = 200) -> str:
 
 
 def _words(body: bytes) -> str:
-    """The text of a page, without its tags."""
+    """Return the text of a page, without its tags."""
     return _shorten(re.sub(r"<[^>]*>", " ", body[:2000].decode(errors="replace")), 100)

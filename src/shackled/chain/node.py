@@ -70,7 +70,7 @@ class NodeChain:
         address: bytes | None = None,
         book: AddressBook | None = None,
     ) -> None:
-        """Nothing is asked yet.
+        """Prepare calls; nothing is asked yet.
 
         local: sets up the contracts whose code is sent or compared. address: of a deployed renderer that is to be
         called. book: where addresses are looked up; None takes the user's.
@@ -92,15 +92,13 @@ class NodeChain:
         return self.connection.name + (f" ({ways})" if ways else "")
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """The picture of a scene, or of a part of its canvas."""
+        """Return the picture of a scene, or of a part of its canvas."""
         data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
         result = self.call("Renderer", data)
         return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
-        any of them covers.
-        """
+        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
         return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
@@ -133,7 +131,7 @@ class NodeChain:
         return max(0, self._probed.gas * 63 // 64 - 30_000 - self._carried_gas)
 
     def too_little(self) -> OutOfGasError:
-        """The error of a node whose calls have too little gas for any render."""
+        """Return the error of a node whose calls have too little gas for any render."""
         said = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
         if not self._carried_gas:
             return OutOfGasError(f"{said}; raise its limit, or take another node")
@@ -143,7 +141,7 @@ class NodeChain:
         )
 
     def place(self, contract: str) -> bytes | None:
-        """Where a contract is deployed on the node's chain, as it is here; None if it is not.
+        """Return where a contract is deployed on the node's chain, as it is here; None if it is not.
 
         RenderError if a renderer was named and what is there is none.
         """
@@ -153,7 +151,7 @@ class NodeChain:
             return self._places[contract]
 
     def _named(self, contract: str) -> bytes | None:
-        """The renderer that was named, or one of its engines."""
+        """Return the renderer that was named, or one of its engines."""
         assert self._address is not None
         if contract not in RENDERER:
             return None
@@ -179,12 +177,12 @@ class NodeChain:
         return None
 
     def _stands(self, contract: str, address: bytes) -> bool:
-        """Whether the contract, and those that it calls, are there."""
+        """Return whether the contract, and those that it calls, are there."""
         parts = self._parts(contract, self._code(address))
         return parts is not None and all(self._stands(part, place) for part, place in parts.items())
 
     def _parts(self, contract: str, code: bytes) -> dict[str, bytes] | None:
-        """The addresses of those that it calls, from the code of a contract; None if the code is not its own."""
+        """Return the addresses of those that it calls, from the code of a contract; None if the code is not its own."""
         expected, parts = self._local.code(contract), {}
         for part in artifact(contract).parts:
             here = word(self._local.address(part))
@@ -208,7 +206,7 @@ class NodeChain:
         return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A call of what is deployed, by a creation that counts its gas if that is possible."""
+        """Call what is deployed, by a creation that counts its gas if that is possible."""
         init = artifact("DeployedCall").creation + word(place) + _limit(gas_limit) + _bytes(data, 96)
         if len(init) <= MAX_INIT_CODE and self._answers_creations:
             try:
@@ -222,7 +220,7 @@ class NodeChain:
         return NodeResult(self.connection.data("eth_call", request, "latest"), None)
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A creation that makes the contracts, and calls the last of them."""
+        """Call a contract by a creation that makes the contracts first."""
         names = [*reversed(self._below(contract)), contract]
         codes = [artifact(name).creation for name in names]
         packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
@@ -240,7 +238,7 @@ class NodeChain:
         )
 
     def _carried(self, init: bytes) -> NodeResult:
-        """What a creation says that brings the contracts along."""
+        """Make a creation call that brings the contracts along, and return what it says."""
         try:
             return self._answer_of(init)
         except (NoAnswerError, TooLargeError, WrongChainError):
@@ -257,7 +255,7 @@ class NodeChain:
             raise
 
     def _answer_of(self, init: bytes) -> NodeResult:
-        """What a creation that ends by a revert says of the call that it made."""
+        """Make a creation call that ends by a revert, and return what it says of the call that it made."""
         try:
             self.connection.request("eth_call", {"data": to_hex(init)} | self._probed.field, "latest")
         except RevertError as error:
@@ -275,12 +273,12 @@ class NodeChain:
         )
 
     def _below(self, contract: str) -> list[str]:
-        """The contracts that a contract needs, the nearest first."""
+        """Return the contracts that a contract needs, the nearest first."""
         parts = artifact(contract).parts
         return parts + [each for part in parts for each in self._below(part)]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
-        """The error of a call whose contract said this, or, with None, that had too little gas."""
+        """Return the error of a call whose contract said this, or, with None, that had too little gas."""
         failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
             hint = "take a smaller `size`, or raise its limit"
@@ -337,7 +335,7 @@ def metered(
 
 
 def _probe(connection: Connection) -> _Probed:
-    """Whether a node knows state overrides, and how much gas a call gets if it asks for very much, or for none."""
+    """Find out whether a node knows state overrides, and how much gas a call gets that asks for much or for none."""
     override = {to_hex(METER): {"code": to_hex(GAS_LEFT)}}
     for overrides in (True, False):
         found = []
@@ -362,10 +360,10 @@ def _probe(connection: Connection) -> _Probed:
 
 
 def _limit(gas: int | None) -> bytes:
-    """As the contracts take it: 0 is none."""
+    """Encode a limit as the contracts take it: 0 is none."""
     return word(0 if gas is None else max(1, gas))
 
 
 def _bytes(data: bytes, offset: int) -> bytes:
-    """The last argument, of type bytes, which begins so many bytes behind the first."""
+    """Return the last argument, of type bytes, which begins so many bytes behind the first."""
     return word(offset) + word(len(data)) + data + bytes(-len(data) % 32)

@@ -21,15 +21,13 @@ class ReferenceChain:
     name = "NumPy reference"
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """The picture of a scene, or of a part of its canvas."""
+        """Return the picture of a scene, or of a part of its canvas."""
         from .. import reference
 
         return Drawing(reference.render(scene, tile), None, None)
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
-        any of them covers.
-        """
+        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
         from .. import reference
 
         return reference.count(scene, tile)
@@ -41,7 +39,7 @@ _KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChai
 
 
 def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
-    """The node at an address.
+    """Return the node at an address.
 
     address: of a renderer that is deployed there; None takes the one that is known, or brings it along. timeout:
     seconds for an answer. InputError for what is none.
@@ -54,7 +52,7 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
 
 @cache
 def open_chain(name: str | None = None) -> Chain:
-    """The chain of that name; None takes the fastest EVM that is installed."""
+    """Return the chain of that name; None takes the fastest EVM that is installed."""
     if name is None:
         name = next((each for each in ("pyrevm", "pyevm") if find_spec(CHAINS[each])), None)
         if name is None:

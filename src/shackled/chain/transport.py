@@ -60,7 +60,7 @@ class Transport:
         return answer
 
     def _post(self, request: bytes) -> bytes:
-        """The body of the answer."""
+        """Return the body of the answer."""
         started = time.monotonic()
         while True:
             kept = hasattr(self._sessions, "session")
@@ -99,7 +99,7 @@ class Transport:
         return body
 
     def _session(self) -> requests.Session:
-        """That of the thread."""
+        """Return the session of this thread."""
         if not hasattr(self._sessions, "session"):
             self._sessions.session = requests.Session()
             self._sessions.session.trust_env = not self.local
@@ -110,7 +110,7 @@ class Transport:
 
 
 def is_address(url: str) -> bool:
-    """Whether a request can be sent there."""
+    """Return whether a request can be sent there."""
     try:
         requests.Request("POST", url).prepare()
     except (requests.RequestException, ValueError):
@@ -120,7 +120,7 @@ def is_address(url: str) -> bool:
 
 
 def _failure(error: Exception) -> tuple[type[NodeError], str]:
-    """The kind of what came in place of an answer, and what to say of the node."""
+    """Return the kind of what came in place of an answer, and what to say of the node."""
     reason = getattr(error.args[0], "reason", None) if error.args else None
     if isinstance(error, requests.exceptions.ConnectTimeout):
         return NodeUnreachableError, "takes no connection; is it running, and is its address right?"
@@ -136,7 +136,7 @@ def _failure(error: Exception) -> tuple[type[NodeError], str]:
 
 
 def _is_rpc_error(status: int, body: bytes, request: bytes) -> bool:
-    """Whether an answer is a node's refusal of this very request, which says more than the status."""
+    """Return whether an answer is a node's refusal of this very request, which says more than the status."""
     if status in (413, 429):
         return False
     try:

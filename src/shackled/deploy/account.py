@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 
 def environment_account(name: str) -> LocalAccount:
-    """The account whose private key, 64 hexadecimal digits, is in an environment variable. InputError if none is."""
+    """Return the account whose private key, 64 hexadecimal digits, an environment variable has.
+
+    Raises InputError if it has none.
+    """
     from eth_account import Account
 
     value = os.environ.get(name, "").strip()
@@ -37,7 +40,7 @@ def environment_account(name: str) -> LocalAccount:
 
 
 def read_keystore(path: Path) -> str:
-    """The text of a keystore file. InputError if it is none."""
+    """Return the text of a keystore file. InputError if it is none."""
     try:
         text = path.read_text("utf-8")
     except (OSError, ValueError) as error:
@@ -60,7 +63,7 @@ def read_keystore(path: Path) -> str:
 
 
 def keystore_account(path: Path, password: str) -> LocalAccount:
-    """The account of a keystore file. InputError if it is none, or the password is wrong."""
+    """Return the account of a keystore file. InputError if it is none, or the password is wrong."""
     from eth_account import Account
 
     text = read_keystore(path)

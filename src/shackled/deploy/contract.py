@@ -75,7 +75,7 @@ def in_order(names: Iterable[str]) -> list[Deployment]:
 
 
 def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: EmbeddedChain | None = None) -> Deployment:
-    """A contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
+    """Return a contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
 
     name: for people, and the address book. ChainError if the constructor refuses.
     """
@@ -93,7 +93,7 @@ def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: Emb
 
 
 def local_chain() -> EmbeddedChain:
-    """An EVM of its own in which contracts are tried."""
+    """Return an EVM of its own in which contracts are tried."""
     kind = type(open_chain(None))
     assert issubclass(kind, EmbeddedChain)
     return kind()

@@ -90,7 +90,7 @@ class Deployer:
         self.book = AddressBook() if book is None else book
 
     def plan(self, wanted: Sequence[Deployment], fees: Fees | None = None) -> Plan:
-        """What of the contracts is there, and what the rest costs. fees: None asks for those of now.
+        """Return what of the contracts is there, and what the rest costs. fees: None asks for those of now.
 
         TransactionError if there is anything else, a block cannot hold a contract, or the node's prices are not to be
         believed (`current_fees`, `make_quote`); WrongChainError if the chain has older rules than the contracts need.
@@ -115,7 +115,7 @@ class Deployer:
         return Plan(tuple(steps), fees)
 
     def look_again(self, plan: Plan) -> Plan:
-        """The plan without what has come there meanwhile; its quotes stay what they were."""
+        """Return the plan without what has come there meanwhile; its quotes stay what they were."""
         return replace(plan, steps=tuple(self._look_again(step) for step in plan.steps))
 
     def _look_again(self, step: Step) -> Step:
@@ -125,7 +125,7 @@ class Deployer:
         return replace(step, there=True, gas=0, quote=None) if stands else step
 
     def stands(self, wanted: Deployment) -> bool:
-        """Whether a contract is where it belongs. TransactionError if anything else is there."""
+        """Return whether a contract is where it belongs. TransactionError if anything else is there."""
         code = self.connection.code(wanted.address)
         if code and code != wanted.code:
             raise TransactionError(
@@ -172,7 +172,7 @@ class Deployer:
             self.book.write(self.connection.chain_id, {each.name: each.address for each in standing})
 
     def _check_chain(self, missing: Sequence[Deployment]) -> None:
-        """Whether contracts can be deployed, and used; else it would be found out when something was paid."""
+        """Check that contracts can be deployed and used, before anything is paid."""
         try:
             self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
         except (NoAnswerError, WrongChainError):

@@ -31,7 +31,7 @@ CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 
 def proxy_stands(connection: Connection) -> bool:
-    """Whether the proxy is on the chain. TransactionError if something else is at its address."""
+    """Return whether the proxy is on the chain. TransactionError if something else is at its address."""
     code = connection.code(PROXY)
     if code and code != PROXY_CODE:
         raise TransactionError(
@@ -42,12 +42,12 @@ def proxy_stands(connection: Connection) -> bool:
 
 
 def missing_funds(connection: Connection) -> int:
-    """The wei that the account that signed must be given."""
+    """Return the wei that the account that signed must be given."""
     return max(0, COST - connection.balance(SIGNER))
 
 
 def check_gas(connection: Connection) -> None:
-    """TransactionError if the published transaction has too little gas for the chain, as the node estimates it."""
+    """Raise TransactionError if the node estimates more gas than the published transaction has."""
     try:
         needed = connection.number("eth_estimateGas", {"data": to_hex(CREATION)})
     except NoAnswerError:
@@ -59,7 +59,7 @@ def check_gas(connection: Connection) -> None:
 
 
 def too_little_gas(connection: Connection, why: str) -> TransactionError:
-    """The error of a chain whose gas is too dear for the published transaction."""
+    """Return the error of a chain whose gas is too dear for the published transaction."""
     return TransactionError(
         f"chain {connection.chain_id} has no deployment proxy, and the published transaction that deploys it has "
         f"{GAS:,} gas, {why}: take a chain that has the proxy at {checksum_address(PROXY)}, or, on a development node, "
@@ -68,7 +68,7 @@ def too_little_gas(connection: Connection, why: str) -> TransactionError:
 
 
 def funding(missing: int) -> Call:
-    """What gives the account that signed the wei that it misses."""
+    """Return the transfer of the wei that the account that signed misses."""
     return Call(SIGNER, b"", TRANSFER_GAS, missing)
 
 

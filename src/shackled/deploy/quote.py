@@ -52,7 +52,7 @@ class Call:
     needs: Mapping[bytes, bytes] = field(default_factory=dict)
 
     def request(self, sender: bytes | None = None) -> dict[str, str]:
-        """As JSON-RPC has it."""
+        """Return the fields of the transaction as JSON-RPC has them."""
         parts = {"from": sender, "to": self.to, "data": self.data}
         return {key: to_hex(part) for key, part in parts.items() if part is not None} | {"value": hex(self.value)}
 
@@ -82,11 +82,12 @@ class Quote:
 
 
 def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
-    """What gas costs on a chain now, with headroom for a base fee that doubles. max_fee: the most that somebody is
-    ready to pay for a gas, in wei.
+    """Return what gas costs on a chain now, with headroom for a base fee that doubles.
 
-    TransactionError if it costs more than that; without a `max_fee`, if the node suggests a tip above 3 gwei, or tells
-    no base fee, so that nothing would bound the price.
+    max_fee: the highest price of a gas that may be paid, in wei.
+
+    Raises TransactionError if it costs more than that; without a `max_fee`, if the node suggests a tip above 3 gwei, or
+    tells no base fee, so that nothing would bound the price.
     """
     base = base_fee(connection)
     if base is None:
@@ -118,7 +119,7 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
 
 
 def base_fee(connection: Connection) -> int | None:
-    """The base fee of the last block, in wei; None on a chain without EIP-1559."""
+    """Return the base fee of the last block, in wei; None on a chain without EIP-1559."""
     block = connection.block()
     try:
         return None if block.get("baseFeePerGas") is None else quantity(block["baseFeePerGas"])
@@ -127,7 +128,7 @@ def base_fee(connection: Connection) -> int | None:
 
 
 def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: float = 1.0) -> Quote:
-    """A quote. name: of the node. rate: what to multiply our count by where the node gives no estimate.
+    """Return a quote. name: of the node. rate: what to multiply our count by where the node gives no estimate.
 
     TransactionError if the estimate is more than 10 times our count, and nobody named a price.
     """
@@ -164,7 +165,7 @@ def make_quotes(
 
 
 def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
-    """The gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
+    """Return the gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
     plain: list[Any] = [call.request(sender)]
     overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}
     # nodes that know no overrides refuse them

@@ -70,19 +70,19 @@ class Transactor:
         return f"the account {checksum_address(self.address)}"
 
     def balance(self) -> int:
-        """In wei."""
+        """Return the balance of the account, in wei."""
         return self.connection.balance(self.address)
 
     def fees(self) -> Fees:
-        """What gas costs now; TransactionError as `current_fees` has it."""
+        """Return what gas costs now; TransactionError as `current_fees` has it."""
         return current_fees(self.connection, self.max_fee)
 
     def quote(self, call: Call) -> Quote:
-        """A quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
+        """Return a quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
         return make_quote(self.connection.name, call, self.fees(), self.estimate(call))
 
     def estimate(self, call: Call) -> int:
-        """The gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
+        """Return the gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
         try:
             return self.connection.number("eth_estimateGas", call.request(self.address))
         except RevertError as error:
@@ -204,7 +204,7 @@ class Transactor:
         return Receipt(digest, block, gas, gas * price, tuple(logs))
 
     def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
-        """Why a transaction failed, by making it again as a call."""
+        """Return why a transaction failed, by making it again as a call."""
         if transaction is None:
             return ""
         call = {"from": to_hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
@@ -218,7 +218,7 @@ class Transactor:
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """What is answered as soon as it is not None; None if it takes too long. A node that fails is asked again.
+        """Ask until the answer is not None, and return it; None if it takes too long. A node that fails is asked again.
 
         what: is waited for, for people.
         """
@@ -243,7 +243,7 @@ class Transactor:
             pause = min(2.0, pause * 1.5)
 
     def _rejected(self, error: NodeError, cost: int) -> ChainError:
-        """What a node says against a transaction, with what to do."""
+        """Return what a node says against a transaction, with what to do."""
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
             return TransactionError(
@@ -264,13 +264,13 @@ class Transactor:
 
 
 def _unbound(error: NodeError) -> bool:
-    """Whether a node takes only transactions that are bound to a chain (EIP-155)."""
+    """Return whether a node takes only transactions that are bound to a chain (EIP-155)."""
     said = str(error).lower()
     return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
 
 
 def _are_logs(logs: Any) -> bool:
-    """Whether these are events as a receipt has them."""
+    """Return whether these are events as a receipt has them."""
     return isinstance(logs, list) and all(
         isinstance(log, dict)
         and _is_hex(log.get("address"), 20)
@@ -285,5 +285,5 @@ def _is_hex(value: Any, size: int) -> bool:
 
 
 def _why(data: bytes, gas: int = 0) -> str:
-    """What a contract that reverted a transaction said."""
+    """Return what a contract that reverted a transaction said."""
     return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"

@@ -67,8 +67,7 @@ def store_scene(
     normal_bits: int = 10,
     chain: ContractChain | None = None,
 ) -> list[Storing]:
-    """The transactions that store a scene: first its meshes, each once, last the scene itself, whose pointer is that of
-    the picture.
+    """Return the transactions that store a scene: its meshes, each once, then the scene with the last pointer.
 
     studio: the address of the Studio, 20 bytes. position_bits: if given, meshes are laid on a grid of 2^position_bits
     steps across their largest side, 4 to 16; else nothing is lost. normal_bits: see `compact`.
@@ -92,31 +91,31 @@ def store_scene(
 def store_mesh(
     packed: bytes, studio: bytes, normal_bits: int = 10, chain: ContractChain | None = None
 ) -> list[Storing]:
-    """The transactions that store a packed mesh; mostly one. The last has its pointer."""
+    """Return the transactions that store a packed mesh; mostly one. The last has its pointer."""
     check_address(studio)
     mesh = compact(packed, normal_bits)
     return _storings("mesh", mesh, _call("storeMesh", mesh), studio, chain)
 
 
 def read_mesh(pointer: bytes, chain: ContractChain) -> bytes:
-    """The packed mesh that the Studio of a chain keeps there."""
+    """Return the packed mesh that the Studio of a chain keeps there."""
     return bytes(chain.ask(STUDIO, "mesh", check_address(pointer)))
 
 
 def kept_at(data: bytes, studio: bytes) -> bytes:
-    """The address at which a Studio keeps these bytes."""
+    """Return the address at which a Studio keeps these bytes."""
     if len(data) <= MAX_PART:
         return _created(data, studio)
     return _created(_list(parts_of(data), studio), studio)
 
 
 def parts_of(data: bytes) -> list[bytes]:
-    """The bytes in parts that a contract can hold."""
+    """Return the bytes in parts that a contract can hold."""
     return [data[at : at + MAX_PART] for at in range(0, len(data), MAX_PART)]
 
 
 def on_grid(o: Object, bits: int) -> Object:
-    """The object with its mesh on a grid of 2^bits steps across its largest side, in whole numbers; it stays in place.
+    """Put the mesh of an object on a grid of 2^bits steps across its largest side, in whole numbers; it stays in place.
 
     This loses precision: half a step each way. Normals are those of the mesh as it was.
     """
@@ -132,7 +131,7 @@ def on_grid(o: Object, bits: int) -> Object:
 
 
 def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
-    """The struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
+    """Return the struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
     from eth_abi.abi import decode, encode
 
     kind = scene_struct()
@@ -148,7 +147,7 @@ def scene_struct() -> str:
 
 
 def compress_zeros(data: bytes) -> bytes:
-    """As LibZip.cdCompress of solady: runs of zeros and of ones in two bytes, and the first four bytes negated."""
+    """Compress as LibZip.cdCompress of solady: runs of 0x00 and 0xff in two bytes, the first four bytes negated."""
     result = bytearray()
     at = 0
     while at < len(data):
@@ -162,7 +161,7 @@ def compress_zeros(data: bytes) -> bytes:
 
 
 def check_address(address: bytes) -> bytes:
-    """The address, if it has 20 bytes."""
+    """Return the address, if it has 20 bytes."""
     if len(address) != 20:
         raise InputError(f"an address has 20 bytes, not {len(address)}")
     return address
@@ -208,7 +207,7 @@ def _list(parts: Sequence[bytes], studio: bytes) -> bytes:
 
 
 def _created(data: bytes, studio: bytes) -> bytes:
-    """Where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
+    """Return where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
     code = bytes.fromhex("61") + (len(data) + 1).to_bytes(2, "big") + bytes.fromhex("80600a3d393df300") + data
     return create2_address(code, creator=studio)
 

@@ -32,7 +32,7 @@ USUAL = {
 def call_of(
     interface: Interface, address: str, function: str, *arguments: Any, value: int = 0, ours: int | None = None
 ) -> Call:
-    """The call of a function as a transaction. ours: its gas as counted here; None takes what is usual."""
+    """Return the call of a function as a transaction. ours: its gas as counted here; None takes what is usual."""
     data = interface.encode(function, *arguments)
     usual = USUAL[function.partition("(")[0]] + intrinsic_gas(data) if ours is None else ours
     return Call(bytes.fromhex(address.removeprefix("0x")), data, usual, value)
@@ -46,7 +46,7 @@ def plan(
     value: int = 0,
     ours: int | None = None,
 ) -> Quote:
-    """The price of a call that would succeed now.
+    """Return the price of a call that would succeed now.
 
     RevertError, in words, if the contract would refuse it; TransactionError if it would fail otherwise, or if the
     prices of the node are not to be believed.

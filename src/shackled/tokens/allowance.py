@@ -40,7 +40,7 @@ class Allowance:
         return self.account, self.quantity, self.deadline
 
     def document(self) -> dict[str, Any]:
-        """As a file keeps it."""
+        """Return the permission as a file keeps it."""
         return {
             "account": self.account,
             "quantity": str(self.quantity),
@@ -52,7 +52,7 @@ class Allowance:
 def sign_allowance(
     collection: Collection, signer: LocalAccount, account: str, quantity: int, deadline: int
 ) -> Allowance:
-    """A permission for one account, that holds for this collection on this chain only."""
+    """Return a permission for one account, that holds for this collection on this chain only."""
     from eth_account.messages import encode_typed_data
 
     domain = {
@@ -67,7 +67,7 @@ def sign_allowance(
 
 
 def read_allowance(path: Path) -> Allowance:
-    """The permission of a file. InputError if it holds none."""
+    """Return the permission of a file. InputError if it holds none."""
     try:
         document = read_json(path.read_text("utf-8"))
         account, quantity, deadline, signature = (

@@ -16,14 +16,14 @@ class Contract:
     """A contract of ours at an address."""
 
     def __init__(self, connection: Connection, name: str, address: str) -> None:
-        """Nothing is asked yet."""
+        """Take the name of the artifact and the address; nothing is asked yet."""
         self.name, self.connection, self.address = name, connection, address
         self.interface = artifact(name).interface
 
     def call(
         self, function: str, *arguments: Any, sender: str | None = None, value: int = 0, block: str = "latest"
     ) -> Any:
-        """What a function returns: its value, or all of them in a tuple. No gas is named: the node's limit holds.
+        """Call a function and return its value, or a tuple of them. The call has the node's limit of gas.
 
         RevertError, in words, where the contract refuses; NodeError where the node fails.
         """
@@ -50,8 +50,9 @@ class Contract:
             ) from None
 
     def gas(self, function: str, *arguments: Any) -> int | None:
-        """The exact gas of the execution of a read call; None where the node takes no state overrides, or gives a call
-        too little to count it.
+        """Return the exact gas of the execution of a read call.
+
+        None if the node takes no state overrides, or gives a call too little gas to count it.
         """
         data = self.interface.encode(function, *arguments)
         try:

@@ -155,7 +155,7 @@ def _icons(connection: Connection, users: Sequence[Transactor], demo: Demo, tell
 def _deploy(
     connection: Connection, owner: Transactor, name: str, demo: Demo, tell: Callable[[str], None]
 ) -> Collection:
-    """A collection, and what it needs; the cost of each contract is noted."""
+    """Deploy a collection and what it needs, and note the cost of each contract."""
     kind = KINDS[name]
     tell(f"{kind.title} is deployed")
     # so that it can be played again on the same node
@@ -177,7 +177,7 @@ def _after_sale(
     demo: Demo,
     tell: Callable[[str], None],
 ) -> None:
-    """A token changes hands and keeps its picture; the owner fetches the ether."""
+    """Transfer a token, which keeps its picture, and withdraw the ether."""
     title = collection.kind.title.removeprefix("Shackled ")
     tell("a token is given away, and the ether of the sale withdrawn")
     token = next(each.number for each in collection.tokens() if each.owner == _name(giver))

@@ -41,7 +41,7 @@ class Offer:
     salt: int = 0
 
     def __post_init__(self) -> None:
-        """InputError where the contract would refuse."""
+        """Raise InputError where the contract would refuse."""
         checks = (
             (0 <= self.reserve <= GENESIS_SUPPLY, f"the reserve must be 0 to {GENESIS_SUPPLY:,}, not {self.reserve}"),
             (
@@ -76,7 +76,7 @@ def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
 
 
 def address_of(deployments: Sequence[Deployment], name: str) -> str:
-    """Where one of some contracts stands."""
+    """Return where one of some contracts stands."""
     return checksum_address(next(each.address for each in deployments if each.name == name))
 
 
@@ -109,7 +109,7 @@ class Launch:
 
 
 def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> bytes:
-    """What deploys a collection, its terms included."""
+    """Return what deploys a collection, its terms included."""
     arguments: list[Any] = [address_of(parts, part) for part in artifact(kind.contract).parts]
     arguments += [getattr(offer, term) for term in kind.terms]
     built = artifact(kind.contract)
@@ -155,7 +155,7 @@ def launch(
 
 
 def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
-    """Whether a collection is at its address. VerificationError if anything else is there."""
+    """Return whether a collection is at its address. VerificationError if anything else is there."""
     code = connection.code(place)
     if code:
         immutable_values(code, artifact(kind.contract).runtime)

@@ -36,7 +36,7 @@ def plan_equipment(
     codes: Mapping[bytes, bytes],
     known: Sequence[Quote],
 ) -> list[Equipment]:
-    """What is missing of it, which is all where the collection is not there yet.
+    """Return what is missing of it, which is all where the collection is not there yet.
 
     listing: root of the allow-list and who signs permissions; None sets none. icons: the arguments of `add` of each.
     codes: by address, what the chain keeps of their scenes. known: quotes for what is done before.

@@ -10,7 +10,7 @@ EMPTY = bytes(32)
 
 
 def immutable_places(runtime: bytes) -> list[int]:
-    """Where immutable values stand in the runtime code of an artifact, 32 bytes each."""
+    """Return where immutable values stand in the runtime code of an artifact, 32 bytes each."""
     places, at = [], 0
     while at < len(runtime):
         operation = runtime[at]
@@ -24,7 +24,7 @@ def immutable_places(runtime: bytes) -> list[int]:
 
 
 def immutable_values(code: bytes, runtime: bytes) -> set[bytes]:
-    """The values that stand in code on a chain where the runtime code of the artifact has places for them.
+    """Return the values that stand in code on a chain where the runtime code of the artifact has places for them.
 
     VerificationError if anything else differs.
     """

@@ -11,14 +11,14 @@ from ..studio.keeping import PARTS, POINTED, SCENE, kept_at, scene_struct
 
 
 def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Address and code of all that is kept of a scene: itself, its meshes, and their parts where they have any.
+    """Yield address and code of all that is kept of a scene: itself, its meshes, and their parts where they have any.
 
     VerificationError if anything is missing, or is not what belongs there.
     """
     kept: dict[bytes, bytes] = {}
 
     def read(place: bytes) -> bytes:
-        """The bytes that are kept at a place, parts and all."""
+        """Return the bytes that are kept at a place, parts and all."""
         code = connection.code(place)
         if not code:
             raise VerificationError(f"nothing is kept at {checksum_address(place)}")
@@ -38,7 +38,7 @@ def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterato
 
 
 def meshes_of(data: bytes) -> list[bytes]:
-    """The field `mesh` of each object of a scene as it is kept. VerificationError if it is none."""
+    """Return the field `mesh` of each object of a scene as it is kept. VerificationError if it is none."""
     from eth_abi.abi import decode
     from eth_abi.exceptions import DecodingError
 
@@ -53,7 +53,7 @@ def meshes_of(data: bytes) -> list[bytes]:
 
 
 def expand_zeros(data: bytes) -> bytes:
-    """The bytes of which `compress_zeros` made these."""
+    """Return the bytes of which `compress_zeros` made these."""
     result = bytearray()
     whole = iter(bytes(value ^ 255 for value in data[:4]) + data[4:])
     for value in whole:

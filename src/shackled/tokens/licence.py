@@ -18,7 +18,7 @@ EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, 
 
 
 def licence_of(source: Path | Piece, stated: str | None) -> str:
-    """The licence under which an object is minted; nobody can take it back from a chain.
+    """Return the licence under which an object is minted; nobody can take it back from a chain.
 
     Pieces of datasets bring theirs along; of a file its user states it. InputError where it may forbid minting.
     """
@@ -48,5 +48,5 @@ def licence_of(source: Path | Piece, stated: str | None) -> str:
 
 
 def allows(licence: str) -> bool:
-    """Whether a licence is one of those that surely allow it."""
+    """Return whether a licence is one of those that surely allow it."""
     return ALLOWED.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

@@ -66,7 +66,7 @@ class Metadata:
 
 
 def read_token_uri(uri: str) -> Metadata:
-    """The metadata of a token. VerificationError, one line, where marketplaces would not understand it."""
+    """Return the metadata of a token. VerificationError, one line, where marketplaces would not understand it."""
     document = _document(uri)
     name, description = _text(document, "name"), _text(document, "description")
     image, shown = _text(document, "image"), plain(name)[:60]
@@ -87,7 +87,7 @@ def read_token_uri(uri: str) -> Metadata:
 
 
 def read_data_uri(uri: str, what: str) -> tuple[str, bytes]:
-    """The media type, without parameters, and the content of a `data:` URI. VerificationError if it is not one."""
+    """Return the media type, without parameters, and the content of a `data:` URI. VerificationError if it is none."""
     match = re.match(r"data:([\w.+-]+/[\w.+-]+)((?:;[^;,]*)*),", uri, re.ASCII)
     if not match:
         raise VerificationError(f"{what} is not kept on the chain: it begins with {uri[:40]!r}, not with data:TYPE,")
@@ -120,7 +120,7 @@ def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
 
 
 def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uint8] | None:
-    """The picture of `width` x `height` pixels of which each became a square; None if that is not how it was made."""
+    """Return the picture of `width` x `height` pixels, each of which became a square; None if they did not."""
     factor = pixels.shape[1] // width
     if factor == 0 or pixels.shape[:2] != (height * factor, width * factor):
         return None
@@ -188,7 +188,7 @@ def _text(document: dict[str, Any], key: str) -> str:
 
 
 def _traits(document: dict[str, Any], name: str) -> dict[str, Trait]:
-    """The marketplaces' list of {"trait_type": ..., "value": ...} as a mapping."""
+    """Return the marketplaces' list of {"trait_type": ..., "value": ...} as a mapping."""
     attributes = document.get("attributes", [])
     if not isinstance(attributes, list):
         raise VerificationError(f"the attributes of {name} are no list: marketplaces show none of them")

@@ -18,7 +18,7 @@ HASH = ("67", "405f5260205ff3")
 
 
 def check_randomness(connection: Connection, any_chain: bool = False) -> None:
-    """Whether seeds can be drawn on a chain that nobody knows before, and revealed, as far as its last blocks show it.
+    """Check by the last blocks of a chain that seeds drawn there are known to nobody before, and can be revealed.
 
     any_chain: for chains that nobody here knows as well. InputError if the chain is unknown; TransactionError if it
     gives the same randomness twice, or headers that contracts cannot read.
@@ -45,7 +45,7 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
 
 
 def _check_header(connection: Connection, block: dict[str, Any]) -> None:
-    """TransactionError if a header is none that `reveal` would take."""
+    """Raise TransactionError if a header is none that `reveal` would take."""
     chain = connection.chain_id
     try:
         encode_header(block)

@@ -36,7 +36,7 @@ class Round:
 
 
 def hidden_rounds(collection: Collection) -> list[Round]:
-    """The rounds of all tokens that are not revealed, each once."""
+    """Return the rounds of all tokens that are not revealed, each once."""
     minted = collection.minted()
     numbers: list[int] = []
     for first in range(0, minted, TOKENS_AT_ONCE):
@@ -46,7 +46,7 @@ def hidden_rounds(collection: Collection) -> list[Round]:
 
 
 def latest_block(collection: Collection) -> int:
-    """The number of the last block of the chain."""
+    """Return the number of the last block of the chain."""
     return collection.connection.number("eth_blockNumber")
 
 
@@ -60,7 +60,7 @@ class Step:
 
 
 def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
-    """The transactions that reveal rounds whose blocks are there, in this order.
+    """Return the transactions that reveal rounds whose blocks are there, in this order.
 
     Where rounds are so late that the chain has forgotten their blocks, the hashes of these are proven first.
     """
@@ -73,9 +73,7 @@ def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
 
 
 def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[Step]) -> list[Quote]:
-    """The prices of some steps, of which there is at least one. RevertError, in words, if the first would be refused;
-    the others follow from those before.
-    """
+    """Return the prices of one or more steps. Raises RevertError, in words, if the first would be refused."""
     first, *rest = todo
     contract = collection.contract
     quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
@@ -86,7 +84,7 @@ def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[S
 
 
 def header_of(collection: Collection, number: int) -> bytes:
-    """The header of a block, whose hash the node says and we check."""
+    """Return the header of a block, whose hash the node says and we check."""
     block = collection.connection.block(number)
     try:
         return encode_header(block)

@@ -67,8 +67,9 @@ class Storage:
 
 
 def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | None = None) -> Storage:
-    """What of some scenes a chain does not have yet. Each scene is drawn here first, since none that cannot be drawn is
-    worth the price. fees: None asks for those of now.
+    """Return what of some scenes a chain does not have yet. fees: None asks for those of now.
+
+    Each scene is rendered here first, since one that cannot be rendered is not worth the price.
     """
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(STUDIO, itself=True)
@@ -117,7 +118,7 @@ def store(
 
 
 def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted) -> Image:
-    """The picture that the Studio of a chain draws of a scene that it keeps.
+    """Return the picture that the Studio of a chain draws of a scene that it keeps.
 
     VerificationError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
     """

@@ -40,7 +40,7 @@ class Check:
 
 
 def check_code(collection: Collection) -> Iterator[Check]:
-    """The code of the collection and of all contracts that it uses against the compiled ones."""
+    """Yield the code of the collection and of all contracts that it uses against the compiled ones."""
     connection = collection.connection
     parts = parts_of(collection.kind.contract)
     deployer = Deployer(connection)
@@ -61,8 +61,9 @@ def check_code(collection: Collection) -> Iterator[Check]:
 
 
 def check_collection_code(collection: Collection) -> None:
-    """VerificationError if a byte of the code differs from what the compiled contract would be with the terms that the
-    collection tells.
+    """Compare the code with that of the compiled contract with the terms that the collection tells.
+
+    Raises VerificationError if a byte differs.
     """
     connection, kind = collection.connection, collection.kind
     runtime = artifact(kind.contract).runtime
@@ -97,7 +98,7 @@ def check_collection_code(collection: Collection) -> None:
 
 
 def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: str | None = None) -> Check:
-    """A token's seed against the block that drew it, and the whole of its `tokenURI` against what is computed here.
+    """Compare a token's seed with the block that drew it, and its whole `tokenURI` with what is computed here.
 
     uri: the `tokenURI`, if it was read already.
     """
@@ -130,7 +131,7 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
 
 
 def _icon_failure(collection: Collection, token: int, metadata: Metadata, local: EmbeddedChain) -> str:
-    """What is wrong with the token of an icon: its picture is made here of the bytes that the chain keeps."""
+    """Return what is wrong with the token of an icon: its picture is made here of the bytes that the chain keeps."""
     icon = icon_at(collection, collection.contract.call("iconOf", token))
     for pointer, code in kept_codes(collection.connection, local.address(STUDIO), bytes.fromhex(icon.scene[2:])):
         local.put(pointer, code)
@@ -143,7 +144,7 @@ def _icon_failure(collection: Collection, token: int, metadata: Metadata, local:
 
 
 def draw(collection: Collection, token: int) -> tuple[bytes, str]:
-    """What was drawn for a token, computed here, and what is wrong with it; "" if nothing is."""
+    """Return what was drawn for a token, computed here, and what is wrong with it; "" if nothing is."""
     number = collection.round_of(token)
     randomness = collection.contract.call("randomnessOf", number)
     block_number = collection.contract.call("blockOf", number)
@@ -170,7 +171,7 @@ class Surroundings:
 
 
 def trial_code(kind: Kind, offer: Offer) -> tuple[bytes, Surroundings]:
-    """The code of a collection as the EVM here makes it, and what the constructor saw there."""
+    """Return the code of a collection as the EVM here makes it, and what the constructor saw there."""
     local, parts = local_chain(), parts_of(kind.contract)
     made = deployment(kind.contract, creation_code(kind, parts, offer), [each.name for each in parts], local)
     probe = bytes.fromhex("c0de") + bytes(17) + b"\xff"
@@ -181,7 +182,7 @@ def trial_code(kind: Kind, offer: Offer) -> tuple[bytes, Surroundings]:
 
 
 def _fixed_values(kind: Kind) -> set[bytes]:
-    """What every collection of a kind has in its code, on any chain: the contracts that it uses, and its name."""
+    """Return the values that every collection of a kind has in its code: the contracts that it uses, and its name."""
     names = [kind.title.encode(), b"1"]
     parts = {word(part.address) for part in parts_of(kind.contract)}
     # short strings as OpenZeppelin keeps them: the characters, and their number in the last byte
