@@ -12,7 +12,7 @@ from PIL import Image as PillowImage
 from shackled import render
 from shackled.cli.app import run
 from shackled.datasets.genesis import generate, seed_of
-from shackled.ethereum import keccak256
+from shackled.datasets.genesis.random import keccak256
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,6 @@ import io
 import json
 import re
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 from urllib.parse import unquote_to_bytes
 
@@ -16,17 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from ..errors import InputError, VerificationError
+from ..errors import VerificationError
 from ..json_text import read_json
 from ..plain import plain
-from ..whole_file import write_output
 
 #: Marketplaces cut off, or do not show, what is longer.
 MAX_LENGTH = 100_000
 #: Pillow's name of each kind of picture that wallets show.
 PICTURES = {"image/png": "PNG", "image/bmp": "BMP"}
-#: The files that such a picture may become.
-FORMATS = (".png", ".bmp")
 #: The last chunk of every PNG.
 PNG_END = bytes.fromhex("0000000049454e44ae426082")
 #: Of a picture, in pixels.
@@ -127,26 +123,6 @@ def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uin
     small = pixels[::factor, ::factor]
     whole = small.repeat(factor, axis=0).repeat(factor, axis=1)
     return small if np.array_equal(whole, pixels) else None
-
-
-def check_picture_file(path: Path) -> None:
-    """Raise InputError if the picture of a token cannot be written there."""
-    if path.suffix.lower() not in FORMATS:
-        raise InputError(f"the picture {path} must end in one of {' '.join(FORMATS)}")
-    if path.is_dir():
-        raise InputError(f"{path} is a folder, not the file of a picture")
-    if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} of the picture {path.name} does not exist")
-
-
-def save_picture(metadata: Metadata, path: Path) -> None:
-    """Write the picture: the very bytes of the token where the format is that of the token, else the same pixels."""
-    content = metadata.picture
-    if content is None or path.suffix.lower() != metadata.extension:
-        stream = io.BytesIO()
-        PillowImage.fromarray(metadata.pixels).save(stream, path.suffix.lower().removeprefix("."))
-        content = stream.getvalue()
-    write_output(path, content)
 
 
 def _document(uri: str) -> dict[str, Any]:

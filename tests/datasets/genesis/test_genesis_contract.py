@@ -22,11 +22,11 @@ from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets.genesis import generate, seed_of
 from shackled.datasets.genesis.contract import call, decode_piece, generate_on_chain, picture_on_chain
+from shackled.datasets.genesis.random import keccak256
 from shackled.datasets.genesis.schemes import BOUNDS as SCHEMES
 from shackled.datasets.genesis.structures import BOUNDS as STRUCTURES
 from shackled.datasets.genesis.trigonometry import cosine, sine
 from shackled.errors import InputError, RenderError
-from shackled.ethereum import keccak256
 from shackled.scene.codec import encode
 
 SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"

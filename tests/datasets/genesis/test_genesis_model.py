@@ -12,10 +12,9 @@ import pytest
 
 from shackled.datasets.genesis import COUNT, find, generate, parse_seed, pieces, seed_of
 from shackled.datasets.genesis.hsv import hsv_to_rgb, rgb_to_hsv
-from shackled.datasets.genesis.random import Random
+from shackled.datasets.genesis.random import Random, keccak256
 from shackled.datasets.genesis.trigonometry import ONE, TABLE, cosine, quotient, rotate, rotate_y, sine
 from shackled.errors import InputError
-from shackled.ethereum import keccak256
 from shackled.scene.codec import encode
 from shackled.scene.files.load import load
 

@@ -11,7 +11,6 @@ import typer
 
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
-from ...whole_file import write_output
 from ..option import option
 from ..telling import tell
 from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table
@@ -29,7 +28,7 @@ def show(
 ) -> None:
     """Show a token: its traits, and its picture as a file, both from its `tokenURI`."""
     from ...tokens.gallery import Shown
-    from ...tokens.metadata import check_picture_file, save_picture
+    from ...tokens.picture_file import check_picture_file, save_picture
 
     if output is not None:
         check_picture_file(output)
@@ -116,7 +115,7 @@ def picture(
     from ...studio.keeping import STUDIO
     from ...tokens.contract import Contract
     from ...tokens.deploying import address_of, parts_of
-    from ...tokens.metadata import check_picture_file
+    from ...tokens.picture_file import check_picture_file, write_picture
 
     place = address(pointer, "the pointer")
     if output.suffix.lower() != ".png":
@@ -124,7 +123,7 @@ def picture(
     check_picture_file(output)
     studio = Contract(connect(rpc, chain_id), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
     content = studio.call("renderPNG(address,uint256)", place, scale)
-    write_output(output, content)
+    write_picture(output, content)
     gas = studio.gas("renderPNG(address,uint256)", place, scale)
     tell(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 

@@ -9,10 +9,10 @@ import re
 from collections.abc import Iterator
 
 from ...errors import InputError
-from ...ethereum import keccak256
 from ...scene.scene import Scene
 from ..piece import Piece
 from .piece import GenesisPiece, generate
+from .random import keccak256
 
 COUNT = 1024
 

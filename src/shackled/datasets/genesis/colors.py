@@ -6,11 +6,10 @@ As contracts/src/genesis/Colors.sol.
 from __future__ import annotations
 
 from ...errors import InputError
-from ...ethereum import keccak256
 from .hsv import hsv_to_rgb, rgb_to_hsv
 from .layout import Triangle
 from .prisms import Prisms
-from .random import Random
+from .random import Random, keccak256
 from .schemes import CENTER_X, DOWN, LARGEST, LEFT, RADIUS, RANDOM, UP, Paint, Scheme
 from .trigonometry import Point3, quotient
 

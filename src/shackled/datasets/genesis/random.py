@@ -7,7 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...ethereum import keccak256
+from Crypto.Hash import keccak
+
+
+def keccak256(data: bytes) -> bytes:
+    """The hash that Ethereum uses."""
+    return keccak.new(digest_bits=256, data=data).digest()
 
 
 @dataclass(frozen=True)
