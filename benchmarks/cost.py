@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import fmean
 
-from shackled import RenderError, Scene
+from shackled import ChainError, Scene
 from shackled.bench.measure import call_renderer, gas
 from shackled.bench.original import original
 from shackled.bench.report import millions, table
@@ -138,7 +138,7 @@ def largest_row() -> Row:
         if is_usual(scene):
             try:
                 result = call_renderer(scene)
-            except RenderError:
+            except ChainError:
                 refused += 1
             else:
                 costs[name] = result.gas + result.intrinsic_gas

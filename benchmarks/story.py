@@ -16,7 +16,7 @@ from tools.pages import update
 from shackled.artifacts import RENDERER
 from shackled.bench.original import DEPLOYMENT_GAS, original_gas
 from shackled.bench.scenes import cube
-from shackled.chain.embedded import intrinsic_gas
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.codec import encode
 
 from . import energy

@@ -82,7 +82,7 @@ def test_call_from_contract() -> None:
     assert isinstance(chain, EmbeddedChain)
     creation, selectors = compile_example("examples/call_from_contract/Tetrahedron.sol")
     parts = (chain.address(name).rjust(32, b"\0") for name in ("Renderer", "PngEncoder"))
-    code = chain._create("Tetrahedron", creation + b"".join(parts))
+    code = chain.create("Tetrahedron", creation + b"".join(parts))
     address = b"\x7e" * 20
     chain._codes[address] = code
     try:

@@ -9,7 +9,7 @@ import pytest
 
 from pictures import call
 from random_scenes import random_case
-from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene
 from shackled.scene.codec import Rectangle
 
 SIZE = 64
@@ -92,7 +92,7 @@ def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
         scene = random_case(seed).scene
         try:
             whole = gas(scene)
-        except RenderError:
+        except ChainError:
             continue
         for tile in parts(scene.width, scene.height):
             assert gas(scene, tile) <= 1.02 * whole + PATCHES + sorting(scene), f"seed {seed}, {tile}"

@@ -19,10 +19,10 @@ from typing import Any, Self
 
 from shackled.artifacts import artifact
 from shackled.chain import CallResult, ContractChain, open_chain
-from shackled.chain.addresses import PROXY, SALT, show_address
 from shackled.chain.connection import Connection
-from shackled.chain.embedded import EmbeddedChain, intrinsic_gas
+from shackled.chain.embedded import EmbeddedChain
 from shackled.errors import NodeUnreachableError, RenderError
+from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
 
 #: Where `npm ci` puts it in a clone of the repository.
 BINARIES = Path(__file__).resolve().parents[1] / "contracts" / "node_modules" / ".bin"
@@ -128,8 +128,8 @@ class AnvilChain(ContractChain):
             local = open_chain()
             assert isinstance(local, EmbeddedChain)
             # anvil starts with the proxy that puts contracts where they are looked for
-            self._send({"to": show_address(PROXY), "data": "0x" + (SALT + local.creation(contract)).hex()})
-            self._addresses[contract] = show_address(local.address(contract))
+            self._send({"to": checksum_address(PROXY), "data": "0x" + (SALT + local.creation(contract)).hex()})
+            self._addresses[contract] = checksum_address(local.address(contract))
         return self._addresses[contract]
 
     def read(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:

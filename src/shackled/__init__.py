@@ -3,7 +3,7 @@
 from importlib.metadata import PackageNotFoundError, version
 
 from .animation import Animation
-from .errors import InputError, OutputError, RenderError
+from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
 from .load import load
 from .render import render, turntable
@@ -24,6 +24,7 @@ __all__ = [
     "Animation",
     "Background",
     "Camera",
+    "ChainError",
     "Image",
     "InputError",
     "Light",
@@ -33,6 +34,7 @@ __all__ = [
     "OutputError",
     "RenderError",
     "Scene",
+    "ShackledError",
     "__version__",
     "load",
     "render",

@@ -46,7 +46,7 @@ def render(
     gas_limit: what a call may use. tile: side, or (width, height), of the parts in which the picture is made; None
     takes what fits. The pixels are the same, however they are spread. verify: how much of what nodes draw is compared
     with what is drawn here, "all", "some" or "none"; None compares all, or some from 500 million gas on.
-    InputError for what is wrong with the scene, RenderError for what fails in the call.
+    InputError for what is wrong with the scene, ChainError for what fails in the call.
     """
     scene = _prepared(scene, size, max_triangles)
     where = _where(chain, jobs, rpc, address, cluster, gas_limit, tile, verify)

@@ -298,7 +298,7 @@ def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch)
     for picture, (creation, selectors) in zip(pictures, compiled(sources), strict=True):
         ((signature, selector),) = ((key, value) for key, value in selectors.items() if key.startswith("bitmap("))
         arguments = meshes(picture.scene) if "bytes[]" in signature else b""
-        evm._codes[place] = evm._create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
+        evm._codes[place] = evm.create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
         try:
             output = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:

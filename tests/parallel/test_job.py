@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import shackled
-from shackled import Image, InputError, RenderError, Scene, load
+from shackled import ChainError, Image, InputError, Scene, load
 from shackled.chain import open_chain
 from shackled.chain.embedded import PyrevmChain
 from shackled.parallel import Where, referee, render_frames
@@ -67,7 +67,7 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(--max-triangles\)"):
+    with pytest.raises(ChainError, match=r"still too much: take fewer triangles \(`max_triangles`\)"):
         render_frames([SCENE], Where(gas_limit=500_000))
 
 
@@ -111,9 +111,9 @@ def test_a_worker_that_dies_is_replaced() -> None:
 
 
 def test_errors_of_a_worker_are_told() -> None:
-    with pytest.raises(RenderError, match="still too much"):
+    with pytest.raises(ChainError, match="still too much"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
-    with pytest.raises(InputError, match="counts no gas: leave out --gas-limit"):
+    with pytest.raises(InputError, match="counts no gas: leave out `gas_limit`"):
         render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))
 
 
@@ -132,18 +132,18 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"jobs": 0}, "--jobs must be from 1 to 256, not 0"),
-        ({"jobs": 1.5}, "--jobs must be from 1 to 256"),
-        ({"gas_limit": 0}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000, not 0"),
-        ({"gas_limit": 10**30}, "--gas-limit must be a whole number of gas from 1 to 30,000,000,000"),
-        ({"tile": 0}, "sides of a --tile must be whole numbers from 1"),
+        ({"jobs": 0}, "`jobs` must be from 1 to 256, not 0"),
+        ({"jobs": 1.5}, "`jobs` must be from 1 to 256"),
+        ({"gas_limit": 0}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000, not 0"),
+        ({"gas_limit": 10**30}, "`gas_limit` must be a whole number of gas from 1 to 30,000,000,000"),
+        ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
         ({"tile": "big"}, "the size of a tile must be one number"),
-        ({"rpc": "http://127.0.0.1:1", "cluster": ""}, "give --rpc or --cluster"),
-        ({"rpc": "http://127.0.0.1:1", "chain": "pyrevm"}, "leave out --chain"),
+        ({"rpc": "http://127.0.0.1:1", "cluster": ""}, "give `rpc` or `cluster`"),
+        ({"rpc": "http://127.0.0.1:1", "chain": "pyrevm"}, "leave out `chain`"),
         ({"rpc": ["nowhere"]}, "must be the address of a node"),
-        ({"address": "0x00"}, "--address is about a node"),
-        ({"verify": "all"}, "--verify is about nodes or a cluster: give --rpc or --cluster too"),
-        ({"rpc": "http://127.0.0.1:1", "verify": "most"}, "--verify must be all, some or none, not 'most'"),
+        ({"address": "0x00"}, "`address` is about a node"),
+        ({"verify": "all"}, "`verify` is about nodes or a cluster: give `rpc` or `cluster` too"),
+        ({"rpc": "http://127.0.0.1:1", "verify": "most"}, "`verify` must be all, some or none, not 'most'"),
         ({"chain": open_chain("reference"), "jobs": 2}, "give its name"),
     ],
 )

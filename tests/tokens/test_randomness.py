@@ -72,7 +72,7 @@ def test_a_chain_without_blocks_is_taken() -> None:
             node.rpc("evm_mine")
             check_randomness(node.connection)
         with (
-            pytest.raises(InputError, match="--any-chain"),
+            pytest.raises(InputError, match="`any_chain`"),
             Liar({"eth_chainId": lambda *_: "0xa"}).before(node.url) as url,
         ):
             check_randomness(Connection(url))

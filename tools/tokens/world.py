@@ -15,14 +15,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pyrevm
+import rlp
 from Crypto.Hash import keccak as _keccak
 from eth_abi.abi import decode, encode
 from eth_abi.exceptions import DecodingError
 from eth_utils.abi import collapse_if_tuple
 
 from shackled.artifacts import artifact
-from shackled.chain.embedded import intrinsic_gas
-from shackled.tokens.header import encode_values
+from shackled.ethereum import intrinsic_gas
 
 #: EIP-2935: the contract that knows the hashes of blocks, and its code.
 HISTORY = "0x0000f90827f1c53a10cb7a02335b175320002935"
@@ -135,7 +135,7 @@ class World:
             b"made by a test"[: number % 15],
             self.randomness(number),
         ]
-        return encode_values([*values, bytes(8), 7, digest, 0, 0, digest, digest])
+        return bytes(rlp.encode([*values, bytes(8), 7, digest, 0, 0, digest, digest]))
 
     # ---- accounts ----
 

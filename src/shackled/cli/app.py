@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from .. import __version__
-from ..errors import FetchError, InputError, InputWarning, OutputError, RenderError
+from ..errors import InputError, InputWarning, ShackledError
 from ..plain import plain
 from .arguments import with_cluster
 from .bench import bench
@@ -22,6 +22,7 @@ from .deploy import deploy
 from .gas import gas
 from .genesis import genesis
 from .mint import mint
+from .option import with_options
 from .render import render
 from .stages import stages
 from .token import token
@@ -75,7 +76,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)
-    except (RenderError, FetchError, OutputError) as error:
+    except ShackledError as error:
         return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
@@ -100,7 +101,7 @@ def _note(show: Callable[..., object]) -> Callable[..., None]:
             show(message, category, *place, **more)
         elif str(message) not in told:
             told.add(str(message))
-            print(f"shackled: note: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+            print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
 
     return showwarning
 
@@ -115,5 +116,5 @@ def _drop_output() -> None:
 
 
 def _fail(message: object, code: int) -> int:
-    print(f"shackled: {plain(' '.join(str(message).split()))}", file=sys.stderr)
+    print(f"shackled: {plain(with_options(str(message)))}", file=sys.stderr)
     return code

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..parallel import Listener, Outline
 from .late_bar import LateBar
+from .option import with_options
 
 
 class JobProgress(Listener):
@@ -29,7 +30,7 @@ class JobProgress(Listener):
 
     def warned(self, text: str) -> None:
         """Something went wrong that the job gets over."""
-        self._bar.print(f"shackled: {' '.join(text.split())}")
+        self._bar.print(f"shackled: {with_options(text)}")
 
     def ended(self) -> None:
         """The job is over."""

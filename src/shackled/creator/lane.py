@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from ..errors import InputError, RenderError
+from ..errors import InputError, RenderError, ShackledError
 from ..workers import Worker, WorkerEndedError, WorkerLateError
 from .limits import Limits
 from .tasks import Desk
@@ -27,7 +27,7 @@ Progress = Callable[[int, int], None]
 BEHIND = 1.0
 
 
-class PoolError(RenderError):
+class PoolError(ShackledError):
     """The work could not be done here: it took too long, or too much, or too many are waiting. One line."""
 
 

@@ -51,7 +51,7 @@ class _Object:
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
-    """All that the Renderer makes to render a scene, made once more."""
+    """Return all that the Renderer makes to render a scene, made once more."""
     whole = Rectangle(0, 0, scene.width, scene.height)
     data = _uniforms(scene, whole, chain)
     if len(_runs(data)) == 1 or scene.width * scene.height <= BAND_PIXELS:

@@ -11,7 +11,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ..chain import Drawing, open_chain
-from ..errors import InputError, RenderError
+from ..errors import InputError, RenderError, ShackledError
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
 from .evm import draw_limited, limited
@@ -50,7 +50,7 @@ class ClusterPlace:
             from distributed import Client
         except ImportError:
             raise InputError(
-                "--cluster needs a package that is not installed: pip install 'shackled[cluster]'"
+                "`cluster` needs a package that is not installed: pip install 'shackled[cluster]'"
             ) from None
 
         class QuietClient(Client):  # type: ignore[misc,unused-ignore]
@@ -74,7 +74,7 @@ class ClusterPlace:
             workers = self._check()
         except BaseException as error:
             self.close()
-            if isinstance(error, InputError | RenderError) or not isinstance(error, Exception):
+            if isinstance(error, ShackledError) or not isinstance(error, Exception):
                 raise
             raise RenderError(
                 f"no dask scheduler answers at {address or 'a port of this machine'}: {_line(error)}"
@@ -98,7 +98,7 @@ class ClusterPlace:
             raise RenderError(
                 "the workers of the cluster died over the same part of the picture, one after the other"
             ) from None
-        except (InputError, RenderError):
+        except ShackledError:
             raise
         except Exception as error:
             said = f"{type(error).__name__}: {error}"

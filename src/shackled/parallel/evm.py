@@ -19,7 +19,7 @@ def limited(chain: str | None, gas: int | None) -> Chain:
     if gas is None:
         return place
     if not isinstance(place, EmbeddedChain):
-        raise InputError(f"the chain {chain!r} counts no gas: leave out --gas-limit")
+        raise InputError(f"the chain {chain!r} counts no gas: leave out `gas_limit`")
     return type(place)(gas)
 
 

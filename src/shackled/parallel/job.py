@@ -78,7 +78,7 @@ def render_frames(
         if not compared and where.verify is None and len(parts) > 1:
             listener.warned(
                 f"of what nodes draw of a picture as large as this only samples are compared (one part in {SAMPLE}): "
-                "--verify all compares every pixel"
+                "`verify` all compares every pixel"
             )
         scheduler = Scheduler(frames, places, store, listener, referee)
         try:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..chain import Chain, open_node
 from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..checks import integer
-from ..errors import InputError, NodeError, OutOfGasError, RenderError
+from ..errors import ChainError, InputError, NodeError, OutOfGasError
 from .evm import limited
 from .listener import Listener
 from .place import ChainPlace, Place
@@ -47,29 +47,29 @@ class Where:
     def __post_init__(self) -> None:
         jobs, gas = integer(self.jobs), integer(self.gas_limit)
         if self.jobs is not None and (jobs is None or not 1 <= jobs <= MOST_JOBS):
-            raise InputError(f"--jobs must be from 1 to {MOST_JOBS}, not {self.jobs!r}")
+            raise InputError(f"`jobs` must be from 1 to {MOST_JOBS}, not {self.jobs!r}")
         if self.gas_limit is not None and (gas is None or not 1 <= gas <= DEFAULT_GAS_LIMIT):
             raise InputError(
-                f"--gas-limit must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {self.gas_limit!r}"
+                f"`gas_limit` must be a whole number of gas from 1 to {DEFAULT_GAS_LIMIT:,}, not {self.gas_limit!r}"
             )
         object.__setattr__(self, "jobs", jobs)
         object.__setattr__(self, "gas_limit", gas)
         if self.tile is not None:
             sides = tuple(integer(side) or 0 for side in self.tile)
             if min(sides) < 1:
-                raise InputError(f"the sides of a --tile must be whole numbers from 1, not {self.tile!r}")
+                raise InputError(f"the sides of a `tile` must be whole numbers from 1, not {self.tile!r}")
             object.__setattr__(self, "tile", sides)
         if self.verify not in (None, *VERIFY):
-            raise InputError(f"--verify must be {', '.join(VERIFY[:-1])} or {VERIFY[-1]}, not {self.verify!r}")
+            raise InputError(f"`verify` must be {', '.join(VERIFY[:-1])} or {VERIFY[-1]}, not {self.verify!r}")
         if self.verify is not None and not self.rpc and self.cluster is None:
-            raise InputError("--verify is about nodes or a cluster: give --rpc or --cluster too, or leave it out")
+            raise InputError("`verify` is about nodes or a cluster: give `rpc` or `cluster` too, or leave it out")
         if self.rpc and self.cluster is not None:
-            raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
+            raise InputError("nodes and a cluster are two places: give `rpc` or `cluster`")
         if self.rpc and self.chain is not None:
-            raise InputError("--rpc is a place of its own: leave out --chain")
-        for name, value in (("--address", self.address), ("--rpc-timeout", self.timeout)):
+            raise InputError("`rpc` is a place of its own: leave out `chain`")
+        for name, value in (("`address`", self.address), ("`timeout`", self.timeout)):
             if value is not None and not self.rpc:
-                raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+                raise InputError(f"{name} is about a node: give `rpc` too, or leave it out")
         named = self.chain is None or isinstance(self.chain, str)
         if not named and (self.count > 1 or self.cluster is not None):
             raise InputError("a chain itself cannot be given to other processes: give its name")
@@ -105,7 +105,7 @@ class Where:
 
     def _open_nodes(self, listener: Listener) -> list[Place]:
         places: list[Place] = []
-        last: RenderError
+        last: ChainError
         urls = list(dict.fromkeys(self.rpc))
         for url in urls:
             try:
@@ -123,7 +123,7 @@ class Where:
         node = open_node(url, self.address, self.timeout)
         node.connection.attempts = ATTEMPTS
         most = node.gas_limit
-        node.place("Renderer")  # an --address with something else is told before anything is rendered
+        node.place("Renderer")  # an address with something else is refused before anything is rendered
         if not most:
             raise node.too_little()
         node.connection.attempts = 1

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from ...chain.addresses import keccak256
 from ...errors import InputError
+from ...ethereum import keccak256
 from ..piece import Piece
 from .piece import GenesisPiece
 
