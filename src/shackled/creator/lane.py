@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from ..errors import InputError, RenderError, ShackledError
+from ..errors import ChainError, InputError, ShackledError
 from ..workers import Worker, WorkerEndedError, WorkerLateError
 from .limits import Limits
 from .tasks import Desk
@@ -281,7 +281,7 @@ class Lane:
             )
         if isinstance(error, WorkerEndedError):
             return PoolError(f"the process at work on the {self._what} ended, perhaps for want of memory; try again")
-        if isinstance(error, InputError | RenderError):
+        if isinstance(error, InputError | ChainError):
             return error
         if isinstance(error, MemoryError | RecursionError):
             return PoolError(
