@@ -201,7 +201,7 @@ def solidity(sections: Iterator[Section], *imports: str) -> str:
 
 def python(sections: Iterator[Section]) -> str:
     """The same for the reference."""
-    lines = ['"""Constants of packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
+    lines = ['"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
     for section in sections:
         lines += ["", f"# ---- {section.title} ----", *wrapped(section.text, "# ", PYTHON_WIDTH), ""]
         for constant in section.constants:
@@ -226,7 +226,7 @@ def files() -> dict[Path, str]:
             iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
         ),
         PIPELINE / "Words.sol": solidity(iter(packed)),
-        REFERENCE: python(iter([*bits(table), *packed])),
+        REFERENCE: python(iter([*registers(table), *bits(table), *packed])),
     }
 
 

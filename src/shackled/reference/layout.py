@@ -1,5 +1,287 @@
-"""Constants of packed words and modes. Written by tools/layout.py from contracts/layout.toml."""
+"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""
 
+
+# ---- registers ----
+
+#: Where registers begin: what the compiler keeps in memory must end before.
+REGISTERS = 0x800
+REGISTERS_END = 0x2EE0
+
+# ---- frame ----
+# The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that
+# everything inside the guard band is positive; sub-pixel coordinates are pixels with 8 more bits, and whole pixels are
+# the centres of pixels.
+
+#: Where these registers begin, and their bytes.
+FRAME_BEGIN = 0x800
+FRAME_SIZE = 0x920
+#: 1 for an orthographic camera, else 0.
+FRAME_IS_ORTHOGRAPHIC = 0x800
+#: Distance of the near plane, Q32.
+NEAR = 0x820
+#: depth = DEPTH_SCALE / distance (perspective), DEPTH_SCALE - distance / 256 (orthographic): 2^54 at most, so that the
+#: highest bit of the 64 of a depth in the buffer, which has 8 more, is free.
+DEPTH_SCALE = 0x840
+#: First pixel column of the tile, and the one after the last.
+COLUMN_BEGIN = 0x860
+COLUMN_END = 0x880
+#: Bytes of a row of depths.
+DEPTH_STRIDE = 0x8A0
+#: The ray through a pixel, (x, y, 1) in camera space, Q24: x = RAY_LEFT + column * RAY_STEP, y = RAY_TOP + row *
+#: RAY_STEP. For an orthographic camera, where all rays are parallel, the place beside the line of sight in world units,
+#: Q32.
+RAY_LEFT = 0x8C0
+RAY_TOP = 0x8E0
+RAY_STEP = 0x900
+#: First guess at the length of a ray from its square: LENGTH_AT_0 + LENGTH_SLOPE * square >> 48; and how many steps of
+#: Newton's method refine it besides the first.
+LENGTH_AT_0 = 0x920
+LENGTH_SLOPE = 0x940
+LENGTH_STEPS = 0x960
+#: The tile, in the order of a Rectangle.
+TILE_X = 0x980
+TILE_Y = 0x9A0
+TILE_WIDTH = 0x9C0
+TILE_HEIGHT = 0x9E0
+#: The background of the lowest row of the tile, lanes of Q24 with half a level, and its change from row to row upwards.
+BACKGROUND = 0xA00
+BACKGROUND_STEP = 0xA20
+#: 1 if all bytes are inverted in the end; 1 if covered pixels are counted; else 0.
+INVERT = 0xA40
+COUNT_PIXELS = 0xA60
+#: How many objects are to be drawn, where in calldata the uniforms of the first begin, and its number in the scene.
+OBJECT_COUNT = 0xA80
+OBJECTS = 0xAA0
+OBJECT_FIRST = 0xAC0
+#: The same of all objects: see Runs.
+OBJECT_TOTAL = 0xAE0
+OBJECTS_BEGIN = 0xB00
+#: Where in calldata the pixels and depths stand of what was drawn before; 0 if nothing was.
+DRAWN_BEFORE = 0xB20
+#: 1 if depths are returned as well; 1 if nothing is drawn, and triangles are counted; else 0.
+RETURNS_DEPTHS = 0xB40
+ONLY_COUNTS = 0xB60
+#: The address after the last record of a light.
+LIGHTS_END = 0xB80
+#: Up to 4 records of LIGHT_SIZE bytes.
+LIGHTS = 0xBA0
+
+# ---- band ----
+
+#: First row of the band that is being drawn, and the row after its last.
+BAND_TOP = 0x1120
+BAND_BOTTOM = 0x1140
+#: Address that the depth of row 0, column 0 would have, which may be below 0. Rows go down in memory, as they do in a
+#: bitmap.
+DEPTH_ORIGIN = 0x1160
+#: A pixel with its depth at p has its colour at IMAGE_ORIGIN + 3 * (p / 8).
+IMAGE_ORIGIN = 0x1180
+
+# ---- object ----
+# The uniforms of an object, which the Renderer fills. They end where the last one is that the object needs: unlit ones
+# at OBJECT_LIT, others behind their lights, and with SPECULAR_TABLE only where there is one.
+
+#: How many bytes of the following the object has; the first word of them.
+OBJECT_BYTES = 0x11A0
+#: The bits of MODE that all faces of the object share, and its flags, as in the scene.
+OBJECT_MODE = 0x11C0
+OBJECT_FLAGS = 0x11E0
+#: How much of what is behind it the object hides, Q24; 1 where it is opaque.
+OPACITY = 0x1200
+#: Columns of the matrix from mesh to screen, three lanes each: see VertexShader.
+MATRIX_X = 0x1220
+MATRIX_Y = 0x1240
+MATRIX_Z = 0x1260
+MATRIX_T = 0x1280
+#: A sub-pixel column x is outside the tile if x - TILE_LEFT, as an unsigned number, is above TILE_SPAN, and a row y if
+#: y - TILE_TOP is above TILE_ROWS.
+TILE_LEFT = 0x12A0
+TILE_SPAN = 0x12C0
+TILE_TOP = 0x12E0
+TILE_ROWS = 0x1300
+#: What is added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
+ROUND_TOP = 0x1320
+ROUND_BOTTOM = 0x1340
+#: The mesh, in the order of the struct Mesh: offsets in the engine's calldata, counts, format.
+MESH_VERTICES = 0x1360
+MESH_VERTEX_COUNT = 0x1380
+MESH_FACES = 0x13A0
+MESH_FACE_COUNT = 0x13C0
+MESH_BITS = 0x13E0
+MESH_STRIDE = 0x1400
+#: What follows is for objects that are lit.
+OBJECT_LIT = 0x1420
+#: Columns of the matrix that turns normals into camera space, three lanes each. Of a flat object: of the one that turns
+#: rays into the space of the mesh, Q24, signed lanes of 86 bits, z lowest.
+NORMAL_X = 0x1420
+NORMAL_Y = 0x1440
+NORMAL_Z = 0x1460
+#: The eye in the space of the mesh, Q32; the line of sight there, Q24, for an orthographic camera.
+EYE_X = 0x1480
+EYE_Y = 0x14A0
+EYE_Z = 0x14C0
+#: Scale of the mesh, Q32, and scale / near, Q64.
+SCALE = 0x14E0
+SCALE_PER_NEAR = 0x1500
+#: Ambient light times the ambient coefficient, lanes of Q16.
+AMBIENT = 0x1520
+#: The square of the distance, in sub-pixels, over which light is as good as linear.
+REACH = 0x1540
+#: Up to which sum of the squares of two edges the light of smooth triangles is bounded; and the square of how much unit
+#: half vectors may differ, Q40.
+SMOOTH_REACH = 0x1560
+HALF_REACH = 0x1580
+#: Light of a smooth object that does not depend on the fragment, lanes of Q40.
+FACE_LIGHT_40 = 0x15A0
+#: The square and the length of the normal of a fragment, Q48 and Q24: one, unless normals are interpolated.
+FRAGMENT_SQUARE = 0x15C0
+FRAGMENT_NORMAL_LENGTH = 0x15E0
+#: Where the table of the highlight begins, cos^2 in Q24, and its entries per unit of it, Q16; their product, Q24.
+SPECULAR_BEGIN = 0x1600
+SPECULAR_SCALE = 0x1620
+SPECULAR_OFFSET = 0x1640
+#: The specular coefficient, Q16, if the shininess is 1, else 0.
+SPECULAR_ROOT = 0x1660
+#: The other halves of the records at LIGHTS.
+OBJECT_LIGHTS = 0x1680
+#: 65 entries: value of the highlight in the upper half, increase to the next entry in the lower, both Q16.
+SPECULAR_TABLE = 0x1C00
+SPECULAR_TABLE_END = 0x2420
+
+# ---- triangle ----
+
+#: How fragments are shaded: see the mode.
+MODE = 0x2420
+#: The accumulator at the first vertex, with the bias of its lanes; and the differences of the attribute words of the
+#: others to that of the first.
+ATTRIBUTE_0 = 0x2440
+DELTA_1 = 0x2460
+DELTA_2 = 0x2480
+#: Where the face is in calldata.
+FACE = 0x24A0
+#: The accumulator at column 0 of the first row, and its change per pixel and per row.
+START = 0x24C0
+DX = 0x24E0
+DY = 0x2500
+#: Colour at the first vertex, and its differences to the others.
+COLOR_0 = 0x2520
+COLOR_1 = 0x2540
+COLOR_2 = 0x2560
+#: Depths at the second and third vertex.
+DEPTH_1 = 0x2580
+DEPTH_2 = 0x25A0
+#: Pixels along a side of the cells over which colours are quadratic; 0 if they are over the whole triangle, 1 if each
+#: is exact.
+PATCH_SIZE = 0x25C0
+#: Normal of a flat face, twice its area long, in units of the mesh: signed lanes of 86 bits.
+FACE_NORMAL = 0x25E0
+#: The square of its length, and its length, Q16.
+FACE_SQUARE = 0x2600
+FACE_LENGTH = 0x2620
+#: Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
+FACE_N_DOT_RAY = 0x2640
+FACE_N_DOT_RAY_SLOPE = 0x2660
+#: Normals of a smooth triangle of which each fragment is lit for itself: the normal at the first vertex (Q36), and the
+#: differences to the others (Q20).
+NORMALS_0 = 0x2680
+NORMALS_1 = 0x26A0
+NORMALS_2 = 0x26C0
+
+# ---- fragment ----
+
+#: The place of the fragment beside the line of sight of an orthographic camera, Q16.
+FRAGMENT_PLACE_X = 0x26E0
+FRAGMENT_PLACE_Y = 0x2700
+#: Its normal, Q24, and the product of that with the ray.
+FRAGMENT_NORMAL_X = 0x2720
+FRAGMENT_NORMAL_Y = 0x2740
+FRAGMENT_NORMAL_Z = 0x2760
+FRAGMENT_NORMAL_RAY = 0x2780
+#: Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
+NORMAL_HINT = 0x27A0
+FACE_HINT = 0x27C0
+#: What of a light's strength reaches it through its cone, Q16.
+FRAGMENT_CONE = 0x27E0
+#: The light that modulates its colour, lanes of Q40.
+FRAGMENT_LIGHT = 0x2800
+#: If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
+PATCH_WEIGHT = 0x2820
+#: The first column of the cell that is drawn, and the one after its last.
+PATCH_BEGIN = 0x2840
+PATCH_END = 0x2860
+
+# ---- edges ----
+
+#: Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
+HAS_CLIPPED = 0x2880
+#: DEPTH_STRIDE in both lanes of edges: see Rasterizer.
+STRIDE_LANES = 0x28A0
+#: The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by
+#: addresses.
+DX_8 = 0x28C0
+ROW_STEP = 0x28E0
+#: The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has
+#: ended: the number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per
+#: row.
+LOWER_ROWS = 0x2900
+LOWER_KEPT = 0x2920
+LOWER_EDGE = 0x2940
+LOWER_SLOPES = 0x2960
+#: Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
+DEEP_START = 0x2980
+DEEP_DX = 0x29A0
+DEEP_DY = 0x29C0
+#: Where the next triangle is listed; 0 if faces are drawn at once.
+LIST = 0x29E0
+#: How many faces of the object were drawn or listed.
+DRAWN = 0x2A00
+#: Faces of which twice the area, Q192, is not above this are not drawn: they face away.
+LEAST_AREA = 0x2A20
+#: What edges change per row.
+SLOPES = 0x2A40
+#: The end of the faces in calldata.
+FACES_END = 0x2A60
+
+# ---- quadratic functions ----
+
+#: Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
+QUADRATIC_1 = 0x2A80
+QUADRATIC_S = 0x2AA0
+QUADRATIC_T = 0x2AC0
+QUADRATIC_SS = 0x2AE0
+QUADRATIC_ST = 0x2B00
+QUADRATIC_TT = 0x2B20
+#: The values at column 0 of the first row, and their first and second differences to the next column and row.
+QUADRATIC_START = 0x2B40
+QUADRATIC_DX = 0x2B60
+QUADRATIC_DY = 0x2B80
+QUADRATIC_DXX = 0x2BA0
+QUADRATIC_DXY = 0x2BC0
+QUADRATIC_DYY = 0x2BE0
+#: Changes over a word of eight colours: the quadratic part of each channel.
+BEND_BLUE = 0x2C00
+BEND_GREEN = 0x2C20
+BEND_RED = 0x2C40
+
+# ---- smooth triangles ----
+
+#: Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
+NORMAL_0 = 0x2C60
+NORMAL_1 = 0x2CA0
+NORMAL_2 = 0x2CE0
+#: The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
+HALF_CHANGE = 0x2D20
+#: Half the magnitudes of the last squares of a ray, and of a half vector.
+RAY_HINT = 0x2D40
+HALF_HINT = 0x2D60
+#: The record of a vertex in the middle of an edge.
+MIDDLE = 0x2D80
+#: 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
+DEPTHS_DIFFER = 0x2E80
+#: Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
+QUADRATIC_HALF_DXX = 0x2EA0
+#: The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
+NEAREST = 0x2EC0
 
 # ---- mode ----
 # How fragments are shaded: the sum of these is in MODE; 0 is the plain loop. IS_CROSSING stands where a shift brings
