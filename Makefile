@@ -80,16 +80,16 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
-	$(BIN)/python tools/readme.py
+	$(BIN)/python -m tools.readme
 
-paper: $(DEV) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
-	$(BIN)/shackled bench --all -o benchmarks/results
+paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
+	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
 pictures: $(DEV) ## draw the pictures of the documentation
-	$(BIN)/python docs/draw_pictures.py
-	$(BIN)/python docs/draw_studio.py
-	$(BIN)/python tools/readme.py
+	$(BIN)/python -m docs.draw_pictures
+	$(BIN)/python -m docs.draw_studio
+	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
 

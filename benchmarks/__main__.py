@@ -1,4 +1,4 @@
-"""`python -m benchmarks`: all tables, printed and written to results.md and results.json; the plots of docs/images."""
+"""`python -m benchmarks`: all tables, printed and written to results.md and results.json."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import sys
 from pathlib import Path
 
-from . import cost, linearity, plots, stages
+from . import cost, linearity, stages
 
 FOLDER = Path(__file__).parent
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
@@ -21,15 +21,12 @@ def main() -> int:
         written.append(f"## {section.title}\n\n{section.text}\n")
         print(written[-1], flush=True)
         data[section.title] = section.data
-    paths = plots.draw()
     if all(data.values()) or not FIGURES.exists():
         RESULTS.write_text("\n".join(written), "utf-8")
         FIGURES.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
-        paths += [RESULTS, FIGURES]
+        print(f"written: {RESULTS.name}, {FIGURES.name}")
     else:
         print(f"{RESULTS.name} and {FIGURES.name} are left as they are, since a part was skipped")
-    for path in paths:
-        print(f"written: {path.relative_to(FOLDER.parent)}")
     return 0
 
 

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 import statistics
-import sys
-from pathlib import Path
 
 import numpy as np
+from tools.tokens.stage import LIMIT, PRICE, Stage, icon_scene, stage, store_scene
+from tools.tokens.world import GAS, Contract
 
 from shackled import load
 from shackled.artifacts import artifact
+from shackled.bench.measure import call, gas
 from shackled.datasets import icons
 from shackled.datasets.genesis import seed_of
 
 from .cost import Row
-from .measure import call, gas
 from .studio import recorded as recorded_of_studio
-
-# the world in which the tests deploy the collections
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
-
-from tokens.stage import LIMIT, PRICE, Stage, icon_scene, stage, store_scene
-from tokens.world import GAS, Contract
 
 #: Seeds of the collection of 2021.
 PIECES = 1024

@@ -1,10 +1,12 @@
 """How the Creator's page does with many visitors at once: pictures a second, and how late they are.
 
     python -m benchmarks.creator [--visitors 20] [--seconds 10] [--piece NAME] [--write]
+    python -m benchmarks.creator --pool [--longest 128] [--workers N]
 
 Each visitor opens the page and its wire as a browser does, and turns the object all the time: 30 movements a second.
 The delay of a movement is the time from when it is sent until the first picture that shows it has arrived. Server,
-workers and visitors share this machine.
+workers and visitors share this machine. With --pool there is no page: each visitor asks the workers for the next
+picture as soon as the last one is there.
 """
 
 from __future__ import annotations
@@ -19,14 +21,18 @@ import sys
 import time
 import urllib.request
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
+from tools.pages import update
 from websockets.asyncio.client import connect
 
+from shackled.creator.orbit import drag, front
+from shackled.creator.pool import Pool
+from shackled.creator.state import Source, State
+
 PAGE = Path(__file__).parent.parent / "docs" / "creator.md"
-BEGIN, END = "<!-- begin load -->", "<!-- end load -->"
 
 #: Seconds between two movements.
 PACE = 1 / 30
@@ -81,6 +87,27 @@ async def measure(address: str, visitors: int, seconds: float) -> list[Orbiting]
     return seen
 
 
+async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, workers: int | None) -> list[Orbiting]:
+    """All visitors at once, without the page."""
+    seen = [Orbiting() for _ in range(visitors)]
+    async with Pool(workers) as pool:
+        facts = await pool.open(Source("piece", piece))
+        until = time.perf_counter() + seconds
+
+        async def orbit(visitor: str, each: Orbiting) -> None:
+            camera = front(facts)
+            while (asked := time.perf_counter()) < until:
+                camera = drag(camera, 0.01, 0.002 if each.pictures % 60 < 30 else -0.002)
+                frame = await pool.render(visitor, replace(State(facts.source), camera=camera), longest, count=False)
+                assert frame is not None
+                each.pictures += 1
+                each.delays.append(time.perf_counter() - asked)
+                each.sides.append(max(frame.width, frame.height))
+
+        await asyncio.gather(*(orbit(f"visitor {number}", each) for number, each in enumerate(seen)))
+    return seen
+
+
 def report(seen: Sequence[Orbiting], seconds: float) -> str:
     """The figures, as a table in Markdown."""
     each = np.array([one.pictures / seconds for one in seen])
@@ -97,14 +124,6 @@ def report(seen: Sequence[Orbiting], seconds: float) -> str:
     return "\n".join(["| | |", "|---|---:|", *(f"| {name} | {value} |" for name, value in rows.items())])
 
 
-def write(table: str) -> None:
-    """Puts the figures into the documentation."""
-    page = PAGE.read_text("utf-8")
-    parts = re.split(f"({BEGIN}).*?({END})", page, flags=re.DOTALL)
-    assert len(parts) == 4, f"{PAGE} has no place for them"
-    PAGE.write_text(f"{parts[0]}{parts[1]}\n{table}\n{parts[2]}{parts[3]}", "utf-8")
-
-
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description="The Creator with many visitors at once.")
@@ -112,7 +131,16 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=10)
     parser.add_argument("--piece", default="icons/shackle")
     parser.add_argument("--write", action="store_true", help="put the figures into docs/creator.md")
+    parser.add_argument("--pool", action="store_true", help="ask the workers alone")
+    parser.add_argument("--longest", type=int, default=128, help="side of the pictures of --pool")
+    parser.add_argument("--workers", type=int, help="processes of --pool; else one for each core")
     options = parser.parse_args()
+    if options.pool:
+        seen = asyncio.run(
+            measure_pool(options.visitors, options.seconds, options.piece, options.longest, options.workers)
+        )
+        print(report(seen, options.seconds))
+        return
     command = [sys.executable, "-m", "shackled", "creator", "--no-browser", "--port", "0", options.piece]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
@@ -125,7 +153,7 @@ def main() -> None:
     table = report(seen, options.seconds)
     print(table)
     if options.write:
-        write(table)
+        update({PAGE: lambda _: table}, "python -m benchmarks.creator --write")
 
 
 if __name__ == "__main__":

@@ -7,13 +7,12 @@ from functools import cache
 
 import numpy as np
 
-from shackled import Scene
-from shackled.bench.fits import Column, Fit, fit, quadratic_share
-from shackled.bench.linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE
+from shackled.bench.fits import Column, Fit, fit, line, quadratic_share
+from shackled.bench.linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
+from shackled.bench.measure import gas
+from shackled.bench.report import table
 
-from .measure import gas
-from .scenes import cube, square
-from .table import Section, table
+from . import Section
 from .workload import workload_of
 
 TITLE = "Linearity"
@@ -29,21 +28,8 @@ class Series:
     gas: Column
 
 
-def squares(look: str) -> list[Scene]:
-    """The same square, cut ever finer."""
-    material, lights = LOOKS[look]
-    return [square(divisions, SQUARE_SIDE, material, lights) for divisions in DIVISIONS]
-
-
-def cubes(look: str) -> list[Scene]:
-    """The same cube on ever larger canvases."""
-    material, lights = LOOKS[look]
-    return [cube(size, material, lights) for size in SIDES]
-
-
-@cache
 def series(kind: str, look: str) -> Series:
-    """The quantities of the squares or the cubes."""
+    """Measure the squares or the cubes."""
     scenes = squares(look) if kind == "squares" else cubes(look)
     triangles, rows, pixels = _quantities(kind)
     return Series(triangles, rows, pixels, np.array([gas(scene) for scene in scenes], float))
@@ -68,9 +54,9 @@ def section() -> Section:
         by_triangles, by_pixels = fit(across, of_squares.gas), fit([of_cubes.pixels], of_cubes.gas)
         shares = quadratic_share(across, of_squares.gas), quadratic_share([of_cubes.pixels], of_cubes.gas)
         lines += [
-            _line(f"{look}, all", whole, ("triangles", "pixels"), None),
-            _line(f"{look}, squares", by_triangles, ("triangles", "rows"), shares[0]),
-            _line(f"{look}, cubes", by_pixels, ("pixels",), shares[1]),
+            [*line(f"{look}, all", ("triangles", "pixels"), whole), ""],
+            [*line(f"{look}, squares", ("triangles", "rows"), by_triangles), f"{shares[0]:+.2%}"],
+            [*line(f"{look}, cubes", ("pixels",), by_pixels), f"{shares[1]:+.2%}"],
         ]
         data[look] = {
             "all": {"constant, triangles, pixels": whole.coefficients, "r2": whole.r2},
@@ -92,12 +78,6 @@ def section() -> Section:
 
 
 _FIELDS = ("triangles", "rows", "pixels", "gas")
-
-
-def _line(name: str, by: Fit, quantities: tuple[str, ...], share: float | None) -> list[str]:
-    constant, *slopes = by.coefficients
-    terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, quantities, strict=True)]
-    return [name, " ".join([f"{constant:,.0f}", *terms]), f"{by.r2:.6f}", "" if share is None else f"{share:+.2%}"]
 
 
 def _record(of: Series, by: Fit, share: float) -> dict[str, object]:

@@ -15,9 +15,11 @@ from pathlib import Path
 from statistics import fmean
 
 from attrs import evolve
+from tools.anvil import Anvil, AnvilChain, find_anvil
 
 from shackled import Scene, load
-from shackled.bench.anvil import Anvil, AnvilChain, find_anvil
+from shackled.bench.measure import gas
+from shackled.bench.report import millions, table
 from shackled.chain import open_chain
 from shackled.parallel import Listener, Where
 from shackled.parallel.part import Part
@@ -28,9 +30,7 @@ from shackled.parallel.tiles import grid
 from shackled.scene.codec import Rectangle
 from shackled.scene.turning import full_turn
 
-from . import shared
-from .measure import gas
-from .table import Section, millions, table
+from . import Section, shared
 
 FOLDER = Path(__file__).parent
 SIDES = (128, 256, 512, 1024)
@@ -57,9 +57,8 @@ def tiles() -> Section:
     text = (
         "The teapot, 992 triangles, smooth. Gas of all tiles together, divided by that of the whole picture.\n\n"
         + table(heads, rows)
-        + "\n\nEach tile costs the vertices and faces of the whole scene once more, so that tiles are dear for small "
-        "pictures. Strips (1 x n) cost about as much as squares: a face that a tile does not reach is left out at "
-        "once. "
+        + "\n\nEach tile reads the vertices and faces of the whole scene once more, to find those that it shows, so "
+        "that tiles are dear for small pictures. Strips (1 x n) cost about as much as squares. "
         "Of a large picture tiles may cost less than the whole: memory becomes dearer the more of it a call uses."
     )
     return Section("Tiles", text, data)

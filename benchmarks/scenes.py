@@ -3,29 +3,11 @@
 from __future__ import annotations
 
 from shackled import Camera, Light, Material, Object, Scene
-from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh, square
-from shackled.bench.scenes import turned_cube as cube
+from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh
 from shackled.datasets.teapot import teapot
 from shackled.scene.material import Shading
 from shackled.scene.rotation import from_euler
 from shackled.scene.staging import Look, stage
-
-__all__ = [
-    "DISTANCE",
-    "GLOSSY",
-    "LAMP",
-    "NIGHT",
-    "SUN",
-    "TEAPOT",
-    "UNLIT",
-    "cube",
-    "cube_mesh",
-    "cubes",
-    "empty",
-    "room",
-    "square",
-    "staged_teapot",
-]
 
 #: About a thousand triangles, as the models of the cost table have.
 TEAPOT = teapot(4)

@@ -13,8 +13,9 @@ from pathlib import Path
 from attrs import evolve
 
 from shackled import InputError, Light, Material, Scene, load
+from shackled.bench.scenes import GLOSSY, UNLIT
 
-from .scenes import GLOSSY, LAMP, UNLIT
+from .scenes import LAMP
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared") / "scenes"

@@ -11,36 +11,29 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 from attrs import evolve
+from eth_abi.abi import encode as abi_encode
 
-from shackled import Camera, Light
+from shackled import Camera, Light, Mesh
 from shackled.artifacts import artifact
 from shackled.bench import scenes as paper
+from shackled.bench.deploy import deployment_gas
+from shackled.bench.measure import call, gas
+from shackled.bench.scenes import GLOSSY, SUN, UNLIT, cube_mesh, square, turned_cube
 from shackled.datasets.genesis import seed_of
+from shackled.deploy.contract import STANDARD
 from shackled.scene.codec import Rectangle
 
 from . import shared
-from .measure import call, contract_figures, gas
-from .original import original_call
-from .scenes import (
-    GLOSSY,
-    LAMP,
-    SUN,
-    UNLIT,
-    cube,
-    cube_mesh,
-    cubes,
-    empty,
-    room,
-    square,
-    staged_teapot,
-)
+from .scenes import LAMP, cubes, empty, room, staged_teapot
 
 FILE = Path(__file__).with_name("gas.json")
 
 Figures = dict[str, int]
 Snapshot = dict[str, Figures]
 
+ORTHOGRAPHIC = Camera(projection="orthographic", half_height=1000)
 FOUR_LIGHTS = (
     SUN,
     LAMP,
@@ -48,15 +41,22 @@ FOUR_LIGHTS = (
     Light("point", (-400, -300, -1500), (60, 120, 255)),
 )
 
+# The interface of the original contracts.
+_LIGHTING = "(bool,int256,int256,int256,uint256,int256[3],int256[3],int256[3],int256[3])"
+_PARAMETERS = f"(uint256[3][],int256[3][],int256[3][],int256[3],int256,int256[3][2],{_LIGHTING},bool,bool,bool,bool)"
+
+#: Toward the upper right; power 2,000 at a distance of 50, as the original's own pieces have it.
+ORIGINAL_LIGHT = (True, 0, 2000, 2000, 10, (40, 30, 0), (255, 255, 255), (1, 1, 1), (0, 0, 0))
+
 
 def own_figures() -> Figures:
     """Scenes that need no file."""
     scenes = {
-        "cube, 128": cube(128),
-        "cube, 512": cube(512),
-        "cube, orthographic, 128": evolve(cube(128), camera=Camera(projection="orthographic", half_height=1000)),
-        "cube, point light, 128": cube(128, lights=(LAMP,)),
-        "cube, unlit, 512": cube(512, UNLIT),
+        "cube, 128": turned_cube(128),
+        "cube, 512": turned_cube(512),
+        "cube, orthographic, 128": evolve(turned_cube(128), camera=ORTHOGRAPHIC),
+        "cube, point light, 128": turned_cube(128, lights=(LAMP,)),
+        "cube, unlit, 512": turned_cube(512, UNLIT),
         "cubes that meet, 128": cubes(128),
         "empty, 128": empty(128),
         "experiment canvas, 8": paper.cube(8),
@@ -106,6 +106,27 @@ def genesis_figures() -> Figures:
 def shared_figures() -> Figures:
     """The scenes of the cost table; nothing if they are not there."""
     return {name: gas(scene) for name, scene in shared.table_scenes().items()}
+
+
+def original_call(mesh: Mesh, size: int, svg: bool) -> bytes:
+    """Encode a call of `render` of the original's interface: a mesh of whole coordinates, lit, before the camera."""
+    faces, positions, colors = (
+        np.asarray(table).astype(int).tolist() for table in (mesh.faces, mesh.positions, mesh.colors)
+    )
+    background = ((0, 0, 40), (0, 0, 160))
+    parameters = (faces, positions, colors, (0, 0, -2500), 1, background, ORIGINAL_LIGHT, True, True, False, False)
+    return artifact("Original").selectors["render"] + abi_encode(
+        [_PARAMETERS, "int256", "bool"], [parameters, size, svg]
+    )
+
+
+def contract_figures() -> Figures:
+    """Measure each contract that `shackled deploy` puts on a chain: bytes of its code, gas of its deployment."""
+    figures = {}
+    for name in sorted(STANDARD):
+        figures[f"{name} code size"] = len(artifact(name).runtime)
+        figures[f"{name} deployment"] = deployment_gas(name)
+    return figures
 
 
 def take() -> Snapshot:

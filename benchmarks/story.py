@@ -7,17 +7,19 @@ python -m benchmarks.story --check    writes nothing; fails if they are not up t
 from __future__ import annotations
 
 import csv
-import re
 import sys
 from pathlib import Path
 from statistics import fmean
 
+from tools.pages import update
+
 from shackled.artifacts import RENDERER
-from shackled.bench import energy
 from shackled.bench.original import DEPLOYMENT_GAS, original_gas
 from shackled.bench.scenes import cube
-from shackled.chain.embedded import intrinsic_gas
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.codec import encode
+
+from . import energy
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
@@ -65,26 +67,9 @@ def rows(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def filled(text: str) -> str:
-    """A page with what belongs between its marks."""
-
-    def fill(match: re.Match[str]) -> str:
-        return f"{match[1]}\n{content(match[2])}\n<!-- end {match[2]} -->"
-
-    return re.sub(r"(<!-- begin (\w+) -->)\n.*?<!-- end \2 -->", fill, text, flags=re.DOTALL)
-
-
 def main() -> int:
     """The command."""
-    stale = [page for page in PAGES if filled(page.read_text("utf-8")) != page.read_text("utf-8")]
-    if "--check" in sys.argv[1:]:
-        for page in stale:
-            print(f"{page.relative_to(ROOT)} is not up to date: run python -m benchmarks.story", file=sys.stderr)
-        return 1 if stale else 0
-    for page in stale:
-        page.write_text(filled(page.read_text("utf-8")), "utf-8", newline="\n")
-        print(f"written: {page.relative_to(ROOT)}")
-    return 0
+    return update(dict.fromkeys(PAGES, content), "python -m benchmarks.story", "--check" in sys.argv[1:])
 
 
 if __name__ == "__main__":

@@ -13,7 +13,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from shackled.bench.anvil import Anvil, find_anvil
+from tools.anvil import Anvil, find_anvil
+
 from shackled.chain.address_book import VARIABLE
 from shackled.tokens.demo import run
 from shackled.tokens.table import markdown

@@ -12,12 +12,16 @@ import statistics
 import sys
 from pathlib import Path
 
+from tools.pages import update
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, Stage, icon_scene, stage, store_scene
+from tools.tokens.world import GAS, ZERO, account, keccak
+
 from shackled.datasets.genesis import seed_of
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
 PAGE = ROOT / "docs" / "tokens.md"
-BEGIN, END = "<!-- begin gas -->\n", "<!-- end gas -->"
 
 #: Of the contracts of 2021, as their authors tell it.
 ORIGINAL = {"mint 1": 124_000, "mint 5": 712_000}
@@ -29,12 +33,6 @@ Figures = dict[str, int]
 
 def take(seeds: int = SEEDS) -> Figures:
     """All figures. Gas of transactions is with intrinsic gas, and that of calls without."""
-    if str(ROOT / "tests") not in sys.path:
-        sys.path.insert(0, str(ROOT / "tests"))
-    from tokens.merkle import proof_of, root_of
-    from tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, icon_scene, stage, store_scene
-    from tokens.world import ZERO, account
-
     s = stage()
     contracts = {"GenesisCollection": s.genesis, "GenesisMetadata": s.metadata, "IconsCollection": s.icons}
     figures = {f"deploy {name}": contract.gas for name, contract in contracts.items()}
@@ -80,11 +78,8 @@ def take(seeds: int = SEEDS) -> Figures:
     return figures
 
 
-def reveals(s: object) -> Figures:
+def reveals(s: Stage) -> Figures:
     """Of rounds, however many tokens are in them."""
-    from tokens.stage import Stage
-
-    assert isinstance(s, Stage)
     figures = {}
     for count in (1, 5, 20):
         with s.world.attempt():
@@ -101,24 +96,16 @@ def reveals(s: object) -> Figures:
     return figures
 
 
-def added(s: object) -> int:
+def added(s: Stage) -> int:
     """What looking up the round and handing on the answer take."""
-    from tokens.stage import Stage
-    from tokens.world import keccak
-
-    assert isinstance(s, Stage)
     address = bytes.fromhex(s.genesis.address[2:]).rjust(32, b"\0")
     drawn = keccak(s.genesis.call("randomnessOf", 0) + address + (1).to_bytes(32, "big"))
     assert s.metadata.call("tokenURI", 1, drawn) == s.genesis.call("tokenURI", 1)
     return s.genesis.gas_of("tokenURI", 1) - s.metadata.gas_of("tokenURI", 1, drawn)
 
 
-def token_uris(s: object, seeds: int) -> Figures:
+def token_uris(s: Stage, seeds: int) -> Figures:
     """Gas and length over seeds, without what the collection adds."""
-    from tokens.stage import Stage
-    from tokens.world import GAS
-
-    assert isinstance(s, Stage)
     gas, lengths = [], []
     for number in range(seeds):
         _, data = s.metadata.encode("tokenURI", (number, seed_of(number)))
@@ -153,9 +140,7 @@ def main() -> int:
     figures = take()
     print(table(figures))
     FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")
-    before, _, rest = PAGE.read_text("utf-8").partition(BEGIN)
-    PAGE.write_text(before + BEGIN + table(figures) + "\n" + END + rest.partition(END)[2], "utf-8")
-    return 0
+    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.tokens")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Draws the pictures of creator.md: the page of the Creator in a real browser, and a film of how it is used.
 
-    python docs/draw_creator.py
+    python -m docs.draw_creator
 
 Needs chromium. The page is started by its command, and used by its buttons.
 """
@@ -8,19 +8,16 @@ Needs chromium. The page is started by its command, and used by its buttons.
 from __future__ import annotations
 
 import io
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Literal
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
+from tools.page_server import ARGUMENTS, browser_path, creator
 
 FOLDER = Path(__file__).parent
 IMAGES = FOLDER / "images"
-sys.path.append(str(FOLDER.parent / "tests"))
-
-from page_server import ARGUMENTS, browser_path, creator  # noqa: E402
 
 #: Of the film: pictures a second, and pixels of the screen for one of its own.
 PACE, SHRINK = 10, 1.25

@@ -1,6 +1,6 @@
 """Draws the picture of token-commands.md: the gallery that `shackled token demo` leaves, in a real browser.
 
-    python docs/draw_gallery.py
+    python -m docs.draw_gallery
 
 Needs anvil and chromium. The pieces are others each time, as the chain draws their seeds.
 """
@@ -15,15 +15,13 @@ from pathlib import Path
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
+from tools.anvil import Anvil, find_anvil
+from tools.page_server import ARGUMENTS, browser_path
 
-from shackled.bench.anvil import Anvil, find_anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.tokens.demo import run
 
 FOLDER = Path(__file__).parent
-sys.path.append(str(FOLDER.parent / "tests"))
-
-from page_server import ARGUMENTS, browser_path  # noqa: E402
 
 #: Of a palette, which is enough for a page and keeps the file small.
 COLORS = 256

@@ -1,25 +1,23 @@
 """Draws the picture of docs/studio.md: tokens of examples/tokens, as they stand in their own URIs.
 
-    python docs/draw_studio.py
+    python -m docs.draw_studio
 
 Needs the compiler: `npm ci` in contracts/.
 """
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 from PIL import Image as PillowImage
+from tools.examples import compile_example, picture, token_uri
+from tools.ledger import World
+
+from shackled import load
+from shackled.studio.keeping import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tests"))
-
-from ledger import World  # noqa: E402
-from shackled import load  # noqa: E402
-from shackled.studio.keeping import store_scene  # noqa: E402
-from test_examples import compile_example, picture, token_uri  # noqa: E402
 
 
 def main() -> None:

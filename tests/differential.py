@@ -25,7 +25,7 @@ from pictures import call_data, dynamic, words
 from random_scenes import KINDS, Case, Kind, broken_call, random_case
 from shackled import reference
 from shackled.chain import ContractChain, open_chain
-from shackled.errors import RenderError
+from shackled.errors import ChainError
 from shackled.image import decode_bmp
 
 #: What a function returns, or the message of the error that it reverts with.
@@ -36,7 +36,7 @@ def contract_answer(chain: ContractChain, data: bytes) -> Answer:
     """What a call of the Renderer gives."""
     try:
         return chain.call("Renderer", data).output
-    except RenderError as error:
+    except ChainError as error:
         return str(error)
 
 
@@ -44,7 +44,7 @@ def reference_answer(data: bytes) -> Answer:
     """What the same call should give."""
     try:
         picture = reference.draw_call(data)
-    except RenderError as error:
+    except ChainError as error:
         return str(error)
     bmp = reference.encode_bmp(picture.pixels)
     counted = data[:4] == reference.selector("renderCounted")

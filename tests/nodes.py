@@ -14,8 +14,7 @@ from typing import Any
 
 import pytest
 import requests
-
-from shackled.bench.anvil import Anvil, find_anvil
+from tools.anvil import Anvil, find_anvil
 
 ANVIL = find_anvil()
 needs_anvil = pytest.mark.skipif(ANVIL is None, reason="anvil is not installed: npm ci in contracts/")

@@ -14,8 +14,9 @@ from attrs import evolve
 
 from float64 import scene_type
 from pictures import chain, dynamic, words
-from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact
+from shackled.errors import OutOfGasError
 from shackled.image import decode_bmp
 from shackled.scene.codec import encode_scene
 
@@ -284,7 +285,7 @@ def test_too_little_gas() -> None:
     data = call_data()
     needed = chain().call("Renderer", data).gas
     for gas in (needed // 2, 100_000, 30_000, 5_000):
-        with pytest.raises(RenderError, match="ran out of gas"):
+        with pytest.raises(OutOfGasError, match="ran out of gas"):
             chain().call("Renderer", data, gas)
 
 
@@ -402,7 +403,7 @@ def outcome(data: bytes) -> str:
     """The error, or "" for a picture; which must be one."""
     try:
         result = chain().call("Renderer", data, GAS_BOUND)
-    except RenderError as error:
+    except ChainError as error:
         message = str(error)
         # a revert with one of the contract's own errors, or without data by the decoder
         assert "ran out of gas" not in message, data.hex()

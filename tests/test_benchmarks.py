@@ -10,28 +10,25 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from benchmarks import linearity, stages
-from benchmarks.measure import gas
+from benchmarks import stages
 from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
-from shackled import Scene
 from shackled.bench import EXPERIMENTS, fits
+from shackled.bench.linear import cubes as linear_cubes
+from shackled.bench.linear import squares
+from shackled.bench.measure import gas
 from shackled.chain import open_chain
 from shackled.gas.stages import STAGES
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-def faces(scene: Scene) -> int:
-    return scene.triangles
-
-
 @pytest.mark.parametrize("look", ["unlit", "matte"])
 def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
     pytest.importorskip("pyrevm", reason="py-evm would take minutes")
-    scenes = linearity.squares(look) + linearity.cubes(look)
-    triangles = np.array([faces(scene) for scene in scenes], float)
+    scenes = squares(look) + linear_cubes(look)
+    triangles = np.array([scene.triangles for scene in scenes], float)
     pixels = np.array([scene.width * scene.height for scene in scenes], float)
     found = fits.fit([triangles, pixels], np.array([gas(scene) for scene in scenes], float))
     assert found.r2 >= 0.998

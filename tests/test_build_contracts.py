@@ -3,34 +3,20 @@
 from __future__ import annotations
 
 import builtins
-import importlib.util
 import json
 import re
 import sys
 from pathlib import Path
-from types import ModuleType
 
 import pytest
+from tools import build_contracts as tool
 
 from shackled.artifacts import contracts
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
-@pytest.fixture
-def tool() -> ModuleType:
-    """tools/build_contracts.py."""
-    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
-    assert spec is not None
-    assert spec.loader is not None
-    tool = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(tool)
-    return tool
-
-
-def test_a_closed_pipe_leaves_no_old_artifacts(
-    tool: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_closed_pipe_leaves_no_old_artifacts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As `tools/build_contracts.py | head -1`: what was built is written before anything is printed."""
     text = '{"contract": "Thing", "deployedBytecode": "00", "group": "calls"}\n'
     monkeypatch.setattr(tool, "ARTIFACTS", tmp_path)
@@ -48,7 +34,7 @@ def test_a_closed_pipe_leaves_no_old_artifacts(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["Thing.json", tool.SOURCE_MAPS]
 
 
-def test_every_contract_is_in_one_group(tool: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_contract_is_in_one_group(monkeypatch: pytest.MonkeyPatch) -> None:
     found = tool.find_contracts()
     assert sorted(found) == sorted(contracts())
     for name in found:
@@ -61,7 +47,7 @@ def test_every_contract_is_in_one_group(tool: ModuleType, monkeypatch: pytest.Mo
         tool.find_contracts()
 
 
-def test_source_maps_of_groups_are_merged(tool: ModuleType) -> None:
+def test_source_maps_of_groups_are_merged() -> None:
     """Each run of the compiler numbers sources in its own way; what is no source of ours has none."""
     a, b = {"name": "a.sol", "functions": []}, {"name": "b.sol", "functions": []}
     one = {"contracts": {"Two": {"map": "1:2:7:-;;3:4:9:i", "entries": {}}}, "sources": {"7": b}}

@@ -152,6 +152,9 @@ def degenerate_meshes() -> dict[str, Mesh]:
         "one index twice": Mesh(corners, [[0, 1, 1], [0, 0, 2], [2, 1, 2]]),
         "at the eye": soup([[[0, 0, 0]] * 3]),
         "through the eye": soup([[[0, 0, 0], [0, 0, -100], [0, 0, 50]]]),
+        "a line to far below and beside the picture": soup(
+            [[[0, 0, -100], [-3000, -6000, -100], [-3000, -6000, -100]]]
+        ),
     }
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import importlib.util
 import io
 import itertools
 import json
@@ -16,11 +15,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from eth_abi.abi import decode
-from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.examples import compile_example, picture, token_uri
+from tools.ledger import World
 
-from ledger import World, call_data
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.chain.embedded import EmbeddedChain
 from shackled.chain.opening import open_chain
@@ -47,7 +45,6 @@ def test_first_picture(tmp_path: Path) -> None:
         assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 500
 
 
-@pytest.mark.xfail(reason="the strip of the README was not drawn again", strict=False)
 def test_the_demo_costs_what_the_readme_says(tmp_path: Path) -> None:
     """The command as it stands in the Makefile, and the picture of the documentation that is said to be the same."""
     demo = (ROOT / "Makefile").read_text("utf-8").split("\ndemo:")[1].split("\n\n")[0].replace("\\\n", " ")
@@ -85,7 +82,7 @@ def test_call_from_contract() -> None:
     assert isinstance(chain, EmbeddedChain)
     creation, selectors = compile_example("examples/call_from_contract/Tetrahedron.sol")
     parts = (chain.address(name).rjust(32, b"\0") for name in ("Renderer", "PngEncoder"))
-    code = chain._create("Tetrahedron", creation + b"".join(parts))
+    code = chain.create("Tetrahedron", creation + b"".join(parts))
     address = b"\x7e" * 20
     chain._codes[address] = code
     try:
@@ -138,34 +135,6 @@ def test_a_token_that_builds_its_scene() -> None:
         assert (each != each[:, :1]).any(axis=2).mean() > 0.2
         assert len(np.unique(each.reshape(-1, 3), axis=0)) > 140
     assert (first != second).any(axis=2).mean() > 0.05
-
-
-def token_uri(world: World, token: bytes, number: int, minted: int) -> str:
-    """The token's URI after so many were minted."""
-    mints = minted * [call_data("mint()")]
-    return str(decode(["string"], world.run(token, call_data("tokenURI(uint256)", number), before=mints))[0])
-
-
-def picture(uri: str) -> NDArray[np.uint8]:
-    """The picture in a token's URI."""
-    json_text = base64.b64decode(uri.removeprefix("data:application/json;base64,"), validate=True)
-    assert len(uri) < 100_000
-    image = json.loads(json_text)["image"].removeprefix("data:image/png;base64,")
-    with PillowImage.open(io.BytesIO(base64.b64decode(image, validate=True))) as opened:
-        return np.asarray(opened)
-
-
-def compile_example(name: str) -> tuple[bytes, dict[str, bytes]]:
-    """The creation code of the contract of a source, and its selectors by signature."""
-    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
-    assert spec is not None
-    assert spec.loader is not None
-    tool = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(tool)
-    request = tool.request(tool.follow_imports([name], ROOT), tool.settings(200, True), {name: {"*": tool.OUTPUTS}})
-    output = tool.run_compiler(tool._text(request))["contracts"][name][Path(name).stem]["evm"]
-    selectors = {signature: bytes.fromhex(value) for signature, value in output["methodIdentifiers"].items()}
-    return bytes.fromhex(output["bytecode"]["object"]), selectors
 
 
 def tetrahedron_scene(degrees: float) -> Scene:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from web3 import HTTPProvider, Web3
 from web3.contract import Contract
 from web3.types import Wei
 
@@ -19,8 +20,8 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.chain.connection import Connection
-from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode, extensions
 from shackled.scene.fit import fit
 from shackled.scene.packed_mesh import pack
@@ -69,7 +70,7 @@ class Node:
     """The contracts on a node."""
 
     def __init__(self, connection: Connection) -> None:
-        self.w3 = connection.web3
+        self.w3 = Web3(HTTPProvider(connection.url, {"timeout": PATIENCE}, exception_retry_configuration=None))
         self.sender = self.w3.eth.accounts[0]
         self.contracts: dict[str, Contract] = {}
         for name in ("Engine", "FragmentEngine", "Renderer", "Original"):

@@ -20,7 +20,7 @@ def constants(name: str) -> dict[str, int]:
     return {key: int(value, 0) for key, value in re.findall(r"^uint256 constant (\w+) = (\w+);", text, re.MULTILINE)}
 
 
-REGISTERS = constants("Registers.sol")
+REGISTERS, WORDS = constants("Registers.sol"), constants("Words.sol")
 #: The names of registers, and the words of each.
 SIZES = {
     name: words
@@ -63,7 +63,7 @@ def test_mode_bits_are_bits_of_their_own() -> None:
     assert all(value & (value - 1) == 0 for value in modes)
     # what the code gets from one bit by shifting another
     assert REGISTERS["HAS_SPECULAR"] == 4 * REGISTERS["IS_LIT"]
-    assert REGISTERS["IS_CROSSING"] == 1 << (147 - 139)
+    assert REGISTERS["IS_CROSSING"] == WORDS["CROSSING_BIT"] >> WORDS["TRIANGLE_CROSSING_SHIFT"]
 
 
 def test_fields_of_packed_words_do_not_overlap() -> None:

@@ -96,6 +96,6 @@ def test_one_version_everywhere() -> None:
 
 
 def test_the_readme_has_the_figures_that_were_measured() -> None:
-    tool = [sys.executable, str(ROOT / "tools" / "readme.py"), "--check"]
-    result = subprocess.run(tool, capture_output=True, text=True)
+    tool = [sys.executable, "-m", "tools.readme", "--check"]
+    result = subprocess.run(tool, cwd=ROOT, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr

@@ -10,7 +10,7 @@ import float64
 from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, shared_scenes
 from pictures import call_data, draw, shared_scene
 from random_scenes import Kind, random_case
-from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
+from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
 
 SHARED, MADE = shared_scenes(), made_scenes()
 
@@ -52,7 +52,7 @@ def test_random_scenes_together(kind: Kind, seeds: range) -> None:
         scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects])
         try:
             pixels = draw(scene)
-        except RenderError:
+        except ChainError:
             continue
         expected = float64.render_call(call_data("render", scene))
         errors.append(np.abs(pixels.astype(int) - expected.pixels)[interior(expected)])

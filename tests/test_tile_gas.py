@@ -8,7 +8,7 @@ from attrs import evolve
 
 from pictures import call
 from random_scenes import random_case
-from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene
+from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene
 from shackled.scene.codec import Rectangle
 
 SIZE = 64
@@ -75,6 +75,14 @@ def parts(width: int, height: int) -> list[Rectangle]:
 
 #: The colours of a patch or two, where the whole has each fragment shaded for itself.
 PATCHES = 2 * 9 * 2_500
+#: To find out what of a mesh a tile shows: of an object, a vertex, a face.
+SORTING = (20_000, 350, 500)
+
+
+def sorting(scene: Scene) -> int:
+    """What finding out which faces a tile shows may cost, even if it shows all."""
+    counts = [(1, len(np.asarray(o.mesh.positions)), len(np.asarray(o.mesh.faces))) for o in scene.objects]
+    return int(np.sum(np.array(counts).reshape(-1, 3) * SORTING))
 
 
 @pytest.mark.parametrize("first", range(0, 150, 50))
@@ -83,7 +91,7 @@ def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
         scene = random_case(seed).scene
         try:
             whole = gas(scene)
-        except RenderError:
+        except ChainError:
             continue
         for tile in parts(scene.width, scene.height):
-            assert gas(scene, tile) <= 1.02 * whole + PATCHES, f"seed {seed}, {tile}"
+            assert gas(scene, tile) <= 1.02 * whole + PATCHES + sorting(scene), f"seed {seed}, {tile}"

@@ -14,7 +14,7 @@ import argparse
 import sys
 
 from shackled import load
-from shackled.errors import InputError, RenderError
+from shackled.errors import ShackledError
 from shackled.gas.blocks import blocks, functions
 from shackled.gas.exact import render_call
 from shackled.gas.trace import Frame, trace
@@ -39,7 +39,7 @@ def main() -> int:
         else:
             called, data = "Renderer", render_call(load(options.input))
         root, result = trace(called, data)
-    except (InputError, RenderError, ValueError) as error:
+    except (ShackledError, ValueError) as error:
         print(error, file=sys.stderr)
         return 1
     contract = options.contract or (called if options.call else "Engine")

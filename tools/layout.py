@@ -131,6 +131,34 @@ def words(table: dict[str, Any]) -> Iterator[Section]:
         yield Section(part["title"], part.get("text", ""), tuple(constants))
 
 
+def flags(table: dict[str, Any]) -> dict[str, int]:
+    """All flags by name."""
+    return {
+        constant.name: constant.value for section in [*bits(table), *words(table)] for constant in section.constants
+    }
+
+
+def unions(table: dict[str, Any]) -> Iterator[Section]:
+    """Several flags at once."""
+    known = flags(table)
+    for part in table["unions"]:
+        constants = [
+            Constant(name, sum(known[flag] for flag in each.split()), text) for name, each, text in part["rows"]
+        ]
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
+def shifts(table: dict[str, Any]) -> Iterator[Section]:
+    """By how many bits one flag is above another."""
+    known = flags(table)
+    for part in table["shifts"]:
+        constants = [
+            Constant(name, known[flag].bit_length() - known[lower].bit_length(), text)
+            for name, flag, lower, text in part["rows"]
+        ]
+        yield Section(part["title"], part.get("text", ""), tuple(constants))
+
+
 def lanes(table: dict[str, Any]) -> Iterator[Section]:
     """Numbers side by side in a word: the same in each lane, or a list of them."""
     for part in table["lanes"]:
@@ -173,7 +201,7 @@ def solidity(sections: Iterator[Section], *imports: str) -> str:
 
 def python(sections: Iterator[Section]) -> str:
     """The same for the reference."""
-    lines = ['"""Constants of packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
+    lines = ['"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
     for section in sections:
         lines += ["", f"# ---- {section.title} ----", *wrapped(section.text, "# ", PYTHON_WIDTH), ""]
         for constant in section.constants:
@@ -192,13 +220,13 @@ def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[
 def files() -> dict[Path, str]:
     """The text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
-    packed = [*numbers(table), *words(table), *lanes(table)]
+    packed = [*numbers(table), *words(table), *unions(table), *shifts(table), *lanes(table)]
     return {
         PIPELINE / "Registers.sol": solidity(
             iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
         ),
         PIPELINE / "Words.sol": solidity(iter(packed)),
-        REFERENCE: python(iter([*bits(table), *packed])),
+        REFERENCE: python(iter([*registers(table), *bits(table), *packed])),
     }
 
 

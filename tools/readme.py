@@ -1,7 +1,7 @@
 """Bring the figures of README.md up to date: those of benchmarks/ and of docs/images/pictures.json.
 
-python tools/readme.py            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
-python tools/readme.py --check    writes nothing; fails if they are not up to date
+python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
+python -m tools.readme --check    writes nothing; fails if they are not up to date
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
+from tools.pages import ROOT, update
+
 README = ROOT / "README.md"
 RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
@@ -73,31 +73,13 @@ def millions(gas: float) -> str:
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
 
 
-def filled(text: str) -> str:
-    """The README with the figures in it."""
-    for name, content in {"costs": costs(), "pictures": pictures(), "tokens": tokens()}.items():
-        begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-        before, found, rest = text.partition(begin)
-        _, closed, after = rest.partition(end)
-        if not (found and closed):
-            raise SystemExit(f"README.md must have {begin} and {end}")
-        text = f"{before}{begin}\n{content}\n{end}{after}"
-    return text
-
-
 def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(description="Bring the figures of README.md up to date.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
-    options = parser.parse_args()
-    old = README.read_text("utf-8")
-    new = filled(old)
-    if options.check and new != old:
-        print("the figures of README.md are not up to date: run tools/readme.py", file=sys.stderr)
-        return 1
-    if not options.check:
-        README.write_text(new, "utf-8", newline="\n")
-    return 0
+    check = parser.parse_args().check
+    contents = {"costs": costs, "pictures": pictures, "tokens": tokens}
+    return update({README: lambda name: contents[name]()}, "python -m tools.readme", check)
 
 
 if __name__ == "__main__":

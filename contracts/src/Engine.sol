@@ -10,11 +10,7 @@ import "./pipeline/Registers.sol";
 /// @title Engine: from vertices to pixels, for flat and unlit surfaces.
 /// @notice The work of the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels after. Call
 /// the Renderer: the engine relies on what it is handed.
-contract Engine is Pipeline {
-    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
-        FlatShading.prepare(a, b, c, crossing);
-    }
-
+contract Engine is Pipeline, FlatShading {
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
         uint256 mode = load(MODE);
         if (mode == 0) LinearSpans.plain(edges, rows, row);

@@ -7,7 +7,7 @@ import {LinearSpans} from "./pipeline/LinearSpans.sol";
 import {Pipeline} from "./pipeline/Pipeline.sol";
 import {SmoothLight} from "./pipeline/SmoothLight.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
-import {Wireframe} from "./pipeline/Wireframe.sol";
+import {BY_FRAGMENTS, Wireframe} from "./pipeline/Wireframe.sol";
 import "./pipeline/Registers.sol";
 
 /// @title FragmentEngine: from vertices to pixels, for what is lit fragment by fragment.
@@ -23,10 +23,13 @@ contract FragmentEngine is Pipeline, Wireframe {
     }
 
     function drawRows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 end) internal pure override {
-        uint256 mode = load(MODE);
-        if (mode & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, rowAt(row), rowAt(end));
-        else if (mode & IS_PATCHED != 0) ExactSpans.rows(edges, slopes, start, rowAt(row), rowAt(end));
-        else LinearSpans.general(edges, slopes, start, row, end);
+        if (load(MODE) & BY_FRAGMENTS == 0) LinearSpans.general(edges, slopes, start, row, end);
+        else drawFragments(edges, slopes, start, rowAt(row), rowAt(end));
+    }
+
+    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure override {
+        if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSpans.rows(edges, slopes, start, row, last);
+        else ExactSpans.rows(edges, slopes, start, row, last);
     }
 
     function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, Wireframe) {

@@ -70,7 +70,7 @@ contract Renderer is SceneErrors {
 
     /// @notice Draws a part of the canvas, as `renderTile` does, and counts what was drawn of it.
     /// @return bmp As `renderTile` returns it.
-    /// @return triangles How many triangles were left after culling and clipping, of the whole picture.
+    /// @return triangles How many triangles were left after culling and clipping that do not lie beyond one border of the part.
     /// @return litPixels How many pixels of the part any of them covers.
     function renderTileCounted(Scene calldata scene, Rectangle calldata tile)
         external

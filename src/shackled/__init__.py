@@ -8,7 +8,7 @@ from ._load import load
 from ._on import Cluster, Nodes, Processes
 from ._render import render, turntable
 from .animation import Animation
-from .errors import InputError, OutputError, RenderError
+from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
 from .scene.background import Background
 from .scene.camera import Camera
@@ -28,6 +28,7 @@ __all__ = [
     "Animation",
     "Background",
     "Camera",
+    "ChainError",
     "Cluster",
     "Image",
     "InputError",
@@ -40,6 +41,7 @@ __all__ = [
     "Processes",
     "RenderError",
     "Scene",
+    "ShackledError",
     "__version__",
     "euler",
     "load",

@@ -39,7 +39,7 @@ def render(
     None takes what fits.
     listener: told how a picture of several parts goes on. keep: a folder in which finished parts are kept, for the same
     call to go on from there; whoever uses the picture removes it.
-    InputError for what is wrong with the scene, RenderError for what fails in a call.
+    InputError for what is wrong with the scene, ChainError for what fails in a call.
     """
     return draw(load(thing, size, **look), _where(on, gas_limit, tile), listener, keep)
 

@@ -1,72 +1,88 @@
-"""The errors that people see. Each message is one line."""
+"""The errors of the library. Each message is one line and names parameters as `size`, in backticks."""
 
 from __future__ import annotations
 
 
-class InputError(ValueError):
-    """Something that was handed in is wrong. The message is one line: what is wrong, where, and what would be right."""
+class ShackledError(Exception):
+    """The base of all errors of the library."""
+
+
+class InputError(ShackledError, ValueError):
+    """A value or a file is wrong. The message says what is wrong, where, and what would be right."""
 
 
 class InputWarning(UserWarning):
-    """Something that was handed in cannot be used, and is left out. The message is one line."""
+    """Something in a file cannot be used, and is left out."""
 
 
-class OutputError(OSError):
-    """A file could not be written: the disk is full, for instance. The message is one line."""
+class OutputError(ShackledError, OSError):
+    """A file could not be written, for instance because the disk is full."""
 
     def __str__(self) -> str:
-        """What, and why."""
+        """Return the name of the file, and why it could not be written."""
         return f"{self.filename} cannot be written: {self.strerror or 'no reason is given'}"
 
 
-class FetchError(RuntimeError):
-    """A file could not be fetched, or not kept. The message is one line."""
+class FetchError(ShackledError):
+    """A file could not be downloaded, or not be kept."""
 
 
-class RenderError(RuntimeError):
-    """A contract refused the call, or the call could not be made. The message is one line."""
+class ChainError(ShackledError):
+    """A contract, a node or a transaction failed. The base of all errors of that kind."""
 
 
-class OutOfGasError(RenderError):
-    """The gas of a call did not suffice."""
+class RenderError(ChainError):
+    """A contract refused a scene, or did not return a picture."""
 
 
-class RevertError(RenderError):
+class OutOfGasError(ChainError):
+    """A call needed more gas than it had."""
+
+
+class RevertError(ChainError):
     """A call was reverted. data: what the contract said, empty if it said nothing or the node keeps it to itself."""
 
     def __init__(self, message: str, data: bytes = b"") -> None:
-        """The message is one line."""
+        """Take the message, and the data of the revert."""
         super().__init__(message)
         self.data = data
 
 
-class NodeError(RenderError):
+class VerificationError(ChainError):
+    """What a chain keeps or tells is not what it should be."""
+
+
+class TransactionError(ChainError):
+    """A transaction was not accepted, failed, or is still on its way."""
+
+
+class NodeError(ChainError):
     """A node failed, not the contract that it ran."""
 
 
-class NodeUnreachableError(NodeError):
+class NoAnswerError(NodeError):
+    """A node gave no answer now; it may give one later. The base of errors of that kind."""
+
+
+class NodeUnreachableError(NoAnswerError):
     """There is no whole answer: nobody listens, the connection broke, or something else than a node answers."""
 
 
-class NodeBusyError(NodeError):
-    """A node wants to be asked later. retry_after: in how many seconds, if it says so."""
+class NodeBusyError(NoAnswerError):
+    """A node is busy. retry_after: the seconds after which it wants to be asked again, if it says so."""
 
     def __init__(self, message: str, retry_after: float | None = None) -> None:
-        """The message is one line."""
+        """Take the message, and the seconds of the pause."""
         super().__init__(message)
         self.retry_after = retry_after
 
 
-class NodeTimeoutError(NodeError):
+class NodeTimeoutError(NoAnswerError):
     """A node took too long, or gave up a call that did."""
 
 
 class TooLargeError(NodeError):
     """A request or an answer is larger than a node takes or gives."""
-
-
-class TransactionError(RenderError):
-    """A transaction was not accepted, failed, or is still on its way."""
 
 
 class WrongChainError(NodeError):

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from tools.anvil import AnvilChain, find_anvil
 
 from shackled import InputError, bench, load
 from shackled.artifacts import artifact
-from shackled.bench import EXPERIMENTS, Lab, fits, scenes
-from shackled.bench.anvil import AnvilChain, find_anvil
+from shackled.bench import EXPERIMENTS, Lab, engines, fits, scenes
 from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
-from shackled.bench.measure import call, cost
+from shackled.bench.measure import call_renderer, cost
 from shackled.bench.original import CODE_SIZES, original, original_gas
 from shackled.bench.report import Report, wrapped
 from shackled.chain import open_chain
@@ -116,7 +116,7 @@ def test_without_a_name_all_are_made(
 def test_scenes_are_those_that_the_original_was_measured_with(name: str, scene: object) -> None:
     theirs, ours = load(SHARED / f"{name}.json"), scene
     assert reference_render(ours) == reference_render(theirs)  # type: ignore[arg-type]
-    assert call(ours) == call(theirs)  # type: ignore[arg-type]
+    assert call_renderer(ours) == call_renderer(theirs)  # type: ignore[arg-type]
 
 
 def test_the_figures_of_the_original() -> None:
@@ -223,6 +223,17 @@ def test_a_node_draws_the_same_for_the_same_gas() -> None:
         scene = scenes.cube(16)
         assert node.draw(scene) == open_chain().draw(scene)
         assert node.count(scene) == open_chain().count(scene)
+
+
+@pytest.mark.skipif(find_anvil() is None, reason="anvil is not installed: npm ci in contracts/")
+def test_a_node_is_one_more_engine() -> None:
+    with AnvilChain(str(find_anvil())) as chain:
+        chain.address("Renderer")
+        node = engines.opened(chain.node.url)["anvil"]
+        found = engines.measure(node, scenes.cube(8))
+    assert found.gas == cost(scenes.cube(8)).gas
+    # it found the contracts where every chain has them
+    assert node.name.endswith("(deployed)")
 
 
 # ---- parts ----

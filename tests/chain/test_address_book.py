@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from pathlib import Path
 
 import pytest
 
 from shackled.chain.address_book import VARIABLE, AddressBook, book_path
-from shackled.chain.addresses import parse_address, show_address
-from shackled.errors import InputError
+from shackled.errors import InputError, OutputError
+from shackled.ethereum import checksum_address, parse_address
 
 ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")
 
@@ -78,16 +79,28 @@ def test_an_address_that_is_none(tmp_path: Path) -> None:
 
 def test_a_place_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match=r"cannot be (written|read)"):
+    with pytest.raises(InputError, match="cannot be read"):
         AddressBook(tmp_path / "file" / "addresses.json").write(1, {"Engine": ONE})
     with pytest.raises(InputError, match="cannot be read"):
         AddressBook(tmp_path).find(1, "Engine")
 
 
+def test_a_full_disk_is_no_wrong_input(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def full(*arguments: object, **more: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "mkdir", full)
+    book = AddressBook(tmp_path / "addresses.json")
+    message = rf"^the address book {tmp_path}/addresses.json cannot be written: No space left on device; name another"
+    for use in (book.check, lambda: book.write(1, {"Engine": ONE})):
+        with pytest.raises(OutputError, match=message):
+            use()
+
+
 def test_capitals_are_the_checksum() -> None:
     """The first example of EIP-55."""
-    assert show_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
-    for text in (show_address(TWO), show_address(TWO).lower(), "0x" + TWO.hex().upper()):
+    assert checksum_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
+    for text in (checksum_address(TWO), checksum_address(TWO).lower(), "0x" + TWO.hex().upper()):
         assert parse_address(text, "it") == TWO
     with pytest.raises(InputError, match="it is mistyped"):
         parse_address("0x5aaeb6053F3E94C9b9A09f33669435E7Ef1BeAed", "it")

@@ -19,13 +19,13 @@ from nodes import Reply, failure, free_port, result, serving
 from shackled.chain.connection import Connection
 from shackled.chain.failures import retry_after, revert_data
 from shackled.errors import (
+    ChainError,
     InputError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
@@ -40,7 +40,7 @@ def ask(reply: Reply, timeout: float = 20, attempts: int = 1) -> Any:
         return Connection(f"{url}/v3/{SECRET}", timeout, attempts).request("eth_call", {}, "latest")
 
 
-def check(error: RenderError) -> None:
+def check(error: ChainError) -> None:
     """One line, with the name of the node, and without the key."""
     assert "\n" not in str(error)
     assert SECRET not in str(error)
@@ -70,7 +70,7 @@ def test_an_answer() -> None:
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
         (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
-        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller --size"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
         (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
         (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
         (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
@@ -88,7 +88,7 @@ def test_an_answer() -> None:
         (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
     ],
 )
-def test_answers_over_http_that_are_none(reply: Reply, kind: type[RenderError], words: str) -> None:
+def test_answers_over_http_that_are_none(reply: Reply, kind: type[ChainError], words: str) -> None:
     with pytest.raises(kind, match=re.escape(words)) as error:
         ask(reply)
     assert type(error.value) is kind
@@ -143,7 +143,7 @@ WORDINGS = [
 
 
 @pytest.mark.parametrize(("kind", "code", "message"), WORDINGS)
-def test_what_nodes_say(kind: type[RenderError], code: int, message: str) -> None:
+def test_what_nodes_say(kind: type[ChainError], code: int, message: str) -> None:
     with pytest.raises(kind) as error:
         ask(failure(message, code))
     assert type(error.value) is kind
@@ -198,13 +198,13 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"--rpc must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+    with pytest.raises(InputError, match=r"`rpc` must be the address of a node, as http://127\.0\.0\.1:8545") as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 
 
 def test_timeouts_that_are_none() -> None:
-    with pytest.raises(InputError, match="--rpc-timeout must be more than 0 seconds and at most 86,400, not 0"):
+    with pytest.raises(InputError, match="`timeout` must be more than 0 seconds and at most 86,400, not 0"):
         Connection("http://127.0.0.1", 0)
 
 
@@ -218,7 +218,7 @@ def test_nobody_there() -> None:
 @pytest.mark.parametrize("reply", [Reply(delay=5), Reply(b"x" * 100, drip=0.05)])
 def test_too_slow(reply: Reply) -> None:
     """It ends in time even if a byte comes now and then."""
-    with pytest.raises(NodeTimeoutError, match=r"did not answer within 0.3 seconds.* --rpc-timeout"):
+    with pytest.raises(NodeTimeoutError, match=r"did not answer within 0.3 seconds.* `timeout`"):
         ask(reply, timeout=0.3)
 
 
@@ -288,12 +288,6 @@ def test_the_wrong_chain() -> None:
 def test_results_of_another_type(value: Any) -> None:
     with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="what is no string of bytes"):
         Connection(url).data("eth_call", {})
-
-
-def test_web3_over_a_connection() -> None:
-    with serving(lambda request: result({"eth_chainId": "0x5", "eth_blockNumber": "0x20"}[request["method"]])) as url:
-        web3 = Connection(url).web3
-        assert (web3.eth.chain_id, web3.eth.block_number) == (5, 32)
 
 
 @pytest.mark.parametrize(

@@ -12,15 +12,14 @@ from random import Random
 from typing import Any
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
 from shackled import Background, Camera, Light, Material, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain import Drawing, open_chain, open_node
 from shackled.chain.address_book import VARIABLE, AddressBook
-from shackled.chain.addresses import show_address
-from shackled.chain.embedded import EmbeddedChain, intrinsic_gas
+from shackled.chain.embedded import EmbeddedChain
 from shackled.chain.node import MAX_INIT_CODE, NodeChain
 from shackled.datasets.teapot import teapot
 from shackled.errors import (
@@ -32,6 +31,7 @@ from shackled.errors import (
     RevertError,
     WrongChainError,
 )
+from shackled.ethereum import checksum_address, intrinsic_gas
 from shackled.gas.search import search, suffices
 from shackled.scene.codec import Rectangle, encode
 
@@ -137,7 +137,7 @@ def test_a_node_without_overrides(bare: Anvil, embedded: EmbeddedChain, refuse: 
 
 def test_deployed(deployed: Anvil, embedded: EmbeddedChain) -> None:
     check(open_node(deployed.url), embedded, "deployed")
-    check(open_node(deployed.url, show_address(embedded.address("Renderer"))), embedded, "deployed")
+    check(open_node(deployed.url, checksum_address(embedded.address("Renderer"))), embedded, "deployed")
 
 
 def test_gas_where_the_caller_has_code(embedded: EmbeddedChain) -> None:
@@ -220,7 +220,7 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
             put(bare, place, embedded.code(name))
             code = code.replace(embedded.address(name).rjust(32, b"\0"), place.rjust(32, b"\0"))
         put(bare, renderer, code)
-        check(open_node(bare.url, show_address(renderer)), embedded, "deployed")
+        check(open_node(bare.url, checksum_address(renderer)), embedded, "deployed")
         places = {"Renderer": renderer, "Engine": engine, "FragmentEngine": fragments}
         AddressBook(book).write(bare.connection.chain_id, places)
         check(open_node(bare.url), embedded, "deployed")
@@ -228,7 +228,7 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
         put(bare, fragments, b"")
         check(open_node(bare.url), embedded, "state override")
         with pytest.raises(RenderError, match="is not the renderer of this version of shackled"):
-            open_node(bare.url, show_address(renderer)).draw(SCENES["empty"])
+            open_node(bare.url, checksum_address(renderer)).draw(SCENES["empty"])
     finally:
         book.unlink(missing_ok=True)
         for address in (engine, fragments, renderer):
@@ -241,9 +241,9 @@ def test_addresses_that_are_wrong(bare: Anvil) -> None:
     proxy = "0x4e59b44847b379578588920cA78FbF26c0B4956C"
     with pytest.raises(RenderError, match=r"^the contract at 0x4e59.* is not the renderer of this version"):
         open_node(bare.url, proxy).draw(SCENES["empty"])
-    with pytest.raises(InputError, match="--address must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
+    with pytest.raises(InputError, match="`address` must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
         open_node(bare.url, "0x12")
-    with pytest.raises(InputError, match="--address is mistyped"):
+    with pytest.raises(InputError, match="`address` is mistyped"):
         open_node(bare.url, proxy.replace("cA78F", "Ca78F"))
 
 
@@ -336,7 +336,7 @@ def geth(request: dict[str, object], url: str, cap: int) -> Reply:
 
 def test_too_little_gas_on_a_node(bare: Anvil) -> None:
     with serving(lambda request: geth(request, bare.url, 300_000)) as url:
-        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller --size"):
+        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller `size`"):
             open_node(url).draw(SCENES["smooth"])
         with without_overrides(url) as other:
             assert open_node(other).gas_limit == 0
@@ -354,7 +354,7 @@ def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> N
             with pytest.raises(OutOfGasError, match=words) as error:
                 draw(scene)
             assert "run shackled deploy" in str(error.value)
-            assert "--size" not in str(error.value)
+            assert "`size`" not in str(error.value)
 
 
 def test_a_node_without_overrides_and_creation_calls(bare: Anvil) -> None:

@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from shackled.artifacts import artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments
@@ -234,7 +234,7 @@ def test_the_wrong_chain(node: Anvil, deploy: Command) -> None:
         (["--rpc", "URL", "--account", "none", "--yes"], "there is no keystore file none"),
         (["--rpc", "URL", "--account", "shape.obj", "--yes"], "shape.obj is no keystore file"),
         (["--rpc", "URL", "--private-key-env", "NO_SUCH", "--yes"], "environment variable NO_SUCH"),
-        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "takes the name of a variable, not the key"),
+        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "the name of a variable is wanted, not the key"),
         (["--rpc", "URL", "--account", "x", "--private-key-env", "TEST_KEY"], "give one of them"),
         (["--rpc", "URL", "--rpc-timeout", "0"], "--rpc-timeout must be more than 0 seconds"),
     ],

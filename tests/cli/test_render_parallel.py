@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -171,6 +172,15 @@ def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: py
     assert not Path("spin.gif.parts").exists()
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """What is started from here on reacts to SIGINT, even where the tests themselves run with it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 @pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGKILL], ids=["interrupted", "killed"])
 def test_nothing_runs_on(kind: signal.Signals) -> None:

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.page_server import ARGUMENTS, Started, browser_path, creator
 
-from page_server import ARGUMENTS, Started, browser_path, creator
-from shackled.tokens.contract import Interface
+from shackled.artifacts import artifact
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("nicegui", reason="the page needs nicegui")
@@ -46,7 +46,7 @@ class Chain:
     def __init__(self, phase: int = 2, chain: int = CHAIN, error: str = "", code: int = -32603, of: str = "") -> None:
         """error, code: the answer to the method `of`."""
         self.phase, self.chain, self.error, self.code, self.of = phase, chain, error, code, of
-        self.icons = Interface("IconsCollection")
+        self.icons = artifact("IconsCollection").interface
         self.asked: list[str] = []
         self.sent: list[dict[str, str]] = []
         self.looks = 0

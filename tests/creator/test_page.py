@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,10 +13,10 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from tools.page_server import ARGUMENTS, Started, browser_path, creator, pixels
 
 import shackled
 from nodes import anvil, needs_anvil
-from page_server import ARGUMENTS, Started, browser_path, creator, pixels
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("nicegui", reason="the page needs nicegui")
@@ -137,19 +136,19 @@ def set_number(page: Any, path: str, value: str) -> None:
 
 
 def test_a_first_picture_within_three_seconds_of_the_start(browser: Any) -> None:
+    """Or, on a machine with other things to do, with little work of the server and its processes."""
     taken = []
     for _ in range(3):
         with creator() as started:
             page = browser.new_page()
             page.goto(started.address)
             page.wait_for_selector("#picture[data-number]")
-            taken.append(time.monotonic() - started.at)
+            seconds, work = time.monotonic() - started.at, started.processor_seconds()
             page.close()
-        # on a machine with other things to do, tests beside this one among them, in proportion
-        busy = os.getloadavg()[0] / (os.cpu_count() or 1) + ("PYTEST_XDIST_WORKER" in os.environ)
-        if taken[-1] < 3 * max(1.0, busy):
+        if seconds < 3 or work < 4.5:
             return
-    pytest.fail(f"the first picture took {', '.join(f'{seconds:.1f}' for seconds in taken)} s")
+        taken.append(f"{seconds:.1f} s, {work:.1f} s of processors")
+    pytest.fail(f"the first picture took {'; '.join(taken)}")
 
 
 def test_the_picture_is_the_contracts_own(visit: NewPage) -> None:

@@ -14,8 +14,8 @@ from types import SimpleNamespace
 from typing import cast
 
 import pytest
+from tools.page_server import Started, creator
 
-from page_server import Started, creator
 from shackled.cli.app import run
 
 pytest.importorskip("nicegui", reason="the page needs nicegui")

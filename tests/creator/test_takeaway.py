@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import io
 import json
 import re
@@ -18,6 +17,7 @@ import numpy as np
 import pytest
 import requests
 from PIL import Image as PillowImage
+from tools import build_contracts as tool
 
 from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
@@ -298,7 +298,7 @@ def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch)
     for picture, (creation, selectors) in zip(pictures, compiled(sources), strict=True):
         ((signature, selector),) = ((key, value) for key, value in selectors.items() if key.startswith("bitmap("))
         arguments = meshes(picture.scene) if "bytes[]" in signature else b""
-        evm._codes[place] = evm._create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
+        evm._codes[place] = evm.create("Picture", creation + evm.address("Renderer").rjust(32, b"\0"))
         try:
             output = evm._run(place, bytes.fromhex(selector) + arguments, 10**9).output
         finally:
@@ -320,11 +320,6 @@ def meshes(scene: Scene) -> bytes:
 
 def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
     """Creation code and selectors of the contract in each source, compiled as a user would, from the npm package."""
-    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
-    assert spec is not None
-    assert spec.loader is not None
-    tool = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(tool)
     found = tool.read_sources(["Renderer"])
     sources = {f"shackled/contracts/src/{name}": text for name, text in found.items()}
     names = [f"{number}.sol" for number in range(len(contracts))]

@@ -94,12 +94,12 @@ SLIPS = [
 
 @pytest.mark.parametrize("slip", SLIPS)
 def test_a_key_in_place_of_a_name(slip: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(InputError, match="takes the name of a variable, not the key") as error:
+    with pytest.raises(InputError, match="the name of a variable is wanted, not the key") as error:
         environment_account(slip)
     assert slip[4:12] not in str(error.value)
     if len(slip) > 41:
         monkeypatch.chdir(tmp_path)
-        with pytest.raises(InputError, match="takes the name of a file, not a key") as wrong:
+        with pytest.raises(InputError, match="the name of a file is wanted, not a key") as wrong:
             keystore_account(Path(slip), "")
         assert slip[4:12] not in str(wrong.value)
 

@@ -9,18 +9,18 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import AddressBook
-from shackled.chain.addresses import PROXY, SALT, create2_address, keccak256, parse_address, show_address
 from shackled.chain.connection import Connection
 from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
 from shackled.deploy.contract import CONTRACTS, PROXY_CODE, STANDARD, deployment, local_chain
 from shackled.deploy.proxy import COST, SIGNED, SIGNER
-from shackled.errors import InputError, RenderError, TransactionError, WrongChainError
+from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
+from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
 
 #: A chain without the proxy.
 NO_PROXY = ("--disable-default-create2-deployer",)
@@ -58,8 +58,8 @@ def test_addresses_come_from_the_code() -> None:
     # the first and the last example of EIP-1014 are of other deployers: the formula is checked with the proxy's
     hashed = keccak256(b"\xff" + PROXY + SALT + keccak256(b"\x00"))
     assert create2_address(b"\x00") == hashed[12:]
-    assert show_address(PROXY) == "0x4e59b44847b379578588920cA78FbF26c0B4956C"
-    assert parse_address(show_address(PROXY), "it") == PROXY
+    assert checksum_address(PROXY) == "0x4e59b44847b379578588920cA78FbF26c0B4956C"
+    assert parse_address(checksum_address(PROXY), "it") == PROXY
 
 
 def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
@@ -83,13 +83,13 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
 
 def test_a_constructor_that_refuses() -> None:
     engines = 2 * (bytes(31) + b"\x05")
-    with pytest.raises(RenderError, match=r"Renderer could not be deployed|the contract refused"):
+    with pytest.raises(ChainError, match=r"Renderer could not be deployed|the contract refused"):
         deployment("Renderer", artifact("Renderer").creation + engines)
 
 
 def test_the_transaction_that_deploys_the_proxy() -> None:
     """It is what was published: its signer is the one whose first contract has the address that everybody knows."""
-    assert Account.recover_transaction(SIGNED) == show_address(SIGNER)
+    assert Account.recover_transaction(SIGNED) == checksum_address(SIGNER)
     # keccak256(rlp([signer, 0]))
     assert keccak256(b"\xd6\x94" + SIGNER + b"\x80")[12:] == PROXY
     assert SIGNED.count(PROXY_CODE) == 1

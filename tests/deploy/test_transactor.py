@@ -9,16 +9,15 @@ from typing import Any
 
 import pytest
 from eth_account import Account
+from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import artifact
-from shackled.bench.anvil import Anvil
-from shackled.chain.addresses import PROXY
 from shackled.chain.connection import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
-from shackled.errors import NodeError, NodeUnreachableError, RenderError, TransactionError
-from shackled.ether import ETHER, GWEI
+from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
+from shackled.ethereum import ETHER, GWEI, PROXY
 
 pytestmark = needs_anvil
 
@@ -135,7 +134,7 @@ def test_what_is_signed_is_what_was_quoted(node: Anvil) -> None:
 )
 def test_odd_answers_are_told_before_anything_is_sent(node: Anvil, lies: Any, words: str) -> None:
     before = node.rpc("eth_blockNumber")
-    with Liar(lies).before(node.url) as url, pytest.raises(RenderError, match=words):
+    with Liar(lies).before(node.url) as url, pytest.raises(ChainError, match=words):
         transactor(url).send(quoted(transactor(url)))
     assert node.rpc("eth_blockNumber") == before
 

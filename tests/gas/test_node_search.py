@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
+from tools.anvil import AnvilChain
 
 from nodes import ANVIL, needs_anvil
-from shackled import RenderError, Scene
+from shackled import ChainError, Scene
 from shackled.artifacts import artifact
-from shackled.bench.anvil import AnvilChain
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError, RevertError
 from shackled.gas.exact import measure, render_call
@@ -21,13 +21,13 @@ def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene])
     scene = scenes["smooth"]
     data = render_call(scene)
     (out_of_gas,) = (selector for selector, (name, _) in artifact("Renderer").errors.items() if name == "OutOfGas")
-    refusals: list[RenderError] = []
+    refusals: list[ChainError] = []
     with AnvilChain(ANVIL) as node:
 
         def enough(limit: int) -> bool:
             try:
                 node.read("Renderer", data, limit)
-            except RenderError as error:
+            except ChainError as error:
                 refusals.append(error)
                 return False
             return True

@@ -121,8 +121,8 @@ def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, s
         flat = evolve(pot, material=evolve(pot.material, shading="flat"))
         scene = evolve(scene, objects=[flat, pot, evolve(flat, opacity=0.5), flat], invert=True)
     if name == "large":
-        # 32 rows need no padding
-        scene = evolve(scene, width=512, height=40)
+        # two bands of 32 rows, which need no padding; each shows something of all objects
+        scene = evolve(scene, width=512, height=64)
     whole = chain.call("Renderer", render_call(scene)).output
     calls = engine_calls(scene, chain)
     engines = ["FragmentEngine"] if name == "smooth" else ["Engine", "FragmentEngine", "Engine", "FragmentEngine"]

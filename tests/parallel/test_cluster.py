@@ -12,7 +12,7 @@ import pytest
 from attrs import evolve
 
 from nodes import Reply, serving
-from shackled import InputError, RenderError, Scene, load
+from shackled import ChainError, InputError, Scene, load
 from shackled.chain import Drawing
 from shackled.parallel import Listener, Where, render_frames
 from shackled.parallel.cluster import ClusterPlace
@@ -59,7 +59,7 @@ def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatc
     monkeypatch.setattr(ClusterPlace, "work", lie)
     wrong = render_frames([SCENE], Where(cluster=address, tile=tile))
     assert wrong.images[0].bmp != render_frames([SCENE], Where(tile=tile)).images[0].bmp
-    with pytest.raises(RenderError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
+    with pytest.raises(ChainError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
         render_frames([SCENE], Where(cluster=address, tile=tile, verify="all"))
 
 
@@ -72,7 +72,7 @@ def test_tiles_on_a_cluster_of_our_own() -> None:
 
 
 def test_what_a_worker_says_is_told(address: str) -> None:
-    with pytest.raises(RenderError, match="still too much: take fewer triangles"):
+    with pytest.raises(ChainError, match="still too much: take fewer triangles"):
         render_frames([SCENE], Where(cluster=address, gas_limit=100_000))
 
 
@@ -102,7 +102,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
             def advanced(self, pixels: int) -> None:
                 process.kill()
 
-        with pytest.raises(RenderError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
+        with pytest.raises(ChainError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
             render_frames(full_turn(SCENE, 200), Where(cluster=address), listener=Breaker())
     # dask is quiet about it
     assert capfd.readouterr().err == ""
@@ -110,7 +110,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
 
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.parallel.cluster.PATIENCE", 1)
-    with pytest.raises(RenderError, match=r"no dask scheduler answers at tcp://127.0.0.1:1: "):
+    with pytest.raises(ChainError, match=r"no dask scheduler answers at tcp://127.0.0.1:1: "):
         render_frames([SCENE], Where(cluster="tcp://127.0.0.1:1"))
 
 

@@ -12,7 +12,7 @@ import pytest
 from attrs import evolve
 
 import shackled
-from shackled import Image, InputError, Nodes, Processes, RenderError, Scene, load
+from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, load
 from shackled._render import render_whole
 from shackled.chain import open_chain
 from shackled.chain.embedded import PyrevmChain
@@ -59,7 +59,6 @@ def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
         assert (image.gas, image.intrinsic_gas) == (whole.gas, whole.intrinsic_gas)
 
 
-@pytest.mark.xfail(reason="the cost of tiles changed; not looked at yet", strict=False)
 def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
@@ -69,7 +68,7 @@ def test_parts_fit_their_gas() -> None:
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
-    with pytest.raises(RenderError, match=r"still too much: take fewer triangles \(`max_triangles`\)"):
+    with pytest.raises(ChainError, match=r"still too much: take fewer triangles \(`max_triangles`\)"):
         render_frames([SCENE], Where(gas_limit=500_000))
 
 
@@ -102,18 +101,18 @@ def test_a_worker_that_dies_is_replaced() -> None:
     tile = Rectangle(0, 0, 96, 20)
     try:
         first = place.work(0, SCENE, tile)
-        worker = place._workers[0]
-        assert worker is not None
-        os.kill(worker.pid, signal.SIGKILL)
+        pid = place._workers[0].pid
+        assert pid is not None
+        os.kill(pid, signal.SIGKILL)
         assert place.work(0, SCENE, tile) == first
-        assert place._workers[0] is not worker
+        assert place._workers[0].pid != pid
     finally:
         place.close()
-    assert place._workers == [None]
+    assert place._workers[0].pid is None
 
 
 def test_errors_of_a_worker_are_told() -> None:
-    with pytest.raises(RenderError, match="still too much"):
+    with pytest.raises(ChainError, match="still too much"):
         render_frames([SCENE], Where(jobs=2, gas_limit=100_000))
     with pytest.raises(InputError, match="counts no gas: leave out `gas_limit`"):
         render_frames([SCENE], Where("reference", jobs=2, gas_limit=100_000))

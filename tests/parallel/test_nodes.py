@@ -11,11 +11,11 @@ from attrs import evolve
 
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, each_third, proxy
-from shackled import Image, RenderError, load
+from shackled import ChainError, Image, load
 from shackled._render import render_whole
 from shackled.chain import open_chain
-from shackled.chain.addresses import PROXY
 from shackled.errors import NodeError
+from shackled.ethereum import PROXY
 from shackled.parallel import Listener, Outline, Where, render_frames, scheduler
 from shackled.parallel import job as job_module
 from shackled.scene.turning import full_turn
@@ -122,7 +122,7 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
 )
 def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
     with proxy(node, always(manner)) as url:
-        with pytest.raises(RenderError, match=message) as error:
+        with pytest.raises(ChainError, match=message) as error:
             render_frames([SCENE], Where(rpc=(url,), tile=TILE))
         assert "\n" not in str(error.value)
         # with another one beside it, the picture is made
@@ -142,7 +142,7 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
     """
     where = f"the tile of 64 x 16 pixels at (0, {lie % 4 * 16}) of frame {lie // 4}"
     with proxy(node, at(lie, "wrong")) as url:
-        with pytest.raises(RenderError) as error:
+        with pytest.raises(ChainError) as error:
             render_frames(SPIN, Where(rpc=(url,), tile=(64, 16)))
         name = f"the node {url.removeprefix('http://')} "
         assert str(error.value).startswith(name)
@@ -159,7 +159,7 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
 def test_a_lie_in_a_whole_picture_is_found(node: str) -> None:
     with (
         proxy(node, at(0, "wrong")) as url,
-        pytest.raises(RenderError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
+        pytest.raises(ChainError, match="answers wrongly for the picture: its picture is not what the contracts draw"),
     ):
         render_frames([SCENE], Where(rpc=(url,)))
 
@@ -223,7 +223,7 @@ def test_a_wrong_address_is_told_before_anything_is_rendered(node: str) -> None:
         (b"\x77" * 20, "^there is no contract at"),
         (PROXY, "^the contract at .* is not the rend"),
     ):
-        with pytest.raises(RenderError, match=message):
+        with pytest.raises(ChainError, match=message):
             render_frames([SCENE], Where(rpc=(node,), address=f"0x{address.hex()}", tile=TILE), listener=notes)
     assert notes.outlines == 0
 

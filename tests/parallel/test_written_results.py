@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from benchmarks.measure import gas
 from benchmarks.parallel import GRIDS, SIDES
 
 from shackled import load
+from shackled.bench.measure import gas
 from shackled.parallel.tiles import grid
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))

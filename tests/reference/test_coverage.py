@@ -6,7 +6,7 @@ import pytest
 
 from pictures import chain
 from random_scenes import random_case
-from shackled import RenderError
+from shackled import ChainError
 from shackled.chain.chain import count_call, returned_counts
 from shackled.reference import coverage, draw_call, selector
 from shackled.reference.call import read_call
@@ -24,7 +24,7 @@ def test_counts_are_those_of_the_contract() -> None:
         data = head[:36] + encode_scene(case.scene)
         try:
             expected = returned_counts(chain().call("Renderer", data).output)
-        except RenderError:
+        except ChainError:
             continue
         assert coverage.count(*read_call(data)) == expected, seed
         drawn += expected[1] > 0
@@ -38,7 +38,7 @@ def test_counts_of_tiles_are_those_of_pictures() -> None:
         try:
             data = encode(selector("renderTile"), case.scene, case.tile)
             picture = draw_call(data)
-        except (RenderError, ValueError):
+        except (ChainError, ValueError):
             continue
         assert coverage.count(*read_call(data)) == (picture.triangles, picture.lit_pixels), seed
         drawn += picture.lit_pixels > 0

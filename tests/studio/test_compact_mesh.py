@@ -9,10 +9,10 @@ import pytest
 from eth_abi.abi import decode
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tools.ledger import call_data
 
-from ledger import call_data
 from pictures import chain
-from shackled import InputError, Mesh, RenderError, load
+from shackled import ChainError, InputError, Mesh, RenderError, load
 from shackled.chain.embedded import EmbeddedChain
 from shackled.datasets.teapot import teapot
 from shackled.scene.fit import fit
@@ -174,7 +174,7 @@ def test_no_bytes_break_the_decoder(data: st.DataObject) -> None:
         broken[data.draw(st.integers(1, len(broken) - 1))] = data.draw(st.integers(0, 255))
     try:
         mesh = opened(bytes(broken))
-    except RenderError as error:
+    except ChainError as error:
         mesh, said = b"", str(error)
         assert "CompactMesh" in said
     if mesh:
@@ -195,7 +195,7 @@ def test_no_bytes_of_any_kind_burn_all_gas(kind: int, rest: bytes) -> None:
     stored = bytes([kind]) + rest
     try:
         mesh = opened(stored, 40_000_000)
-    except RenderError as error:
+    except ChainError as error:
         assert re.search("UnknownMesh|CompactMesh|NothingKept", str(error))  # noqa: PT017
         assert kind > 3
     else:

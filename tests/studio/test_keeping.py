@@ -11,12 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.ledger import World
 
-from ledger import World
 from shackled import InputError, Mesh, Object, Scene, load, render
-from shackled.chain.embedded import intrinsic_gas
 from shackled.datasets.teapot import teapot
 from shackled.errors import RenderError
+from shackled.ethereum import intrinsic_gas
 from shackled.scene.packed_mesh import pack
 from shackled.scene.rotation import from_euler, rotate
 from shackled.scene.staging import stage
@@ -27,7 +27,6 @@ from shackled.studio.keeping import (
     kept_at,
     on_grid,
     read_mesh,
-    read_picture,
     store_mesh,
     store_scene,
 )
@@ -63,7 +62,7 @@ def test_pointers_and_gas_of_a_scene(world: World) -> None:
     happens(world, storings)
     world.chain._codes.update(world.codes)
     small = render(scene)
-    png = read_picture(storings[-1].pointer, 1, world.chain)
+    png = world.chain.ask("Studio", "renderPNG(address,uint256)", storings[-1].pointer, 1)
     with PillowImage.open(io.BytesIO(png)) as picture:
         assert np.array_equal(np.asarray(picture), small.pixels)
 

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.ledger import call_data
 
-from ledger import call_data
 from pictures import chain
 from shackled import RenderError
 from shackled.image import encode_bmp

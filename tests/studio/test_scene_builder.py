@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 from eth_abi.abi import decode
+from tools.examples import compile_example
+from tools.ledger import World, call_data
 
-from ledger import World, call_data
 from shackled import Mesh, RenderError
 from shackled.scene.packed_mesh import pack
 from shackled.scene.staging import is_closed
 from shackled.studio.compact_mesh import take_apart
-from shackled.studio.keeping import SCENE_STRUCT
-from test_examples import compile_example
+from shackled.studio.keeping import scene_struct
 
+SCENE_STRUCT = scene_struct()
 ROOT = Path(__file__).resolve().parents[2]
 ONE = 1 << 32
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]

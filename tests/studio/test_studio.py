@@ -14,15 +14,16 @@ from attrs import evolve
 from eth_abi.abi import decode
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from tools.ledger import World, call_data
 
-from ledger import World, call_data
-from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.chain.refusal import refusal
 from shackled.datasets.teapot import teapot
 from shackled.image import decode_bmp
 from shackled.scene.rotation import from_euler
-from shackled.studio.keeping import SCENE_STRUCT, store_scene
+from shackled.studio.keeping import scene_struct, store_scene
 
+SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
 TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
 SCENE = Scene(
@@ -428,11 +429,11 @@ def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
     parts = [world.address("Renderer"), world.address("PngEncoder")]
     world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
     parts[place] = b"\x77" * 20
-    with pytest.raises(RenderError, match="could not be deployed"):
+    with pytest.raises(ChainError, match="could not be deployed"):
         world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
 
 
 def test_errors_are_named() -> None:
-    from ledger import call_data as data
+    from tools.ledger import call_data as data
 
     assert "NotAScene" in str(refusal(data("NotAScene(address)", NOBODY), 1))

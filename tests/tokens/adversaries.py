@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 from functools import cache
 from pathlib import Path
-from types import ModuleType
+from unittest.mock import patch
 
 import pytest
-
-from tokens.world import Built
+from tools import build_contracts as tool
+from tools.tokens.world import Built
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(__file__).with_name("contracts")
 SOLC = ROOT / "contracts" / "node_modules" / "solc"
-
-
-@cache
-def build_tool() -> ModuleType:
-    """tools/build_contracts.py."""
-    spec = importlib.util.spec_from_file_location("build_contracts", ROOT / "tools" / "build_contracts.py")
-    assert spec is not None
-    assert spec.loader is not None
-    tool = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(tool)
-    return tool
 
 
 @cache
@@ -40,12 +28,11 @@ def adversary(name: str) -> Built:
 def _compiled() -> dict[str, Built]:
     if not SOLC.is_dir():
         return {}
-    tool = build_tool()
     sources = {path.name: path.read_text("utf-8") for path in sorted(FOLDER.glob("*.sol"))}
     request = tool.request(sources, tool.settings(200, True), {"*": {"*": ["abi", "evm.bytecode.object"]}})
     # selfdestruct is outdated, and just what is needed here
-    tool.HARMLESS.add("5159")
-    answer = tool.run_compiler(json.dumps(request))
+    with patch.object(tool, "HARMLESS", tool.HARMLESS | {"5159"}):
+        answer = tool.run_compiler(json.dumps(request))
     return {
         name: Built(output["abi"], bytes.fromhex(output["evm"]["bytecode"]["object"]))
         for contracts in answer["contracts"].values()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from nodes import ANVIL, anvil
+from nodes import ANVIL, PUBLIC, anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.tokens.development import development_accounts
@@ -19,7 +19,7 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Node]:
     """An anvil as it starts without options, one for each file of tests, with an address book of its own."""
     if ANVIL is None:
         pytest.skip("anvil is not installed: npm ci in contracts/")
-    with anvil() as started, pytest.MonkeyPatch.context() as patch:
+    with anvil(*PUBLIC) as started, pytest.MonkeyPatch.context() as patch:
         patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
         accounts = development_accounts()
         keys = [f"KEY_{number}" for number in range(len(accounts))]

@@ -17,11 +17,11 @@ from web3 import Web3
 from nodes import Reply, failure, forward, serving
 from shackled.artifacts import artifact
 from shackled.chain.address_book import AddressBook
-from shackled.chain.addresses import show_address
 from shackled.chain.connection import Connection
 from shackled.cli.app import run
 from shackled.deploy.contract import local_chain
-from shackled.errors import NodeError, RenderError, RevertError
+from shackled.errors import ChainError, NodeError, RevertError
+from shackled.ethereum import checksum_address
 from shackled.tokens.allow_list import read_allow_list
 from shackled.tokens.collection import open_collection
 from shackled.tokens.contract import Contract
@@ -42,14 +42,15 @@ def address(node: Node, allow_list: Path) -> str:
     assert run(["token", "deploy", "genesis", *sale]) == 0
     found = AddressBook().find(31337, "GenesisCollection")
     assert found is not None
-    contract = node.contract("GenesisCollection", show_address(found))
+    contract = node.contract("GenesisCollection", checksum_address(found))
     contract.functions.mintReserve(node.accounts[ALICE], 1).transact({"from": node.accounts[OWNER]})
-    return show_address(found)
+    return checksum_address(found)
 
 
 def test_nothing_is_deployed_that_is_not_needed(node: Node, address: str) -> None:
     book = AddressBook().entries(31337)
-    assert sorted(book) == ["Engine", "FragmentEngine", "Genesis", "GenesisCollection", "GenesisMetadata", "Renderer"]
+    parts = ["Engine", "FragmentEngine", "Genesis", "GenesisCollection", "GenesisMetadata", "PngEncoder", "Renderer"]
+    assert sorted(book) == parts
 
 
 def test_terms_are_those_of_the_command(node: Node, address: str, allow_list: Path) -> None:
@@ -203,7 +204,7 @@ def test_changed_code_is_found(node: Node, address: str, shackled: Shackled) -> 
         for at, complaint in changes.items():
             changed = code[:at] + bytes([code[at] ^ 1]) + code[at + 1 :]
             node.rpc("anvil_setCode", address, "0x" + changed.hex())
-            with pytest.raises(RenderError, match=complaint):
+            with pytest.raises(ChainError, match=complaint):
                 check_collection_code(collection)
         said = shackled("token", "verify", 0, expect=1)
     finally:
@@ -217,7 +218,7 @@ def test_what_a_node_does_not_let_be_read_is_not_wrong(
     node: Node, address: str, shackled: Shackled, capsys: pytest.CaptureFixture[str], silent: bool
 ) -> None:
     """Some nodes give a call less gas than a tokenURI takes, and say of it only that it was reverted."""
-    data = Contract(Connection(node.url), "GenesisCollection", address).encode("tokenURI", 0).hex()
+    data = Contract(Connection(node.url), "GenesisCollection", address).interface.encode("tokenURI", 0).hex()
 
     def answer(request: dict[str, Any]) -> Reply:
         if data in json.dumps(request):

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import anvil, needs_anvil
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE, AddressBook
-from shackled.chain.addresses import show_address
 from shackled.cli.app import run
 from shackled.deploy import Transactor
+from shackled.ethereum import checksum_address
 from shackled.tokens.collection import Collection
 from shackled.tokens.deploying import Offer, launch, plan_launch
 from shackled.tokens.development import development_accounts
@@ -33,7 +33,7 @@ def node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Anvil]:
 
 def transactors(node: Anvil) -> tuple[Transactor, Transactor, Offer]:
     owner, other = (Transactor(node.connection, account) for account in development_accounts()[:2])
-    return owner, other, Offer(show_address(owner.address), show_address(owner.address))
+    return owner, other, Offer(checksum_address(owner.address), checksum_address(owner.address))
 
 
 def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,13 +7,14 @@ import pytest
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
 import numpy as np
+from tools.tokens.stage import Stage, stage
+from tools.tokens.world import Refused
 
 from shackled import render
-from shackled.datasets.genesis import generate, seed_of
+from shackled.datasets.genesis import seed_of
 from shackled.image import decode_bmp
+from shackled.reference.genesis import generate
 from tokens.show import document, pixels, traits
-from tokens.stage import Stage, stage
-from tokens.world import Refused
 
 #: How descriptions end.
 INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."

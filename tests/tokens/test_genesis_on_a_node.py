@@ -12,9 +12,9 @@ from PIL import Image as PillowImage
 from web3.exceptions import ContractCustomError
 
 from shackled.chain.address_book import AddressBook
-from shackled.chain.addresses import show_address
 from shackled.cli.app import run
 from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
+from shackled.ethereum import checksum_address
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB, CAROL = range(4)
@@ -29,7 +29,7 @@ def address(node: Node, allow_list: Path) -> str:
     assert run(["token", "deploy", "genesis", *sale]) == 0
     found = AddressBook().find(31337, "GenesisCollection")
     assert found is not None
-    return show_address(found)
+    return checksum_address(found)
 
 
 def test_the_whole_way_of_tokens(

@@ -15,14 +15,14 @@ import numpy as np
 from eth_abi.abi import encode
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tools.tokens.merkle import leaf
+from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
+from tools.tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 
 from shackled import render
 from shackled.image import decode_bmp
 from tokens.adversaries import adversary
-from tokens.merkle import leaf
 from tokens.show import document, pixels, traits
-from tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
-from tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
 
 #: How descriptions end.
 INDEPENDENT = "Not by the authors of the Shackled contracts of 2021, nor endorsed by them."

@@ -13,8 +13,8 @@ from PIL import Image as PillowImage
 
 from shackled import render
 from shackled.chain.address_book import AddressBook
-from shackled.chain.addresses import show_address
 from shackled.cli.app import run
+from shackled.ethereum import checksum_address
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB = range(3)
@@ -30,7 +30,7 @@ def address(node: Node) -> str:
     assert run(["token", "deploy", "icons", *sale, "--rpc", node.url, "--private-key-env", node.keys[OWNER]]) == 0
     found = AddressBook().find(31337, "IconsCollection")
     assert found is not None
-    return show_address(found)
+    return checksum_address(found)
 
 
 def pixels(picture: bytes) -> np.ndarray:

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.artifacts import artifact
-from shackled.errors import RenderError
+from shackled.errors import VerificationError
 from shackled.tokens.immutables import immutable_places, immutable_values
 
 VALUE = bytes(range(32))
@@ -30,13 +30,13 @@ def test_any_other_difference_is_said(change: int) -> None:
     runtime = artifact("GenesisCollection").runtime
     code = bytearray(runtime)
     code[change] ^= 1
-    with pytest.raises(RenderError, match=f"at byte {change % len(code):,}$"):
+    with pytest.raises(VerificationError, match=f"at byte {change % len(code):,}$"):
         immutable_values(bytes(code), runtime)
 
 
 def test_another_length_is_said() -> None:
     runtime = artifact("GenesisCollection").runtime
-    with pytest.raises(RenderError, match="bytes, and should have"):
+    with pytest.raises(VerificationError, match="bytes, and should have"):
         immutable_values(runtime + b"\0", runtime)
-    with pytest.raises(RenderError, match="its code has 0 bytes"):
+    with pytest.raises(VerificationError, match="its code has 0 bytes"):
         immutable_values(b"", runtime)

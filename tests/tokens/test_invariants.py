@@ -9,10 +9,9 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
-
-from tokens.merkle import proof_of, root_of
-from tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, stage
-from tokens.world import ETHER, ZERO, Contract, Refused, account
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, stage
+from tools.tokens.world import ETHER, ZERO, Contract, Refused, account
 
 NAMES = ("alice", "bob", "carol", "dave")
 PEOPLE = [account(name) for name in NAMES]

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shackled import Mesh, Scene
-from shackled.errors import RenderError
+from shackled.errors import VerificationError
 from shackled.scene.fit import fit
 from shackled.scene.object import Object
 from shackled.studio.keeping import SCENE, compress_zeros, pointing
@@ -30,5 +30,5 @@ def test_the_meshes_of_a_scene_are_found() -> None:
 
 @pytest.mark.parametrize("data", [b"", b"\x10abc", bytes([SCENE]), bytes([SCENE]) + b"\xff\x80" * 9])
 def test_what_is_no_scene_is_refused(data: bytes) -> None:
-    with pytest.raises(RenderError, match=r"no scene|no whole scene"):
+    with pytest.raises(VerificationError, match=r"no scene|no whole scene"):
         meshes_of(data)

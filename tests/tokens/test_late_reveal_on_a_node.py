@@ -8,8 +8,8 @@ import pytest
 
 from nodes import anvil, needs_anvil
 from shackled.chain.address_book import VARIABLE
-from shackled.chain.addresses import show_address
 from shackled.deploy import Receipt, Transactor
+from shackled.ethereum import checksum_address
 from shackled.tokens.actions import perform
 from shackled.tokens.deploying import Offer, launch, plan_launch
 from shackled.tokens.development import development_accounts
@@ -23,7 +23,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(tmp_path: Path, monkeypa
     # these rules forget hashes after 256 blocks; later ones, by EIP-2935, after 8,191
     with anvil("--hardfork", "cancun") as node:
         user = Transactor(node.connection, development_accounts(1)[0])
-        name = show_address(user.address)
+        name = checksum_address(user.address)
         collection, _ = launch(plan_launch(user.connection, KINDS["genesis"], Offer(name, name)), user)
         contract = collection.contract
         perform(user, contract, "setPhase", 2)

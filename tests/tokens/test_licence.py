@@ -63,7 +63,7 @@ def test_what_is_not_known_to_allow_it_is_refused(stated: str) -> None:
         licence_of(FILE, stated)
 
 
-@pytest.mark.parametrize(("stated", "reason"), [(" ", "empty"), (None, "is for you to know")])
+@pytest.mark.parametrize(("stated", "reason"), [(" ", "empty"), (None, "yourself, and state it with `licence`")])
 def test_a_licence_must_be_stated(stated: str | None, reason: str) -> None:
     with pytest.raises(InputError, match=reason):
         licence_of(FILE, stated)

@@ -48,7 +48,7 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
 def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shackled) -> None:
     mesh, picture = tmp_path / "own.obj", tmp_path / "own.png"
     mesh.write_text(TRIANGLE)
-    assert "is for you to know" in shackled("mint", mesh, "--yes", user=ALICE, expect=2).error
+    assert "yourself, and state it with --licence" in shackled("mint", mesh, "--yes", user=ALICE, expect=2).error
     said = shackled("mint", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
     assert "is not known to allow commercial use" in said.error
     shackled("mint", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)

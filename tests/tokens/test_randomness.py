@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tools.anvil import Anvil
 
 from nodes import KEY, anvil, needs_anvil
 from proxies import Liar
-from shackled.bench.anvil import Anvil
 from shackled.chain.address_book import VARIABLE
 from shackled.chain.connection import Connection
 from shackled.cli.app import run
@@ -72,7 +72,7 @@ def test_a_chain_without_blocks_is_taken() -> None:
             node.rpc("evm_mine")
             check_randomness(node.connection)
         with (
-            pytest.raises(InputError, match="--any-chain"),
+            pytest.raises(InputError, match="`any_chain`"),
             Liar({"eth_chainId": lambda *_: "0xa"}).before(node.url) as url,
         ):
             check_randomness(Connection(url))

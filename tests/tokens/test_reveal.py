@@ -8,13 +8,14 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
+import rlp
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
-from shackled.tokens.header import encode_values
+from tools.tokens.stage import PRICE, Stage, stage
+from tools.tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
+
 from tokens.adversaries import adversary
-from tokens.stage import PRICE, Stage, stage
-from tokens.world import ETHER, HISTORY, HISTORY_LENGTH, Refused, keccak
 
 ROUND, DELAY = 32, 128
 
@@ -201,11 +202,11 @@ def of_another_form() -> dict[str, bytes]:
     """Headers as no chain has them, whose hashes a chain could know all the same."""
     before: list[bytes | int] = [*[bytes(32)] * 2, bytes(20), *[bytes(32)] * 3]
     numbers: list[bytes | int] = [0, 1, 2, 3, 4, b""]
-    whole = encode_values([*before, bytes(256), *numbers, b"\x55" * 32, bytes(8)])
+    whole = rlp.encode([*before, bytes(256), *numbers, b"\x55" * 32, bytes(8)])
     return {
-        "a randomness of 31 bytes": encode_values([*before, bytes(256), *numbers, b"\x55" * 31, bytes(8)]),
-        "a randomness of 33 bytes": encode_values([*before, bytes(256), *numbers, b"\x55" * 33, bytes(8)]),
-        "a short bloom filter": encode_values([*before, bytes(100), *numbers, b"\x55" * 32, bytes(8)]),
+        "a randomness of 31 bytes": rlp.encode([*before, bytes(256), *numbers, b"\x55" * 31, bytes(8)]),
+        "a randomness of 33 bytes": rlp.encode([*before, bytes(256), *numbers, b"\x55" * 33, bytes(8)]),
+        "a short bloom filter": rlp.encode([*before, bytes(100), *numbers, b"\x55" * 32, bytes(8)]),
         "a list": b"\xf9\x02\x00" + b"\xc0" * 600,
         "an end within the randomness": whole[: whole.index(b"\x55") + 31],
     }

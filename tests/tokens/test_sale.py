@@ -13,10 +13,11 @@ from hypothesis import strategies as st
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.merkle import leaf, pair, proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
+from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
+
 from tokens.adversaries import adversary
-from tokens.merkle import leaf, pair, proof_of, root_of
-from tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
-from tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 KEY = keccak(b"who signs")
 SIGNER = Account.from_key(KEY).address
@@ -487,7 +488,9 @@ def test_constructors_refuse_what_makes_no_sense(s: Stage) -> None:
         with refused(name, *values):
             s.world.deploy("GenesisCollection", *arguments)
     with refused("NoGenesis", s.alice):
-        s.world.deploy("GenesisMetadata", s.alice)
+        s.world.deploy("GenesisMetadata", s.alice, s.studio)
+    with refused("NoEncoder", s.alice):
+        s.world.deploy("GenesisMetadata", s.generator, s.alice)
     free = s.world.deploy("GenesisCollection", s.metadata, 0, 1024, terms)
     free.send("setPhase", PUBLIC, sender=s.owner)
     with refused("NothingLeft", 1, 0):

@@ -6,8 +6,8 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
-from tokens.stage import Stage, stage
-from tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
+from tools.tokens.stage import Stage, stage
+from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 #: The xor of the selectors of each standard's functions.
 STANDARDS = {

@@ -9,7 +9,9 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="the tests of tokens need it")
 
-from tokens.adversaries import SOLC, build_tool
+from tools import build_contracts as tool
+
+from tokens.adversaries import SOLC
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tokens.md"
 HEAD = """// SPDX-License-Identifier: MIT
@@ -22,7 +24,6 @@ LEFT_OUT = 'function contractURI() external pure override returns (string memory
 
 @pytest.mark.skipif(not SOLC.is_dir(), reason="the compiler is not installed: npm ci in contracts/")
 def test_the_contract_of_the_documentation_compiles() -> None:
-    tool = build_tool()
     code = PAGE.read_text("utf-8").split("```solidity\n")[1].split("```")[0]
     comment = next(line for line in code.splitlines() if "contractURI likewise" in line)
     sources = tool.read_sources(["GenesisCollection"]) | {"tokens/Mine.sol": HEAD + code.replace(comment, LEFT_OUT)}

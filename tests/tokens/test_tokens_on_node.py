@@ -11,7 +11,7 @@ from web3 import HTTPProvider, Web3
 
 from nodes import anvil, needs_anvil
 from shackled.artifacts import artifact
-from shackled.tokens.header import encode_header
+from shackled.ethereum.header import encode_header
 from tokens.show import document, traits
 
 PRICE = 10**17
@@ -34,7 +34,8 @@ def deploy(w3: Web3, name: str, *arguments: Any) -> Any:
 @pytest.fixture(scope="module")
 def metadata(w3: Web3) -> str:
     renderer = deploy(w3, "Renderer", deploy(w3, "Engine").address, deploy(w3, "FragmentEngine").address)
-    return str(deploy(w3, "GenesisMetadata", deploy(w3, "Genesis", renderer.address).address).address)
+    parts = deploy(w3, "Genesis", renderer.address).address, deploy(w3, "PngEncoder").address
+    return str(deploy(w3, "GenesisMetadata", *parts).address)
 
 
 @needs_anvil

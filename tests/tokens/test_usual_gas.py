@@ -8,17 +8,17 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="the tests of tokens need it")
 
-from shackled.chain.addresses import show_address
-from shackled.chain.embedded import intrinsic_gas
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
+from tools.tokens.world import Contract, account
+
+from shackled.artifacts import artifact
 from shackled.deploy.contract import local_chain
+from shackled.ethereum import checksum_address, intrinsic_gas
 from shackled.studio.keeping import STUDIO
 from shackled.studio.keeping import store_scene as keep
 from shackled.tokens.actions import USUAL
-from shackled.tokens.contract import Interface
 from shackled.tokens.icons import add_call
-from tokens.merkle import proof_of, root_of
-from tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
-from tokens.world import Contract, account
 
 
 def test_the_usual_gas_of_each_function() -> None:
@@ -55,9 +55,9 @@ def test_the_usual_gas_of_each_function() -> None:
         # it looks at the scene as well
         studio = local_chain().address(STUDIO)
         storings = keep(icon_scene("icons/lightning"), studio)
-        icon = (arguments[0], show_address(storings[-1].pointer), *arguments[2:])
+        icon = (arguments[0], checksum_address(storings[-1].pointer), *arguments[2:])
         codes = {each.pointer: each.code for each in storings}
-        ours = add_call(Interface("IconsCollection"), show_address(studio), icon, codes).ours
+        ours = add_call(artifact("IconsCollection").interface, checksum_address(studio), icon, codes).ours
         assert ours / 4 < used < 2 * ours
     # a signature is looked at where it is needed, on a node
     assert USUAL.keys() - {each[1] for each in calls} == {"mintWithSignature"}

@@ -8,17 +8,17 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.merkle import proof_of, root_of
+from tools.tokens.stage import ALLOW_LIST, PUBLIC
+from tools.tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 from web3 import Web3
 from web3.types import Wei
 
 from nodes import needs_anvil
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.tokens.header import encode_header
-from tokens.merkle import proof_of, root_of
+from shackled.ethereum.header import encode_header
 from tokens.on_a_node import Node
-from tokens.stage import ALLOW_LIST, PUBLIC
-from tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 
 PRICE = 10**17
 
@@ -77,7 +77,7 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
     """Deployments too, and those of which a part is paid back or whose data costs more than what they do."""
     owner, alice, bob, carol = both.node.accounts[:4]
     renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
-    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer))
+    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     genesis = both.deploy("GenesisCollection", metadata, PRICE, 10, (owner, 5, owner, 500))
 
     listed = {alice: 2} | {account(f"listed {number}"): 2 for number in range(99)}
@@ -108,5 +108,5 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
 @needs_anvil
 def test_pictures_cost_what_a_node_says(both: Both) -> None:
     renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
-    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer))
+    metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     both.send(metadata, "tokenURI", 7, seed_of(7), sender=both.node.accounts[0])

@@ -4,12 +4,27 @@ pragma solidity 0.8.37;
 /// @notice Base64 without a table: 24 bytes at a time, whose 32 characters are computed side by side in one word.
 /// @dev Source of the encoding: RFC 4648.
 library Base64 {
-    /// @dev 1 in each byte.
+    /// @dev The upper 96 of 192 bits, the upper halves of what they make two of, and so on down to 6 bits.
+    uint256 private constant UPPER_96 = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
+    uint256 private constant UPPER_48 = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
+    uint256 private constant UPPER_24 = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    uint256 private constant UPPER_12 = 0x00fff00000fff00000fff00000fff00000fff00000fff00000fff00000fff000;
+    uint256 private constant UPPER_6 = 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0;
+    /// @dev 1, 2 and "A" in each byte; and what takes numbers from 26, 52 and 62 on to 128 or more.
     uint256 private constant EACH_BYTE = 0x0101010101010101010101010101010101010101010101010101010101010101;
+    uint256 private constant EACH_TWO = 0x0202020202020202020202020202020202020202020202020202020202020202;
+    uint256 private constant EACH_A = 0x4141414141414141414141414141414141414141414141414141414141414141;
+    uint256 private constant TO_128_FROM_26 = 0x6666666666666666666666666666666666666666666666666666666666666666;
+    uint256 private constant TO_128_FROM_52 = 0x4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c;
+    uint256 private constant TO_128_FROM_62 = 0x4242424242424242424242424242424242424242424242424242424242424242;
+    /// @dev How many bytes behind the characters may be written to.
     uint256 internal constant MARGIN = 128;
+    /// @dev Each turn reads 96 bytes and writes 128: 32 more for each turn that was begun.
+    uint256 internal constant OVERLAP = 32;
 
     /// @notice Writes the characters of `size` bytes at `data` to `target`, and up to MARGIN bytes without meaning behind them. The 32
-    /// bytes behind the data must be zero.
+    /// bytes behind the data must be zero. The characters may take the place of data that have been read: a target that is a third of
+    /// `size` and OVERLAP bytes before the data stays behind them.
     /// @return end The address after the last character.
     function encode(uint256 data, uint256 size, uint256 target) internal pure returns (uint256 end) {
         unchecked {
@@ -28,59 +43,45 @@ library Base64 {
         assembly ("memory-safe") {
             function characters(bits) -> text {
                 // 32 numbers of 6 bits to the 32 bytes of a word: the upper half of each part moves up until there is a number a byte
-                bits := add(bits, mul(and(bits, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000), 4294967295))
-                bits := add(bits, mul(and(bits, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000), 65535))
-                bits := add(bits, mul(and(bits, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000), 255))
-                bits := add(bits, mul(and(bits, 0x00fff00000fff00000fff00000fff00000fff00000fff00000fff00000fff000), 15))
-                bits := add(bits, mul(and(bits, 0x0fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc00fc0), 3))
-                // "A" + n, then what the steps to "a", "0", "+" and "/" differ from that
-                text := add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)
-                text := add(
-                    text,
-                    mul(and(shr(7, add(bits, 0x6666666666666666666666666666666666666666666666666666666666666666)), EACH_BYTE), 6)
-                )
-                text := sub(
-                    text,
-                    mul(and(shr(7, add(bits, 0x4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c4c)), EACH_BYTE), 75)
-                )
-                text := sub(
-                    text,
-                    mul(and(shr(7, add(bits, 0x4242424242424242424242424242424242424242424242424242424242424242)), EACH_BYTE), 15)
-                )
-                text := add(
-                    text,
-                    mul(and(shr(7, add(bits, 0x4141414141414141414141414141414141414141414141414141414141414141)), EACH_BYTE), 3)
-                )
+                bits := add(bits, mul(and(bits, UPPER_96), 0xffffffff))
+                bits := add(bits, mul(and(bits, UPPER_48), 0xffff))
+                bits := add(bits, mul(and(bits, UPPER_24), 0xff))
+                bits := add(bits, mul(and(bits, UPPER_12), 0xf))
+                bits := add(bits, mul(and(bits, UPPER_6), 3))
+                // "A" + n, and what the steps to "a", "0", "+" and "/" differ from that: 6, -75, -15 and 3
+                let digits := mul(and(shr(7, add(bits, TO_128_FROM_52)), EACH_BYTE), 25)
+                // "/" is the odd one of the last two
+                let lastTwo := and(shr(7, add(bits, TO_128_FROM_62)), EACH_BYTE)
+                let small := and(shr(6, add(bits, TO_128_FROM_26)), EACH_TWO)
+                text := mul(sub(add(small, and(lastTwo, bits)), add(digits, mul(lastTwo, 5))), 3)
+                text := add(text, add(bits, EACH_A))
             }
 
-            // pictures have runs of one colour, and its period of three bytes divides 24: often a group is like the one before
+            // pictures have runs of one colour, whose period of three bytes divides 24
             let previous := 0
-            let text := 0x4141414141414141414141414141414141414141414141414141414141414141
+            let text := EACH_A
             for {} lt(data, last) { data := add(data, 96) } {
-                let bits := shr(64, mload(data))
-                if xor(bits, previous) {
-                    previous := bits
-                    text := characters(previous)
+                let change := xor(mload(data), mload(add(data, 24)))
+                change := or(change, xor(mload(add(data, 32)), mload(add(data, 56))))
+                change := or(change, xor(mload(add(data, 40)), mload(add(data, 64))))
+                switch change
+                case 0 {
+                    let bits := shr(64, mload(data))
+                    if xor(bits, previous) {
+                        previous := bits
+                        text := characters(bits)
+                    }
+                    mstore(target, text)
+                    mstore(add(target, 32), text)
+                    mstore(add(target, 64), text)
+                    mstore(add(target, 96), text)
                 }
-                mstore(target, text)
-                bits := shr(64, mload(add(data, 24)))
-                if xor(bits, previous) {
-                    previous := bits
-                    text := characters(previous)
+                default {
+                    mstore(target, characters(shr(64, mload(data))))
+                    mstore(add(target, 32), characters(shr(64, mload(add(data, 24)))))
+                    mstore(add(target, 64), characters(shr(64, mload(add(data, 48)))))
+                    mstore(add(target, 96), characters(shr(64, mload(add(data, 72)))))
                 }
-                mstore(add(target, 32), text)
-                bits := shr(64, mload(add(data, 48)))
-                if xor(bits, previous) {
-                    previous := bits
-                    text := characters(previous)
-                }
-                mstore(add(target, 64), text)
-                bits := shr(64, mload(add(data, 72)))
-                if xor(bits, previous) {
-                    previous := bits
-                    text := characters(previous)
-                }
-                mstore(add(target, 96), text)
                 target := add(target, 128)
             }
         }

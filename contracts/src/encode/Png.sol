@@ -19,6 +19,16 @@ library Png {
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
     uint256 private constant DATA = 75;
+    /// @dev The signature with the size and the name of the chunk IHDR; what follows the sides there; the sum of that, the size and the
+    /// name of the chunk IDAT and the head of zlib, where sum and size are filled in later; the chunk IEND.
+    uint256 private constant SIGNATURE_IHDR = 0x89504e470d0a1a0a0000000d49484452;
+    uint256 private constant RGB_8 = 0x0802000000;
+    uint256 private constant IDAT_ZLIB = 0x494441547801;
+    uint256 private constant IEND = 0x49454e44;
+    uint256 private constant IEND_SUM = 0xae426082;
+    /// @dev What bitmaps begin with; one plane of 24 bits a pixel.
+    uint256 private constant BMP_KIND = 0x424d;
+    uint256 private constant ONE_PLANE_24 = 0x01001800;
     /// @dev The filter of rows that are as the row above.
     uint256 private constant UP = 2;
     /// @dev The largest prime below 2^16, for the checksum Adler-32.
@@ -34,6 +44,20 @@ library Png {
     uint256 private constant MANY = 4;
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
+
+    /// @dev The first byte of a word, and the green of the nine bits a channel that a word begins with.
+    uint256 private constant FIRST_BYTE = 0xff00000000000000000000000000000000000000000000000000000000000000;
+    uint256 private constant GREEN_OF_9 = 0x003fc00000000000000000000000000000000000000000000000000000000000;
+    /// @dev 1 in each of eight pixels of 24 bits.
+    uint256 private constant EACH_PIXEL = 0x0000000000000000000001000001000001000001000001000001000001000001;
+    /// @dev Of eight pixels of 24 bits the upper four, of each four the upper two, of each two the upper one.
+    uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
+    uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
+    uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
+    uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
+    uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
+    uint256 private constant SECOND_BYTES = 0x0000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff00;
 
     // Checksums take 30 bytes, ten pixels, at a time, as lanes of 16 bits of which the lowest is not used.
     uint256 private constant WORD = 30;
@@ -56,7 +80,7 @@ library Png {
     }
 
     /// @dev The rows of a picture.
-    /// @param source The row that is read last, in the bitmap.
+    /// @param source The row that is read last, in the calldata.
     /// @param row Where one is copied to, with a word before it and four behind it.
     /// @param size Bytes of its pixels.
     /// @param height How many there are.
@@ -78,7 +102,7 @@ library Png {
     /// @notice A PNG file of a bitmap.
     /// @param bmp 24 bits a pixel, as the renderer makes it.
     /// @param scale How many pixels each becomes in both directions, 1..8.
-    function encode(bytes memory bmp, uint256 scale) internal pure returns (bytes memory png) {
+    function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
@@ -95,13 +119,13 @@ library Png {
             // a word before it, and what is added behind it
             rows.row = room(rows.size + 192) + 32;
             assembly ("memory-safe") {
-                // behind the length and the header, the row that is lowest
-                mstore(rows, add(bmp, 86))
+                // behind the header, the row that is lowest
+                mstore(rows, add(bmp.offset, 54))
                 png := mload(0x40)
                 // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
                 let sides := or(shl(32, mul(width, scale)), mul(height, scale))
-                mstore(add(png, 32), or(or(shl(128, 0x89504e470d0a1a0a0000000d49484452), shl(64, sides)), shl(24, 0x0802000000)))
-                mstore(add(png, 64), shl(168, 0x0000000000494441547801))
+                mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, sides)), shl(24, RGB_8)))
+                mstore(add(png, 64), shl(168, IDAT_ZLIB))
                 let target := add(png, DATA)
                 mcopy(target, add(header, 32), mload(header))
                 target := add(target, mload(header))
@@ -118,7 +142,7 @@ library Png {
     }
 
     /// @notice A PNG file of a bitmap as a `data:` URI.
-    function dataURI(bytes memory bmp, uint256 scale) internal pure returns (string memory uri) {
+    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory uri) {
         unchecked {
             // this stands before the file, since zeros are written behind that
             string memory prefix = "data:image/png;base64,";
@@ -142,20 +166,20 @@ library Png {
     }
 
     /// @dev The sides of a bitmap in pixels, each 1..65535.
-    function sizeOf(bytes memory bmp) private pure returns (uint256 width, uint256 height) {
+    function sizeOf(bytes calldata bmp) private pure returns (uint256 width, uint256 height) {
         unchecked {
             if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
             uint256 kind;
             uint256 planesAndBits;
             assembly ("memory-safe") {
-                kind := shr(240, mload(add(bmp, 32)))
+                kind := shr(240, calldataload(bmp.offset))
                 // bytes 18 to 21 and 22 to 25 are the sides, the lowest byte first
-                let sides := mload(add(bmp, 50))
+                let sides := calldataload(add(bmp.offset, 18))
                 width := or(byte(0, sides), shl(8, byte(1, sides)))
                 height := or(byte(4, sides), shl(8, byte(5, sides)))
                 planesAndBits := and(shr(160, sides), 0xffffffff)
             }
-            bool known = kind == 0x424d && planesAndBits == 0x01001800 && width != 0 && height != 0;
+            bool known = kind == BMP_KIND && planesAndBits == ONE_PLANE_24 && width != 0 && height != 0;
             if (!known || bmp.length != Bmp.HEADER + Bmp.stride(width) * height) revert PngErrors.NotABitmap();
         }
     }
@@ -170,7 +194,8 @@ library Png {
     }
 
     /// @dev The codes of matches that repeat a pixel to the end of its square, and 0, 1, 2, ... pixels farther, 48 bytes apart. In the
-    /// lowest byte the number of bits, of which the first is uppermost; that of no match is before them.
+    /// lowest byte the number of bits, of which the first is uppermost. Before them what eight pixels that are all written are added to,
+    /// if the first match has SHORT_MATCH bits.
     function gapsOf(bytes memory tables, uint256 width, uint256 scale) private pure returns (uint256 gaps) {
         unchecked {
             gaps = room(48 * width + 48);
@@ -182,6 +207,9 @@ library Png {
                     place := add(place, 48)
                     mstore(place, or(shl(sub(256, size), text), size))
                 }
+            }
+            assembly ("memory-safe") {
+                mstore(gaps, mul(or(shr(224, mload(add(gaps, 48))), LITERALS), EACH_32))
             }
         }
     }
@@ -232,35 +260,50 @@ library Png {
         }
     }
 
-    /// @return second What the bytes before compression add to Adler-32: its second sum.
+    /// @return second What the bytes before compression add to Adler-32: its second sum, in which each byte counts as often as there are
+    /// bytes from it on.
     /// @return first Its first sum.
     function writeRows(Stream memory stream, Rows memory rows, uint256 scale) private pure returns (uint256 second, uint256 first) {
         unchecked {
+            // of all bytes; the same, each times the rows from its own on; each times its place, as `sumRow` has it
+            (uint256 sum, uint256 sumBelow, uint256 places) = sumRows(stream, rows);
+            // pairs of copies of a row
+            uint256 pairs = scale * (scale - 1) / 2;
             uint256 rowSize = 1 + rows.size * scale;
-            // bytes that are not written yet
-            uint256 rest = rowSize * rows.height * scale;
-            uint256 stride = Bmp.stride(rows.size / 3);
-            uint256 source = rows.source + stride * rows.height;
+            uint256 written = rowSize * scale;
+            first = 1 + scale * sum + UP * (scale - 1) * rows.height;
+            // pixels, of which each is written `scale` times, after the filter of the row
+            second = written * rows.height + scale * (written * sumBelow - sum - 3 * scale * places) - 3 * pairs * sum;
+            second -= scale * withinWords(rows.lanes, scale);
+            // filters of the other rows
+            second += UP * rowSize * pairs * rows.height * rows.height;
+        }
+    }
+
+    /// @dev Writes all rows.
+    function sumRows(Stream memory stream, Rows memory rows) private pure returns (uint256 sum, uint256 sumBelow, uint256 places) {
+        unchecked {
             (uint256 size, uint256 row) = (rows.size, rows.row);
-            second = rest;
-            first = 1;
+            uint256 stride = Bmp.stride(size / 3);
+            uint256 source = rows.source + stride * rows.height;
             put(stream, PngCode.LITERAL << (256 - LITERAL_SIZE), LITERAL_SIZE);
-            for (uint256 y = rows.height; y != 0; --y) {
+            while (source != rows.source) {
                 source -= stride;
                 assembly ("memory-safe") {
-                    mcopy(row, source, size)
+                    calldatacopy(row, source, size)
                     // zeros, for the sums
                     calldatacopy(add(row, size), calldatasize(), 96)
                 }
                 {
-                    (uint256 sum, uint256 places) = sumRow(row, size, rows.lanes);
-                    second += scale * ((rest - 1) * sum - 3 * scale * places) - 3 * (scale * (scale - 1) / 2) * sum;
-                    first += scale * sum;
+                    (uint256 sumOfRow, uint256 placesOfRow) = sumRow(row, size, rows.lanes);
+                    sum += sumOfRow;
+                    sumBelow += sum;
+                    places += placesOfRow;
                 }
                 assembly ("memory-safe") {
                     // 32 more pixels like the last one
                     let end := add(row, size)
-                    let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), 0x000001000001000001000001000001000001000001000001))
+                    let pixels := shl(64, mul(shr(232, mload(sub(end, 3))), EACH_PIXEL))
                     mstore(end, pixels)
                     mstore(add(end, 24), pixels)
                     mstore(add(end, 48), pixels)
@@ -269,12 +312,8 @@ library Png {
                 for (uint256 begin; begin < size; begin += 3 * PART) {
                     writePart(stream, rows.gaps, row + begin, row + (size - begin < 3 * PART ? size : begin + 3 * PART));
                 }
-                putBits(stream, rows.between, y == 1 ? rows.betweenSize - LITERAL_SIZE : rows.betweenSize);
-                second += UP * ((scale - 1) * rest - rowSize * (scale * (scale - 1) / 2));
-                rest -= rowSize * scale;
+                putBits(stream, rows.between, source == rows.source ? rows.betweenSize - LITERAL_SIZE : rows.betweenSize);
             }
-            first += UP * (scale - 1) * rows.height;
-            second -= scale * withinWords(rows.lanes, scale);
         }
     }
 
@@ -344,12 +383,12 @@ library Png {
                 // blue, green and red, of eight bits each, to red, green and blue of nine
                 let text := shr(232, mload(pixel))
                 text := or(
-                    or(shl(247, and(text, 0xff)), and(shl(230, text), 0x003fc00000000000000000000000000000000000000000000000000000000000)),
+                    or(shl(247, and(text, 0xff)), and(shl(230, text), GREEN_OF_9)),
                     shl(229, shr(16, text))
                 )
                 text := add(text, shl(229, LITERALS))
                 let size := and(code, 0xff)
-                mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, or(code, shr(size, text)))))
+                mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, or(code, shr(size, text)))))
                 newCount := add(add(count, size), PIXEL_SIZE)
                 newTarget := add(target, shr(3, newCount))
                 newCount := and(newCount, 7)
@@ -381,46 +420,29 @@ library Png {
                     // how many are not
                     let changed := or(change, or(shr(8, change), shr(16, change)))
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
-                    changed := mod(and(shr(8, changed), 0x0000000000000000000001000001000001000001000001000001000001000001), 0xffffff)
+                    changed := mod(and(shr(8, changed), EACH_PIXEL), 0xffffff)
                     if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
-                        // red, green and blue, from 24 bits to 32 bits
+                        // from 24 bits to 32 bits each: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
-                        pixels := or(
-                            or(shl(16, and(pixels, BYTE_OF_PIXEL)), and(pixels, shl(8, BYTE_OF_PIXEL))),
-                            and(shr(16, pixels), BYTE_OF_PIXEL)
-                        )
-                        pixels := or(
-                            and(pixels, 0x0000000000000000000000000000000000000000ffffffffffffffffffffffff),
-                            shl(32, and(pixels, 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000))
-                        )
-                        pixels := or(
-                            and(pixels, 0x00000000000000000000ffffffffffff00000000000000000000ffffffffffff),
-                            shl(16, and(pixels, 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000))
-                        )
-                        pixels := or(
-                            and(pixels, 0x0000000000ffffff0000000000ffffff0000000000ffffff0000000000ffffff),
-                            shl(8, and(pixels, 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000))
-                        )
-                        // the match of the pixel before, then 9 bits for each channel
-                        pixels := add(pixels, and(pixels, 0x00ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff00))
-                        pixels := add(pixels, and(pixels, 0x01fe000001fe000001fe000001fe000001fe000001fe000001fe000001fe0000))
+                        pixels := add(pixels, mul(and(pixels, UPPER_FOUR), 0xffffffff))
+                        pixels := add(pixels, mul(and(pixels, UPPER_TWO), 0xffff))
+                        pixels := add(pixels, mul(and(pixels, UPPER_ONE), 0xff))
+                        // blue, green and red, of eight bits each, to red, green and blue of nine behind the match of the pixel before
                         pixels := add(
-                            pixels,
-                            mul(
-                                or(shr(224, mload(add(gaps, 48))), LITERALS),
-                                0x0000000100000001000000010000000100000001000000010000000100000001
-                            )
+                            add(shl(18, and(pixels, LOWEST_BYTES)), shl(1, and(pixels, SECOND_BYTES))),
+                            and(shr(16, pixels), LOWEST_BYTES)
                         )
+                        pixels := add(pixels, mload(gaps))
                         switch sub(first, last)
                         case 3 {
                             // all of them: a word and what is pushed out of it
-                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, pixels)))
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, pixels)))
                             target := add(target, 32)
                             mstore(target, shl(sub(256, count), pixels))
                         }
                         default {
                             if xor(first, last) { target, count := write(target, count, mload(add(gaps, shl(4, sub(first, last)))), first) }
-                            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, shl(32, pixels))))
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, shl(32, pixels))))
                             target := add(target, 28)
                         }
                         last := add(first, 21)
@@ -446,7 +468,7 @@ library Png {
             }
             // the last match
             let code := mload(add(gaps, shl(4, sub(end, last))))
-            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, xor(code, and(code, 0xff)))))
+            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, and(code, 0xff)))))
             count := add(count, and(code, 0xff))
             mstore(stream, add(target, shr(3, count)))
             mstore(add(stream, 0x20), and(count, 7))
@@ -477,7 +499,7 @@ library Png {
         assembly ("memory-safe") {
             let target := mload(stream)
             let count := mload(add(stream, 0x20))
-            mstore(target, or(and(mload(target), shl(248, 0xff)), shr(count, text)))
+            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, text)))
             count := add(count, size)
             mstore(stream, add(target, shr(3, count)))
             mstore(add(stream, 0x20), and(count, 7))
@@ -496,9 +518,10 @@ library Png {
                 let target := add(mload(stream), iszero(iszero(mload(add(stream, 0x20)))))
                 for { let place := add(png, DATA) } lt(place, target) { place := add(place, 32) } {
                     let word := mload(place)
-                    word := or(and(shr(4, word), LOW_4), shl(4, and(word, LOW_4)))
-                    word := or(and(shr(2, word), LOW_2), shl(2, and(word, LOW_2)))
-                    word := or(and(shr(1, word), LOW_1), shl(1, and(word, LOW_1)))
+                    // sums, which the optimizer leaves alone: of `or` and `and` it makes more
+                    word := add(and(shr(4, word), LOW_4), mul(and(word, LOW_4), 16))
+                    word := add(and(shr(2, word), LOW_2), mul(and(word, LOW_2), 4))
+                    word := add(and(shr(1, word), LOW_1), mul(and(word, LOW_1), 2))
                     mstore(place, word)
                 }
                 mstore(target, shl(224, or(shl(16, second), first)))
@@ -523,8 +546,8 @@ library Png {
             write32(file + 33, end - file - 57);
             write32(end - 16, Crc32.sum(file + 37, end - file - 53));
             write32(end - 12, 0);
-            write32(end - 8, 0x49454e44);
-            write32(end - 4, 0xae426082);
+            write32(end - 8, IEND);
+            write32(end - 4, IEND_SUM);
         }
     }
 

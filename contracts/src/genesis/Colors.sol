@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Elements} from "./Elements.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Hsv} from "./Hsv.sol";
 import {Prisms} from "./Prisms.sol";
@@ -12,6 +13,7 @@ error NoPrismToChoose();
 /// @title Colors: the colour of every vertex, from a gradient and a random offset in hue, saturation and value.
 library Colors {
     using Random for Seed;
+    using Elements for int256[];
 
     Tag private constant NONE = Tag.wrap(0);
     Tag private constant JIGGLE_HUE = Tag.wrap(bytes32("0") | bytes32(uint256(1)));
@@ -56,13 +58,15 @@ library Colors {
             int256[] memory keys =
                 scheme.key == RADIUS ? prisms.flatRadius : scheme.key == CENTER_X ? prisms.flatX : prisms.flatY;
             // of equal keys those with the smaller number come first: no two are equal now
-            for (uint256 k = 1; k != total; ++k) keys[k] = (scheme.select == LARGEST ? -keys[k] : keys[k]) * 16 + int256(k);
+            for (uint256 k = 1; k != total; ++k) {
+                keys.put(k, (scheme.select == LARGEST ? -keys.get(k) : keys.get(k)) * 16 + int256(k));
+            }
             // the first prism comes first, whatever its key
             chosen = 1;
             for (uint256 k = 1; k != total; ++k) {
-                int256 key = keys[k];
+                int256 key = keys.get(k);
                 uint256 before = 1;
-                for (uint256 i = 1; i != total; ++i) if (keys[i] < key) ++before;
+                for (uint256 i = 1; i != total; ++i) if (keys.get(i) < key) ++before;
                 if (before < count) chosen |= 1 << k;
             }
         }
@@ -98,7 +102,7 @@ library Colors {
             (int256 low, int256 high) = how.across ? (-prisms.half[how.direction >> 1], prisms.half[how.direction >> 1]) : range(values, k);
             if (!how.across && (how.direction == LEFT || how.direction == DOWN)) (low, high) = (high, low);
             for (uint256 i; i != 3; ++i) {
-                int256 part = high == low ? int256(1) : (values[6 * k + 3 + i] - low) * 1000 / (high - low);
+                int256 part = high == low ? int256(1) : (values.get(6 * k + 3 + i) - low) * 1000 / (high - low);
                 (int256 hue, int256 saturation, int256 value) =
                     Hsv.fromRgb(mix(how, 16, part), mix(how, 8, part), mix(how, 0, part));
                 colors[6 * k + i] = colorOf(hue, saturation, value, added[i], how.shift);
@@ -110,7 +114,7 @@ library Colors {
     /// @dev The least and the largest coordinate at the near end of a prism.
     function range(int256[] memory values, uint256 k) private pure returns (int256 low, int256 high) {
         unchecked {
-            (int256 a, int256 b, int256 c) = (values[6 * k + 3], values[6 * k + 4], values[6 * k + 5]);
+            (int256 a, int256 b, int256 c) = (values.get(6 * k + 3), values.get(6 * k + 4), values.get(6 * k + 5));
             (low, high) = a < b ? (a, b) : (b, a);
             if (c < low) low = c;
             if (c > high) high = c;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Elements} from "./Elements.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Structure, EXTRUDED, UNIFORM} from "./Structures.sol";
 import {Trigonometry, SINES, ONE} from "./Trigonometry.sol";
@@ -55,6 +56,7 @@ struct Layout {
 /// or divides where a comparison of squares or products says the same.
 library Layouts {
     using Random for Seed;
+    using Elements for int256[6];
 
     uint256 internal constant ATTEMPTS = 150;
     /// @dev Of a triangle's corners and centroid from where they would be without rounding, at most; and of its radius.
@@ -224,10 +226,17 @@ library Layouts {
             // the side of an equilateral triangle, nearly
             uint256 guess = uint256(triangle.radius * 1732 / 1000);
             int256[12] memory e = triangle.edges;
-            for (uint256 k; k != 12; k += 4) {
-                uint256 length = Trigonometry.root(uint256(e[k] * e[k] + e[k + 1] * e[k + 1]), guess);
-                e[k + 3] = CLEARANCE * int256(length) - 1;
-            }
+            e[3] = nearness(e[0], e[1], guess);
+            e[7] = nearness(e[4], e[5], guess);
+            e[11] = nearness(e[8], e[9], guess);
+        }
+    }
+
+    /// @dev The most of what is too near to an edge, times its length.
+    /// @param guess About that length.
+    function nearness(int256 dx, int256 dy, uint256 guess) private pure returns (int256) {
+        unchecked {
+            return CLEARANCE * int256(Trigonometry.root(uint256(dx * dx + dy * dy), guess)) - 1;
         }
     }
 
@@ -238,8 +247,8 @@ library Layouts {
             int256[6] memory corners = laid.spare.corners;
             for (uint256 k; k != 3; ++k) {
                 (int256 cosine, int256 sine) = Trigonometry.ofTurn(laid.sines, turn + 4 * k);
-                corners[2 * k] = x + radius * cosine / ONE;
-                corners[2 * k + 1] = y + radius * sine / ONE;
+                corners.put(2 * k, x + radius * cosine / ONE);
+                corners.put(2 * k + 1, y + radius * sine / ONE);
             }
             measure(laid.spare, radius);
         }

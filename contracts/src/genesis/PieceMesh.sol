@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Elements} from "./Elements.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {Prisms} from "./Prisms.sol";
 
 /// @title PieceMesh: prisms in the format of `Mesh.sol`.
 library PieceMesh {
+    using Elements for int256[];
+
     /// @dev The seven faces of a prism, three vertex numbers of 2 bytes each, and what is added to each for the next prism. There is no
     /// far cap.
     uint256 private constant FACES_A = 0x0003_0004_0005_0004_0003_0000_0000_0001_0004_0005_0004_0001;
@@ -28,7 +31,7 @@ library PieceMesh {
             target = write(target, (vertices << 16) | (7 * count), HEADER_SIZE);
             (int256 cx, int256 cy) = (prisms.center[0], prisms.center[1]);
             for (uint256 i; i != vertices; ++i) {
-                uint256 position = (short(prisms.x[i] - cx) << 32) | (short(prisms.y[i] - cy) << 16) | short(-prisms.z[i]);
+                uint256 position = (short(prisms.x.get(i) - cx) << 32) | (short(prisms.y.get(i) - cy) << 16) | short(-prisms.z.get(i));
                 target = write(target, (position << 24) | colors[i], VERTEX_SIZE);
             }
             (uint256 a, uint256 b) = (FACES_A, FACES_B);

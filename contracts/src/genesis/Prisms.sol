@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Elements} from "./Elements.sol";
 import {Seed, Tag, Random} from "./Random.sol";
 import {Layout, Triangle} from "./Layout.sol";
 import {Trigonometry} from "./Trigonometry.sol";
@@ -28,6 +29,7 @@ struct Prisms {
 /// @title PrismMaker: from triangles to prisms.
 library PrismMaker {
     using Random for Seed;
+    using Elements for int256[];
 
     /// @dev The width or height of a piece before it is turned, whichever is larger.
     int256 internal constant EXTENT = 2000;
@@ -114,7 +116,9 @@ library PrismMaker {
             (y, z) = Trigonometry.rotate(y, z, turn.cosineX, turn.sineX);
             (x, z) = Trigonometry.rotate(x, z, turn.cosineY, turn.sineY);
         }
-        (prisms.x[i], prisms.y[i], prisms.z[i]) = (x, y, z);
+        prisms.x.put(i, x);
+        prisms.y.put(i, y);
+        prisms.z.put(i, z);
     }
 
     /// @dev Finds the middle between the lowest and the highest coordinate, each the mean of both ends.
@@ -135,10 +139,10 @@ library PrismMaker {
     /// @param first 0 for the far end, 3 for the near one.
     function bounds(int256[] memory values, uint256 first) private pure returns (int256 low, int256 high) {
         unchecked {
-            low = high = values[first];
+            low = high = values.get(first);
             for (uint256 k = first; k < values.length; k += 6) {
                 for (uint256 i = k; i != k + 3; ++i) {
-                    int256 value = values[i];
+                    int256 value = values.get(i);
                     if (value < low) low = value;
                     if (value > high) high = value;
                 }

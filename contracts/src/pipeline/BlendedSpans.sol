@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ExactSpans, HALF_85} from "./ExactSpans.sol";
+import {Compositor} from "./Compositor.sol";
+import {ExactSpans} from "./ExactSpans.sol";
 import "./Registers.sol";
 
 // Objects that are not opaque. They are drawn twice: the first pass (IS_DEPTH_PASS) finds the nearest fragment of each pixel, the second
@@ -11,8 +12,6 @@ import "./Registers.sol";
 uint256 constant DEPTH_OF_PASSES = 0xfffffffffffffffc000000000000000000000000000000000000000000000000;
 uint256 constant DEPTH_FOUND = 0x1000000000000000000000000000000000000000000000000;
 uint256 constant DEPTH_DRAWN = 0x2000000000000000000000000000000000000000000000000;
-/// @dev Just below 256, Q10.
-int256 constant BRIGHTEST = 0x3ffff;
 
 library BlendedSpans {
     /// @notice Draws the rows from `row` to before `last`, between two edges.
@@ -38,7 +37,7 @@ library BlendedSpans {
             for (; column < end; ++column) {
                 if (passes(p, attribute)) {
                     uint256 color = ExactSpans.colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row);
-                    ExactSpans.write(p, (blended(color, ExactSpans.pixelAt(p)) << 48) + HALF_85);
+                    ExactSpans.write(p, Compositor.over(color, p));
                 }
                 p += 8;
                 attribute += load(DX);
@@ -57,23 +56,6 @@ library BlendedSpans {
             }
             store(p, attribute | (second ? DEPTH_DRAWN : DEPTH_FOUND) | (old & type(uint192).max));
             return second;
-        }
-    }
-
-    /// @dev color * OPACITY + behind * (1 - OPACITY)
-    /// @param color Signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
-    /// @param behind Blue, green and red at the top of the word.
-    function blended(uint256 color, uint256 behind) private pure returns (uint256 mixed) {
-        unchecked {
-            for (uint256 lane; lane != 3; ++lane) {
-                int256 value = int256(color << 171) >> 171;
-                // without what the lane has borrowed
-                color = uint256(int256(color - uint256(value)) >> MIDDLE_85_AT);
-                if (value < 0) value = 0;
-                if (value > BRIGHTEST) value = BRIGHTEST;
-                uint256 byte_ = (behind >> (248 - 8 * lane)) & 0xff;
-                mixed |= ((uint256(value) * load(OPACITY) + (byte_ << 10) * (ONE_24 - load(OPACITY))) >> 24) << (MIDDLE_85_AT * lane);
-            }
         }
     }
 }

@@ -2,19 +2,19 @@
 pragma solidity 0.8.37;
 
 import {Rectangle} from "../scene/Scene.sol";
-import "./Words.sol";
+import "./Registers.sol";
 
-// The background under the objects, and what happens to all pixels when they are drawn.
+// The background under the objects, fragments that are mixed with what is behind them, and what happens to all pixels when they are drawn.
+
+/// @dev Just below 256, Q10.
+int256 constant BRIGHTEST = 0x3ffff;
 
 library Compositor {
     /// @notice Fills the pixels of a tile with the background, rows from the bottom, without padding.
-    function background(uint256 image, uint256 top, uint256 bottom, uint256 height, Rectangle memory tile) internal pure {
+    function background(uint256 image, Rectangle memory tile) internal pure {
         unchecked {
             uint256 rowBytes = 3 * tile.width;
-            // lanes of Q24: the change from row to row upwards, and the bottom row
-            uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
-            uint256 color = (lanes(height == 1 ? top : bottom) << 24) + (ONES << 23) + step * (height - tile.y - tile.height);
-            fillRows(image, rowBytes, image + rowBytes * tile.height, color, step);
+            fillRows(image, rowBytes, image + rowBytes * tile.height, load(BACKGROUND), load(BACKGROUND_STEP));
         }
     }
 
@@ -43,6 +43,25 @@ library Compositor {
         }
     }
 
+    /// @notice The colour of a fragment over what is there: color * OPACITY + behind * (1 - OPACITY).
+    /// @param color Signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
+    /// @param p Where the pixel has its depth.
+    function over(uint256 color, uint256 p) internal pure returns (uint256 mixed) {
+        unchecked {
+            // blue, green and red at the top of the word
+            uint256 behind = load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
+            for (uint256 lane; lane != 3; ++lane) {
+                int256 value = int256(color << 171) >> 171;
+                // without what the lane has borrowed
+                color = uint256(int256(color - uint256(value)) >> MIDDLE_85_AT);
+                if (value < 0) value = 0;
+                if (value > BRIGHTEST) value = BRIGHTEST;
+                uint256 byte_ = (behind >> (248 - 8 * lane)) & 0xff;
+                mixed |= ((uint256(value) * load(OPACITY) + (byte_ << 10) * (ONE_24 - load(OPACITY))) >> 24) << (MIDDLE_85_AT * lane);
+            }
+        }
+    }
+
     /// @notice Turns every byte v of `size` bytes into 255 - v.
     function invert(uint256 image, uint256 size) internal pure {
         assembly ("memory-safe") {
@@ -67,19 +86,6 @@ library Compositor {
                 counts := add(counts, shr(63, and(or(some, depths), TOPS_64)))
             }
             count := mod(counts, 0xffffffffffffffff)
-        }
-    }
-
-    function lanes(uint256 color) private pure returns (uint256) {
-        return (color & 0xff) | ((color & 0xff00) << 48) | ((color & 0xff0000) << 96);
-    }
-
-    function laneStep(uint256 top, uint256 bottom, uint256 rows) private pure returns (uint256 step) {
-        unchecked {
-            for (uint256 i; i != 3; ++i) {
-                int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
-                step += uint256((difference << 24) / int256(rows)) << (MIDDLE_AT * i);
-            }
         }
     }
 }

@@ -6,8 +6,20 @@ import "./Registers.sol";
 
 // Every fragment for itself, from depth and barycentric coordinates.
 
-/// @dev Half a level in lanes of 85 bits, Q58.
+/// @dev Half a level in lanes of 85 bits, Q58 and Q10.
 uint256 constant HALF_85 = 0x800000000000000000000400000000000000000000200000000000000;
+uint256 constant HALF_85_Q10 = 0x800000000000000000000400000000000000000000200;
+/// @dev Bits 18 to 36 of each lane, which a colour between 0 and 255, Q10, does not have. Added once more to what a lane has of them, they
+/// carry into bit 37 unless that is nothing; bit 36 is the sign.
+uint256 constant BEYOND_BYTE_85 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000;
+uint256 constant BEYOND_CARRY = 37;
+uint256 constant BEYOND_SIGN = 36;
+/// @dev 1 in each lane.
+uint256 constant ONES_85 = 0x4000000000000000000002000000000000000000001;
+/// @dev Where the byte of each channel begins.
+uint256 constant BLUE_Q10_AT = 10;
+uint256 constant GREEN_Q10_AT = 95;
+uint256 constant RED_Q10_AT = 180;
 
 library ExactSpans {
     /// @notice Draws the rows from `row` to before `last`, between two edges.
@@ -15,63 +27,62 @@ library ExactSpans {
     function rows(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure {
         unchecked {
             for (; row != last; ++row) {
-                uint256 column = max(max((edges >> 48) & 0xffff, load(PATCH_BEGIN)), load(COLUMN_BEGIN));
-                span(row, column, min(min(edges >> 176, load(PATCH_END)), load(COLUMN_END)), start + column * load(DX));
+                uint256 column;
+                uint256 end;
+                assembly ("memory-safe") {
+                    column := and(shr(EDGES_LEFT_COLUMN_AT, edges), EDGES_LEFT_COLUMN_MASK)
+                    if lt(column, mload(PATCH_BEGIN)) { column := mload(PATCH_BEGIN) }
+                    if lt(column, mload(COLUMN_BEGIN)) { column := mload(COLUMN_BEGIN) }
+                    end := shr(EDGES_RIGHT_COLUMN_AT, edges)
+                    if gt(end, mload(PATCH_END)) { end := mload(PATCH_END) }
+                    if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
+                }
+                if (column < end) span(row, column, end, start + column * load(DX));
                 edges += slopes;
                 start += load(DY);
             }
         }
     }
 
+    /// @dev At least one fragment.
     function span(uint256 row, uint256 column, uint256 end, uint256 attribute) private pure {
         unchecked {
-            uint256 p = load(DEPTH_ORIGIN) - load(DEPTH_STRIDE) * row + 8 * column;
-            row = load(RAY_TOP) + row * load(RAY_STEP);
-            for (; column < end; ++column) {
-                if (passes(p, attribute)) {
-                    write(p, (colorAt(attribute, load(RAY_LEFT) + column * load(RAY_STEP), row) << 48) + HALF_85);
+            uint256 p = load(DEPTH_ORIGIN) - load(DEPTH_STRIDE) * row;
+            end = p + 8 * end;
+            p += 8 * column;
+            uint256 x = load(RAY_LEFT) + column * load(RAY_STEP);
+            uint256 y = load(RAY_TOP) + row * load(RAY_STEP);
+            while (true) {
+                uint256 depth = attribute >> ACCUMULATOR_DEPTH_AT;
+                if (depth > load(p) >> ACCUMULATOR_DEPTH_AT) {
+                    assembly ("memory-safe") {
+                        mstore(p, or(shl(ACCUMULATOR_DEPTH_AT, depth), and(mload(p), BEHIND_DEPTH)))
+                    }
+                    write(p, colorAt(attribute, x, y));
                 }
                 p += 8;
+                if (p == end) break;
                 attribute += load(DX);
+                x += load(RAY_STEP);
             }
         }
     }
 
-    /// @dev The depth test.
-    function passes(uint256 p, uint256 attribute) private pure returns (bool nearer) {
+    /// @notice Writes a pixel of signed lanes of 85 bits, Q10, which are rounded and kept between 0 and 255.
+    function write(uint256 p, uint256 color) internal pure {
         assembly ("memory-safe") {
-            let old := mload(p)
-            nearer := gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff))
-            if nearer {
-                mstore(p, xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000)))
+            color := add(color, HALF_85_Q10)
+            let beyond := and(color, BEYOND_BYTE_85)
+            if beyond {
+                // 255 in lanes that are above it or below 0, then 0 in those below
+                beyond := and(shr(BEYOND_CARRY, add(beyond, BEYOND_BYTE_85)), ONES_85)
+                color := or(color, mul(beyond, BYTE_Q10))
+                color := and(color, not(mul(and(shr(BEYOND_SIGN, color), ONES_85), BYTE_Q10)))
             }
-        }
-    }
-
-    /// @notice The pixel with its depth at p: blue, green and red at the top of a word.
-    function pixelAt(uint256 p) internal pure returns (uint256) {
-        unchecked {
-            return load(load(IMAGE_ORIGIN) + 3 * (p >> 3));
-        }
-    }
-
-    /// @notice Writes a pixel of lanes of 85 bits, Q58, which are kept between 0 and 255.
-    function write(uint256 p, uint256 f) internal pure {
-        assembly ("memory-safe") {
-            let color := and(f, 0xff00000000000000000007f80000000000000000003fc00000000000000)
-            let high := and(f, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
-            if high {
-                // above 255, or below 0: a carry into the next lane tells
-                high := add(high, 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000)
-                high := and(high, 0x8000000000000000000004000000000000000000002000000000000000000000)
-                color := or(color, mul(shr(85, high), 0x3fc00000000000000))
-                high := and(f, 0x4000000000000000000002000000000000000000001000000000000000000000)
-                color := and(color, not(mul(shr(84, high), 0x3fc00000000000000)))
-            }
-            let packed := or(shl(190, color), and(shl(97, color), 0xff000000000000000000000000000000000000000000000000000000000000))
-            packed := or(packed, and(shl(4, color), 0xff0000000000000000000000000000000000000000000000000000000000))
             p := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
-            mstore(p, or(packed, and(mload(p), 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff)))
+            mstore8(p, shr(BLUE_Q10_AT, color))
+            mstore8(add(p, 1), shr(GREEN_Q10_AT, color))
+            mstore8(add(p, 2), shr(RED_Q10_AT, color))
         }
     }
 
@@ -80,18 +91,10 @@ library ExactSpans {
         uint256 s;
         uint256 t;
         assembly ("memory-safe") {
-            s := sar(64, signextend(20, attribute))
-            t := sar(8, signextend(6, attribute))
-            attribute := shr(192, attribute)
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
         }
         return FragmentLight.colorAt(attribute, s, t, x, y);
-    }
-
-    function min(uint256 a, uint256 b) private pure returns (uint256) {
-        return a < b ? a : b;
-    }
-
-    function max(uint256 a, uint256 b) private pure returns (uint256) {
-        return a > b ? a : b;
     }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {sqrt} from "../math/Roots.sol";
 import {Lighting} from "./Lighting.sol";
 import {Patches} from "./Patches.sol";
-import {COLOR_BIAS, COLOR_LANES, Shading} from "./Shading.sol";
+import {Rasterizer} from "./Rasterizer.sol";
+import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "./Registers.sol";
 
@@ -13,141 +13,120 @@ import "./Registers.sol";
 /// @dev Lifts every colour of which a fragment may come out above 255 into the bits of OVERFLOW: half a level, by which fragments are
 /// rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 uint256 constant NEARLY_ABOVE = 0x2080000000000020800000000000208;
+/// @dev A REACH that is beyond every triangle.
+uint256 constant NO_LIMIT = 1 << 60;
 /// @dev Twice the area, in sub-pixels, of 10 pixels.
 uint256 constant SMALL = 20 << 16;
 
-library FlatShading {
-    /// @notice Chooses the way to shade a triangle, and sets what that way needs: see Rasterizer.shade.
-    function prepare(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
-        unchecked {
-            uint256 attributesA;
-            uint256 attributesB;
-            uint256 attributesC;
-            uint256 mode = load(OBJECT_MODE);
-            assembly ("memory-safe") {
-                attributesA := mload(add(and(a, 0xffffffff), 32))
-                attributesB := mload(add(and(b, 0xffffffff), 32))
-                attributesC := mload(add(and(c, 0xffffffff), 32))
-            }
-            if (mode & IS_FLAT == 0) {
-                bool isNearlyFlat;
-                assembly ("memory-safe") {
-                    // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8
-                    // rows: `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth.
-                    let depth := shr(168, attributesA)
-                    let second := mul(24, sub(shr(168, attributesB), depth))
-                    let third := mul(24, sub(shr(168, attributesC), depth))
-                    let limit := shl(1, depth)
-                    isNearlyFlat := or(
-                        or(gt(add(second, depth), limit), gt(add(third, depth), limit)),
-                        gt(add(sub(second, third), depth), limit)
-                    )
-                    limit := add(shr(128, a), 2048)
-                    isNearlyFlat := iszero(or(isNearlyFlat, or(gt(shr(128, b), limit), gt(shr(128, c), limit))))
-                }
-                if (isNearlyFlat) {
-                    assembly ("memory-safe") {
-                        mstore(MODE, crossing)
-                        mstore(ATTRIBUTE_0, add(shl(32, attributesA), COLOR_BIAS))
-                        mstore(DELTA_1, sub(attributesB, attributesA))
-                        mstore(DELTA_2, sub(attributesC, attributesA))
-                    }
-                    return;
-                }
-                if (Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
-                    return Shading.setLinear(attributesA, attributesB, attributesC, crossing);
-                }
-            } else {
-                if (prepareFlat(a, b, c, crossing)) return;
-                Lighting.setFacing();
-                mode = load(MODE);
-                (attributesA, attributesB, attributesC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
-            }
-            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
-            setPatch(a, b, c, attributesA, attributesB, attributesC);
+abstract contract FlatShading is Rasterizer {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        if (load(OBJECT_MODE) & IS_FLAT != 0) return shadeFlat(a, b, c, crossing);
+        uint256 p;
+        uint256 q;
+        uint256 r;
+        bool linear;
+        assembly ("memory-safe") {
+            p := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            q := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            r := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            // Depths that differ by at most 1/24 of that of the first vertex, and so by less than 1/22 of the least, and at most 8 rows:
+            // `isAffine` without the minima. |d| <= depth / 24 as 0 <= 24 * d + depth <= 2 * depth, for whole words: what is below the
+            // depths is less than one of them.
+            let second := mul(24, sub(q, p))
+            let third := mul(24, sub(r, p))
+            let limit := shl(1, p)
+            linear := or(or(gt(add(second, p), limit), gt(add(third, p), limit)), gt(add(sub(second, third), p), limit))
+            limit := add(a, EIGHT_ROWS)
+            linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
         }
+        if (linear || Shading.isAffine(p, q, r, a, b, c)) return Shading.setLinear(p, q, r, crossing);
+        setPatch(a, b, c, p, q, r, load(OBJECT_MODE) | crossing);
     }
 
-    /// @dev A flat triangle: its light, and whether its colours are linear on the screen. If not, the mode and the attribute words, with
-    /// light that does not depend on the fragment, are in MODE, ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function prepareFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure returns (bool linear) {
-        uint256 mode = Lighting.setFace();
-        uint256 bad;
+    /// @dev A flat triangle.
+    function shadeFlat(uint256 a, uint256 b, uint256 c, uint256 crossing) private pure {
+        (uint256 mode, uint256 light) = Lighting.setFace();
+        uint256 p;
+        uint256 q;
+        uint256 r;
         assembly ("memory-safe") {
-            // the attribute word of a vertex with coloured light on its colour
-            function lit(attributes, factor) -> product {
-                let color := and(attributes, COLOR_LANES)
-                product := shr(16, mul(and(factor, 0xffffffff), and(color, 0xffffff)))
-                product := or(product, shl(56, shr(16, mul(and(shr(56, factor), 0xffffffff), and(shr(56, color), 0xffffff)))))
-                product := or(product, shl(112, shr(16, mul(shr(112, factor), shr(112, color)))))
-                product := or(product, xor(attributes, color))
-            }
+            p := mload(add(and(a, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            q := mload(add(and(b, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+            r := mload(add(and(c, SCREEN_RECORD_MASK), VERTEX_ATTRIBUTES))
+        }
+        if (mode & IS_DIFFUSE == 0) {
+            bool linear;
+            assembly ("memory-safe") {
+                // the attribute word of a vertex with coloured light on its colour
+                function lit(attributes, factor) -> product {
+                    let color := and(attributes, LANES_24)
+                    product := shr(LIGHT_FRACTION, mul(and(factor, LANE_32), and(color, LANE_24)))
+                    product := or(
+                        product,
+                        shl(MIDDLE_AT, shr(LIGHT_FRACTION, mul(and(shr(MIDDLE_AT, factor), LANE_32), and(shr(MIDDLE_AT, color), LANE_24))))
+                    )
+                    product := or(product, shl(UPPER_AT, shr(LIGHT_FRACTION, mul(shr(UPPER_AT, factor), shr(UPPER_AT, color)))))
+                    product := or(product, xor(attributes, color))
+                }
 
-            let p := mload(add(and(a, 0xffffffff), 32))
-            let q := mload(add(and(b, 0xffffffff), 32))
-            let r := mload(add(and(c, 0xffffffff), 32))
-            if iszero(and(mode, IS_DIFFUSE)) {
-                let factor := and(mload(FACE_LIGHT), 0xffffffff)
-                switch eq(mload(FACE_LIGHT), mul(factor, ONES))
-                case 1 {
-                    let color := and(p, COLOR_LANES)
-                    p := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(p, color))
-                    color := and(q, COLOR_LANES)
-                    q := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(q, color))
-                    color := and(r, COLOR_LANES)
-                    r := or(and(shr(16, mul(color, factor)), COLOR_LANES), xor(r, color))
+                switch and(mode, IS_GREY)
+                case 0 {
+                    p := lit(p, light)
+                    q := lit(q, light)
+                    r := lit(r, light)
                 }
                 default {
-                    factor := mload(FACE_LIGHT)
-                    p := lit(p, factor)
-                    q := lit(q, factor)
-                    r := lit(r, factor)
+                    light := and(light, LANE_32)
+                    let color := and(p, LANES_24)
+                    p := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(p, color))
+                    color := and(q, LANES_24)
+                    q := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(q, color))
+                    color := and(r, LANES_24)
+                    r := or(and(shr(LIGHT_FRACTION, mul(color, light)), LANES_24), xor(r, color))
+                }
+                // as in `shade`
+                let second := mul(24, sub(q, p))
+                let third := mul(24, sub(r, p))
+                let limit := shl(1, p)
+                linear := or(gt(add(sub(second, third), p), limit), and(or(or(p, q), r), OVERFLOW))
+                linear := or(linear, or(gt(add(second, p), limit), gt(add(third, p), limit)))
+                limit := add(a, EIGHT_ROWS)
+                linear := iszero(or(linear, or(gt(b, limit), gt(c, limit))))
+            }
+            if (linear || Shading.isAffine(p, q, r, a, b, c)) {
+                if (mode & IS_LIT == 0) return setLit(p, q, r, crossing);
+                if (Shading.squareSize(a, b, c) < load(REACH)) {
+                    (p, q, r) = VertexHighlights.addTo(a, b, c, p, q, r);
+                    return setLit(p, q, r, crossing);
                 }
             }
-            mstore(MODE, mode)
-            mstore(ATTRIBUTE_0, p)
-            mstore(DELTA_1, q)
-            mstore(DELTA_2, r)
-            linear := iszero(and(mode, IS_DIFFUSE))
-            bad := and(or(or(p, q), r), OVERFLOW)
-            // as in `prepare`
-            p := shr(168, p)
-            q := mul(24, sub(shr(168, q), p))
-            r := mul(24, sub(shr(168, r), p))
-            bad := or(bad, gt(add(sub(q, r), p), shl(1, p)))
-            bad := or(bad, or(gt(add(q, p), shl(1, p)), gt(add(r, p), shl(1, p))))
-            p := add(shr(128, a), 2048)
-            bad := or(bad, or(gt(shr(128, b), p), gt(shr(128, c), p)))
         }
-        if (linear && bad != 0) {
-            linear = Shading.isAffine(load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2), a, b, c);
-        }
-        if (linear && mode & IS_LIT != 0) {
-            linear = Shading.squareSize(a, b, c) < load(REACH);
-            if (linear) VertexHighlights.addAll(a, b, c);
-        }
-        if (!linear) return false;
+        Lighting.setFacing();
+        setPatch(a, b, c, p, q, r, mode | crossing);
+    }
+
+    /// @dev The registers of a triangle whose colours change linearly, and may be above 255: then they need a loop that keeps them there.
+    function setLit(uint256 p, uint256 q, uint256 r, uint256 crossing) private pure {
         assembly ("memory-safe") {
-            let p := mload(ATTRIBUTE_0)
-            let q := mload(DELTA_1)
-            let r := mload(DELTA_2)
-            // colours above 255 need a loop that keeps them there
-            mode := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
-            mstore(MODE, or(crossing, iszero(iszero(and(mode, OVERFLOW)))))
-            mstore(ATTRIBUTE_0, add(shl(32, p), COLOR_BIAS))
+            let above := or(or(add(p, NEARLY_ABOVE), add(q, NEARLY_ABOVE)), add(r, NEARLY_ABOVE))
+            mstore(MODE, or(crossing, iszero(iszero(and(above, OVERFLOW)))))
+            mstore(ATTRIBUTE_0, add(shl(ACCUMULATOR_FRACTION, p), COLOR_BIAS))
             mstore(DELTA_1, sub(q, p))
             mstore(DELTA_2, sub(r, p))
         }
     }
 
-    /// @dev Sets over how much of the triangle colours are quadratic functions.
-    function setPatch(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure {
+    /// @dev Colours as quadratic functions, or each for itself.
+    function setPatch(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r, uint256 mode) private pure {
         unchecked {
+            Shading.setExact(a, b, c, p, q, r, mode);
             store(PATCH_WEIGHT, 0);
-            uint256 size = patchSize(a, b, c, za, zb, zc);
+            uint256 size = patchSize(a, b, c, p, q, r);
             store(PATCH_SIZE, size);
-            if (size == 0)
-                Patches.fitWhole(a, b, c, za >> 168, zb >> 168, zc >> 168, Shading.max((a + (255 << 128)) >> 136, load(BAND_TOP)));
+            if (size == 0) {
+                uint256 top = Shading.max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
+                Patches.fitWhole(a, b, c, p >> ATTRIBUTE_DEPTH_AT, q >> ATTRIBUTE_DEPTH_AT, r >> ATTRIBUTE_DEPTH_AT, top);
+            }
         }
     }
 
@@ -170,21 +149,22 @@ library FlatShading {
             uint256 area = Shading.doubleArea(a, b, c);
             // where a few pixels are covered, these are the fewest colours
             if (area < SMALL || mode & IS_STEEP != 0) return 1;
-            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> 168;
-            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> 168;
-            uint256 reach = 1 << 60;
+            uint256 nearest = Shading.max(za, Shading.max(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
+            uint256 reach = NO_LIMIT;
             if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
             if (mode & IS_ORTHOGRAPHIC == 0) {
                 uint256 bright = brightness(za | zb | zc, mode);
                 if (6 * (nearest - farthest) * bright > nearest + farthest) {
                     // so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
-                    size = slope(a, b, c, (zb >> 168) - (za >> 168), (zc >> 168) - (za >> 168));
+                    size = za >> ATTRIBUTE_DEPTH_AT;
+                    size = slope(a, b, c, (zb >> ATTRIBUTE_DEPTH_AT) - size, (zc >> ATTRIBUTE_DEPTH_AT) - size);
                     if (bright > 8 || 5120 * size > farthest * area) return 1;
-                    store(PATCH_WEIGHT, nearest << 8);
+                    store(PATCH_WEIGHT, nearest << DEPTH_FRACTION);
                 }
             }
             if (longest(a, b, c) < 16 * reach) return 0;
-            for (size = 64; size > 7; size >>= 1) if (size * size << 16 < 11 * reach) return size;
+            for (size = 64; size > 7; size >>= 1) if (size * size << 2 * SUBPIXEL_BITS < 11 * reach) return size;
             return 1;
         }
     }
@@ -197,8 +177,8 @@ library FlatShading {
     /// @dev The square of an edge, in sub-pixels.
     function squareLength(uint256 p, uint256 q) private pure returns (uint256 square) {
         assembly ("memory-safe") {
-            square := sub(shr(128, p), shr(128, q))
-            p := sub(and(shr(64, p), 0xfffff), and(shr(64, q), 0xfffff))
+            square := sub(shr(SCREEN_ROW_AT, p), shr(SCREEN_ROW_AT, q))
+            p := sub(and(shr(SCREEN_COLUMN_AT, p), SCREEN_COLUMN_MASK), and(shr(SCREEN_COLUMN_AT, q), SCREEN_COLUMN_MASK))
             square := add(mul(square, square), mul(p, p))
         }
     }
@@ -206,8 +186,8 @@ library FlatShading {
     /// @dev How much a linear function changes along a row, times twice the area, from its differences to the other vertices.
     function slope(uint256 a, uint256 b, uint256 c, uint256 db, uint256 dc) private pure returns (uint256 size) {
         assembly ("memory-safe") {
-            a := shr(128, a)
-            size := sub(mul(dc, sub(shr(128, b), a)), mul(db, sub(shr(128, c), a)))
+            a := shr(SCREEN_ROW_AT, a)
+            size := sub(mul(dc, sub(shr(SCREEN_ROW_AT, b), a)), mul(db, sub(shr(SCREEN_ROW_AT, c), a)))
             size := xor(size, sar(255, size))
         }
     }
@@ -216,11 +196,13 @@ library FlatShading {
     function brightness(uint256 colors, uint256 mode) private pure returns (uint256 times) {
         unchecked {
             if (mode & IS_DIFFUSE == 0) {
-                times = 1 + (((colors >> 18) | (colors >> 74) | (colors >> 130)) & 63);
+                colors >>= OVERFLOW_AT;
+                times = 1 + ((colors | (colors >> MIDDLE_AT) | (colors >> UPPER_AT)) & OVERFLOW_MASK);
             } else {
                 uint256 light = load(AMBIENT);
                 for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) light += load(record + LIGHT_DIFFUSE);
-                times = 1 + (((light >> 16) | (light >> 72) | (light >> 128)) & 0xffff);
+                light >>= LIGHT_FRACTION;
+                times = 1 + ((light | (light >> MIDDLE_AT) | (light >> UPPER_AT)) & 0xffff);
             }
         }
     }

@@ -111,7 +111,7 @@ library FragmentLight {
             // of lights of all kinds; leaves the diffuse light in FRAGMENT_LIGHT
             function light(depth_, x_, y_) -> sum {
                 let length := rayLength(x_, y_)
-                mstore(FRAGMENT_LIGHT, shl(24, mload(FACE_LIGHT)))
+                mstore(FRAGMENT_LIGHT, shl(24, mload(AMBIENT)))
                 for { let record := LIGHTS } 1 {} {
                     let lx := mload(add(record, LIGHT_X))
                     let ly := mload(add(record, LIGHT_Y))

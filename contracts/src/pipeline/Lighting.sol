@@ -4,107 +4,111 @@ pragma solidity 0.8.37;
 import "./Registers.sol";
 
 // How the lights meet a flat face.
+
+/// @dev Bits behind the point: of places in the space of the mesh; of the length of a normal and of its square.
+uint256 constant MESH_FRACTION = 32;
+uint256 constant LENGTH_FRACTION = 16;
+uint256 constant SQUARE_FRACTION = 32;
+/// @dev From HAS_SPECULAR to IS_LIT; IS_LIT and IS_DIFFUSE.
+uint256 constant SPECULAR_TO_LIT = 2;
+uint256 constant IS_LIT_AND_DIFFUSE = 6;
+
 library Lighting {
     /// @notice Normal and light of a flat face, from its corners in the mesh.
     /// @return mode How its fragments are lit: the mode of the object, IS_LIT if any light has highlights there, IS_DIFFUSE if a point
-    /// light shines on it.
-    function setFace() internal pure returns (uint256 mode) {
+    /// light shines on it: then fragments add up the diffuse light of all lights.
+    /// @return light The light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE.
+    function setFace() internal pure returns (uint256 mode, uint256 light) {
         assembly ("memory-safe") {
-            function corner(index) -> x, y, z {
-                let data := calldataload(add(mload(MESH_VERTICES), mul(index, mload(MESH_STRIDE))))
+            // normal * (vector - first corner), or, with 0 for `all`, normal * vector; Q32
+            function dot(vector, all) -> sum {
+                let corner := calldataload(mload(FACE))
+                corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
+                corner := and(corner, all)
                 let bits := mload(MESH_BITS)
                 let rest := sub(256, bits)
-                x := sar(rest, data)
-                data := shl(bits, data)
-                y := sar(rest, data)
-                z := sar(rest, shl(bits, data))
+                // the coordinates of the normal out of their lanes, the uppermost first
+                let normal := mload(FACE_NORMAL)
+                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
+                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
+                normal := sub(normal, shl(UPPER_86_AT, n))
+                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
+                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
+                n := sub(normal, shl(MIDDLE_86_AT, n))
+                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
-            // normal * vector
-            function dot(vector) -> sum {
-                sum := add(mul(mload(FACE_NORMAL_X), mload(vector)), mul(mload(FACE_NORMAL_Y), mload(add(vector, 0x20))))
-                sum := add(sum, mul(mload(FACE_NORMAL_Z), mload(add(vector, 0x40))))
-            }
-
-            // normal * first corner, Q32
-            function plane() -> sum {
-                let x, y, z := corner(shr(240, calldataload(mload(FACE))))
-                sum := add(mul(mload(FACE_NORMAL_X), x), mul(mload(FACE_NORMAL_Y), y))
-                sum := shl(32, add(sum, mul(mload(FACE_NORMAL_Z), z)))
-            }
-
-            let face
-            // the length of the normal, which is twice the area of the face
+            // the length of the normal, which is twice the area of the face; its square at first
             let length
             {
-                face := shr(208, calldataload(mload(FACE)))
-                let px, py, pz := corner(shr(32, face))
-                let ax, ay, az := corner(and(shr(16, face), 0xffff))
-                ax := sub(ax, px)
-                ay := sub(ay, py)
-                az := sub(az, pz)
-                let bx, by, bz := corner(and(face, 0xffff))
-                bx := sub(bx, px)
-                by := sub(by, py)
-                bz := sub(bz, pz)
-                // a x b
-                face := sub(mul(ay, bz), mul(az, by))
-                mstore(FACE_NORMAL_X, face)
-                px := face
-                length := mul(face, face)
-                face := sub(mul(az, bx), mul(ax, bz))
-                mstore(FACE_NORMAL_Y, face)
-                px := add(px, shl(85, face))
-                length := add(length, mul(face, face))
-                face := sub(mul(ax, by), mul(ay, bx))
-                mstore(FACE_NORMAL_Z, face)
-                // coordinates of up to 2^49
-                mstore(FACE_NORMAL, add(px, shl(170, face)))
-                length := add(length, mul(face, face))
-                mstore(FACE_SQUARE, length)
-                length := shl(32, length)
+                // the corners, three numbers of `bits` each at the top of a word
+                let bits := calldataload(mload(FACE))
+                let x := mload(MESH_STRIDE)
+                let rest := mload(MESH_VERTICES)
+                let p := calldataload(add(rest, mul(x, shr(FACE_FIRST_IN_WORD, bits))))
+                let a := calldataload(add(rest, mul(x, and(shr(FACE_SECOND_IN_WORD, bits), FACE_INDEX_MASK))))
+                let b := calldataload(add(rest, mul(x, and(shr(FACE_AT, bits), FACE_INDEX_MASK))))
+                bits := mload(MESH_BITS)
+                rest := sub(256, bits)
+                x := sar(rest, p)
+                let ax := sub(sar(rest, a), x)
+                let bx := sub(sar(rest, b), x)
+                p := shl(bits, p)
+                a := shl(bits, a)
+                b := shl(bits, b)
+                x := sar(rest, p)
+                let ay := sub(sar(rest, a), x)
+                let by := sub(sar(rest, b), x)
+                x := sar(rest, shl(bits, p))
+                a := sub(sar(rest, shl(bits, a)), x)
+                b := sub(sar(rest, shl(bits, b)), x)
+                // the product of the two edges (ax, ay, a) and (bx, by, b); its coordinates are up to 2^49
+                x := sub(mul(ay, b), mul(a, by))
+                p := sub(mul(a, bx), mul(ax, b))
+                a := sub(mul(ax, by), mul(ay, bx))
+                mstore(FACE_NORMAL, add(add(x, shl(MIDDLE_86_AT, p)), shl(UPPER_86_AT, a)))
+                length := add(add(mul(x, x), mul(p, p)), mul(a, a))
             }
+            mstore(FACE_SQUARE, length)
+            length := shl(SQUARE_FRACTION, length)
             {
-                // the square root, as in FragmentLight; where the normal is zero, all products are, whatever they are divided by
+                // The square root. With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is
+                // within 0.231 of the root of m, relatively; three steps of Newton's method leave less than 2^-22. Where the normal is
+                // zero, all products are, whatever they are divided by.
                 length := or(length, iszero(length))
-                let h := mload(NORMAL_HINT)
-                if gt(sub(shr(shl(1, h), length), 1), 2) {
+                let h := mload(FACE_HINT)
+                if gt(sub(shr(shl(1, h), length), 1), 62) {
                     // that of a neighbour is near
-                    for {} iszero(shr(shl(1, h), length)) {} { h := sub(h, 1) }
-                    for {} gt(shr(shl(1, h), length), 3) {} { h := add(h, 1) }
-                    mstore(NORMAL_HINT, h)
+                    for {} iszero(shr(shl(1, h), length)) {} { h := sub(h, 3) }
+                    for {} gt(shr(shl(1, h), length), 63) {} { h := add(h, 3) }
+                    mstore(FACE_HINT, h)
                 }
-                face := shr(10, mul(351, add(shr(h, length), shl(h, 2))))
-                face := shr(1, add(face, div(length, face)))
-                length := shr(1, add(face, div(length, face)))
-                mstore(FACE_LENGTH, length)
+                h := shr(10, mul(140, add(shr(h, length), shl(h, 8))))
+                h := shr(1, add(h, div(length, h)))
+                h := shr(1, add(h, div(length, h)))
+                length := shr(1, add(h, div(length, h)))
             }
+            mstore(FACE_LENGTH, length)
             mode := mload(OBJECT_MODE)
-            face := mload(AMBIENT)
-            for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
-                let facing
-                switch mload(add(record, LIGHT_IS_POINT))
-                case 0 {
-                    // the middle lane of a product with lanes the other way round; what is below takes one away at most, and bit 255 is
-                    // of the lane above
-                    facing := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X)))))
-                    facing := sdiv(shl(16, facing), length)
-                    if sgt(facing, 0) {
-                        face := add(face, and(shr(24, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
-                        // a highlight wants the light of each fragment
-                        mode := or(mode, shr(2, and(mode, HAS_SPECULAR)))
-                    }
+            light := mload(AMBIENT)
+            // without lights the first record is zeros
+            for { let record := LIGHTS } 1 {} {
+                // the middle coefficient of the product; what is below takes one away at most
+                let facing := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(record, LIGHT_MESH_X))))
+                facing := sdiv(shl(LENGTH_FRACTION, facing), length)
+                if mload(add(record, LIGHT_IS_POINT)) {
+                    facing := sdiv(sar(MESH_FRACTION, mul(dot(add(record, LIGHT_MESH_X), not(0)), mload(SCALE))), length)
+                    mode := or(mode, mul(IS_LIT_AND_DIFFUSE, sgt(facing, 0)))
                 }
-                default {
-                    facing := sdiv(sar(32, mul(sub(dot(add(record, LIGHT_MESH_X)), plane()), mload(SCALE))), length)
-                    // IS_LIT | IS_DIFFUSE
-                    mode := or(mode, mul(6, sgt(facing, 0)))
+                if sgt(facing, 0) {
+                    light := add(light, and(shr(COSINE_FRACTION, mul(mload(add(record, LIGHT_DIFFUSE)), facing)), LANES_32))
+                    // a highlight wants the light of each fragment
+                    mode := or(mode, shr(SPECULAR_TO_LIT, and(mode, HAS_SPECULAR)))
                 }
                 mstore(add(record, LIGHT_N_DOT_L), facing)
+                record := add(record, LIGHT_SIZE)
+                if iszero(lt(record, mload(LIGHTS_END))) { break }
             }
-            // where fragments add the diffuse light of all lights themselves, only the ambient light is left
-            if and(mode, IS_DIFFUSE) { face := mload(AMBIENT) }
-            mstore(FACE_LIGHT, face)
         }
     }
 
@@ -112,39 +116,34 @@ library Lighting {
     /// FACE_N_DOT_RAY_SLOPE.
     function setFacing() internal pure {
         assembly ("memory-safe") {
-            function corner(index) -> x, y, z {
-                let data := calldataload(add(mload(MESH_VERTICES), mul(index, mload(MESH_STRIDE))))
+            // normal * (vector - first corner), or, with 0 for `all`, normal * vector; Q32
+            function dot(vector, all) -> sum {
+                let corner := calldataload(mload(FACE))
+                corner := calldataload(add(mload(MESH_VERTICES), mul(shr(FACE_FIRST_IN_WORD, corner), mload(MESH_STRIDE))))
+                corner := and(corner, all)
                 let bits := mload(MESH_BITS)
                 let rest := sub(256, bits)
-                x := sar(rest, data)
-                data := shl(bits, data)
-                y := sar(rest, data)
-                z := sar(rest, shl(bits, data))
-            }
-
-            // normal * vector
-            function dot(vector) -> sum {
-                sum := add(mul(mload(FACE_NORMAL_X), mload(vector)), mul(mload(FACE_NORMAL_Y), mload(add(vector, 0x20))))
-                sum := add(sum, mul(mload(FACE_NORMAL_Z), mload(add(vector, 0x40))))
-            }
-
-            // normal * first corner, Q32
-            function plane() -> sum {
-                let x, y, z := corner(shr(240, calldataload(mload(FACE))))
-                sum := add(mul(mload(FACE_NORMAL_X), x), mul(mload(FACE_NORMAL_Y), y))
-                sum := shl(32, add(sum, mul(mload(FACE_NORMAL_Z), z)))
+                // the coordinates of the normal out of their lanes, the uppermost first
+                let normal := mload(FACE_NORMAL)
+                let n := sar(UPPER_86_AT, add(normal, HALF_UPPER_86))
+                sum := mul(n, sub(mload(add(vector, 0x40)), shl(MESH_FRACTION, sar(rest, shl(shl(1, bits), corner)))))
+                normal := sub(normal, shl(UPPER_86_AT, n))
+                n := sar(MIDDLE_86_AT, add(normal, HALF_MIDDLE_86))
+                sum := add(sum, mul(n, sub(mload(add(vector, 0x20)), shl(MESH_FRACTION, sar(rest, shl(bits, corner))))))
+                n := sub(normal, shl(MIDDLE_86_AT, n))
+                sum := add(sum, mul(n, sub(mload(vector), shl(MESH_FRACTION, sar(rest, corner)))))
             }
 
             switch and(mload(OBJECT_MODE), IS_ORTHOGRAPHIC)
             case 0 {
                 // normal * (corner - eye)
-                mstore(FACE_N_DOT_RAY_SLOPE, sdiv(mul(sub(plane(), dot(EYE_X)), mload(SCALE_PER_NEAR)), mload(FACE_LENGTH)))
+                mstore(FACE_N_DOT_RAY_SLOPE, sdiv(mul(sub(0, dot(EYE_X, not(0))), mload(SCALE_PER_NEAR)), mload(FACE_LENGTH)))
                 mstore(FACE_N_DOT_RAY, 0)
             }
             default {
                 // normal * line of sight
                 mstore(FACE_N_DOT_RAY_SLOPE, 0)
-                mstore(FACE_N_DOT_RAY, sdiv(shl(40, dot(EYE_X)), mload(FACE_LENGTH)))
+                mstore(FACE_N_DOT_RAY, sdiv(shl(40, dot(EYE_X, 0)), mload(FACE_LENGTH)))
             }
         }
     }

@@ -6,17 +6,14 @@ import "./Registers.sol";
 // Rows of fragments of triangles whose colours change linearly on the screen: the plain loop, and one for whatever the plain loop does not
 // know: borders of the tile, bands, colours above 255.
 
-/// @dev The depth that a word begins with, and what follows; the three bytes of a pixel, and what follows.
-uint256 constant DEPTH_64 = 0xffffffffffffffff000000000000000000000000000000000000000000000000;
-uint256 constant NOT_DEPTH_64 = 0xffffffffffffffffffffffffffffffffffffffffffffffff;
-uint256 constant PIXEL_24 = 0xffffff0000000000000000000000000000000000000000000000000000000000;
-uint256 constant NOT_PIXEL_24 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffff;
 /// @dev The bytes of colours in an accumulator, and what brings them together at the top of a word; what is below them has no meaning.
 uint256 constant BYTES_OF_LANES = 0x0003fc000000000003fc000000000003fc0000000000;
 uint256 constant LANES_TO_BYTES = 0x4000000000000000400000000000000040000000000000000000;
 /// @dev The bits of colours in an accumulator that are above those of the bytes, and the lowest bits of the lanes above.
 uint256 constant ABOVE_BYTES = 0xfc000000000000fc000000000000fc000000000000;
 uint256 constant NEXT_LANES = 0x1000000000000010000000000000100000000000000;
+/// @dev From the lowest bit of the next lane to that of a byte.
+uint256 constant NEXT_LANE_TO_BYTE = 14;
 /// @dev An address of a depth, a multiple of 8.
 uint256 constant ADDRESS = 0xfffffff8;
 
@@ -29,17 +26,17 @@ library LinearSpans {
         assembly ("memory-safe") {
             // START is told for column 0; now for address 0
             let start := sub(mload(START), mul(mload(DX_8), row))
-            row := shl(3, mload(DX_8))
+            row := shl(DEPTH_SIZE_BITS, mload(DX_8))
             mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
             for {} 1 {} {
                 for {} rows {} {
-                    let p := and(shr(45, edges), ADDRESS)
-                    let last := and(shr(173, edges), ADDRESS)
+                    let p := and(shr(EDGE_ADDRESS_FRACTION, edges), ADDRESS)
+                    let last := and(shr(EDGE_RIGHT_ADDRESS_AT, edges), ADDRESS)
                     if lt(p, last) {
                         let attribute := add(start, mul(mload(DX_8), p))
-                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p)))
                         for {} 1 {} {
-                            if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                            if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
                                 // copying a few bytes is cheaper than to put them into a word
                                 mstore(0, attribute)
                                 mcopy(p, 0, 8)
@@ -72,22 +69,22 @@ library LinearSpans {
     function saturating(uint256 edges, uint256 rows, uint256 row) internal pure {
         assembly ("memory-safe") {
             let start := sub(mload(START), mul(mload(DX_8), row))
-            row := shl(3, mload(DX_8))
+            row := shl(DEPTH_SIZE_BITS, mload(DX_8))
             mstore(ROW_STEP, add(mload(DY), mul(mload(DX_8), mload(DEPTH_STRIDE))))
             for {} 1 {} {
                 for {} rows {} {
-                    let p := and(shr(45, edges), ADDRESS)
-                    let last := and(shr(173, edges), ADDRESS)
+                    let p := and(shr(EDGE_ADDRESS_FRACTION, edges), ADDRESS)
+                    let last := and(shr(EDGE_RIGHT_ADDRESS_AT, edges), ADDRESS)
                     if lt(p, last) {
                         let attribute := add(start, mul(mload(DX_8), p))
-                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
+                        let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, p)))
                         for {} 1 {} {
-                            if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                            if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
                                 mstore(0, attribute)
                                 mcopy(p, 0, 8)
                                 // 1 in the lowest bit of the next lane where a bit of ABOVE_BYTES is set; it makes all eight of the byte 1
                                 let full := and(add(and(attribute, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
-                                full := or(attribute, shr(14, mul(full, 0xff)))
+                                full := or(attribute, shr(NEXT_LANE_TO_BYTE, mul(full, 0xff)))
                                 mstore(0, mul(and(full, BYTES_OF_LANES), LANES_TO_BYTES))
                                 mcopy(pixel, 0, 3)
                             }
@@ -123,24 +120,24 @@ library LinearSpans {
                 }
                 if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
                 if lt(first, end) {
-                    first := add(base, shl(3, first))
-                    end := add(base, shl(3, end))
-                    base := add(mload(IMAGE_ORIGIN), mul(3, shr(3, first)))
+                    first := add(base, shl(DEPTH_SIZE_BITS, first))
+                    end := add(base, shl(DEPTH_SIZE_BITS, end))
+                    base := add(mload(IMAGE_ORIGIN), mul(3, shr(DEPTH_SIZE_BITS, first)))
                     for {} 1 {} {
                         let old := mload(first)
-                        if gt(attribute, or(old, 0xffffffffffffffffffffffffffffffffffffffffffffffff)) {
+                        if gt(attribute, or(old, BEHIND_DEPTH)) {
                             mstore(
                                 first,
-                                xor(old, and(xor(old, attribute), 0xffffffffffffffff000000000000000000000000000000000000000000000000))
+                                xor(old, and(xor(old, attribute), FIRST_DEPTH))
                             )
-                            let color := and(shr(32, attribute), LANES_24)
-                            color := or(color, mul(and(shr(30, add(color, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00))
+                            let color := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24)
+                            color := or(color, mul(and(shr(30, add(color, OVERFLOW_TO_CARRY)), ONES), BYTE_Q10))
                             color := mul(
-                                and(color, 0x3fc000000000003fc000000000003fc00),
-                                0x400000000000000040000000000000004000000000000000000000000000
+                                and(color, BYTES_Q10),
+                                Q10_TO_PIXEL
                             )
                             old := mload(base)
-                            mstore(base, xor(old, and(xor(old, color), 0xffffff0000000000000000000000000000000000000000000000000000000000)))
+                            mstore(base, xor(old, and(xor(old, color), FIRST_PIXEL)))
                         }
                         first := add(first, 8)
                         if eq(first, end) { break }
@@ -151,8 +148,8 @@ library LinearSpans {
             }
 
             for {} sgt(row, last) {} {
-                let from := and(shr(48, edges), 0xffff)
-                let to := shr(176, edges)
+                let from := and(shr(EDGES_LEFT_COLUMN_AT, edges), EDGES_LEFT_COLUMN_MASK)
+                let to := shr(EDGES_RIGHT_COLUMN_AT, edges)
                 if lt(from, to) { span(row, from, to, add(start, mul(from, mload(DX))), mload(DX)) }
                 edges := add(edges, slopes)
                 start := add(start, mload(DY))

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {Rectangle, CULL_BACKFACES, WIREFRAME} from "../scene/Scene.sol";
+import {Indices} from "./Indices.sol";
 import {VertexShader} from "./VertexShader.sol";
 import {PrimitiveAssembly} from "./PrimitiveAssembly.sol";
 import {Clipper} from "./Clipper.sol";
@@ -81,7 +82,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             setFreeMemory(depth + 8 * bandRows * tile.width + 32);
             picture.size = load(RETURNS_DEPTHS) == 0 ? 3 * tile.width * tile.height : depth + 8 * tile.width * tile.height - image;
             if (load(DRAWN_BEFORE) == 0) {
-                Compositor.background(image, load(BACKGROUND_TOP), load(BACKGROUND_BOTTOM), load(CANVAS_HEIGHT), tile);
+                Compositor.background(image, tile);
             } else {
                 copyCalldata(image, load(DRAWN_BEFORE), depth + 8 * tile.width * tile.height - image);
             }
@@ -154,7 +155,7 @@ abstract contract Pipeline is PrimitiveAssembly {
             records = freeMemory();
             store(HAS_CLIPPED, 0);
             VertexShader.run(mesh, records, 1 << shift, mode & IS_SMOOTH != 0);
-            checkIndices(mesh, index);
+            Indices.check(mesh, index);
             list = records + (mesh.vertexCount << shift);
             end = list;
             bool cull = load(OBJECT_FLAGS) & CULL_BACKFACES != 0;

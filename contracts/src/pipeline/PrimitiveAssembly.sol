@@ -3,7 +3,6 @@ pragma solidity 0.8.37;
 
 import {Mesh} from "../scene/Mesh.sol";
 import {WIREFRAME} from "../scene/Scene.sol";
-import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Rasterizer} from "./Rasterizer.sol";
 import {ALL_EDGES, Triangles} from "./Triangles.sol";
 import "./Registers.sol";
@@ -16,47 +15,8 @@ import "./Registers.sol";
 int256 constant HALF_AREA = 0x800000000000000000000000000000000000000000000000;
 /// @dev Twice the area, Q192, below which a face may lie between the pixel centres: that of one pixel.
 int256 constant SMALL_AREA = 0x20000 << 192;
-/// @dev Lanes of 32 bits: the lowest bit, and the lower half of each.
-uint256 constant LOW_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
-uint256 constant LOW_16 = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;
 
 abstract contract PrimitiveAssembly is Rasterizer {
-    /// @notice Reverts if a face has a vertex number that is out of range.
-    function checkIndices(Mesh memory mesh, uint256 object) internal pure {
-        unchecked {
-            uint256 count = mesh.vertexCount;
-            uint256 faces = mesh.faces;
-            uint256 size = FACE_SIZE * mesh.faceCount;
-            uint256 bad;
-            assembly ("memory-safe") {
-                // 16 numbers at once: number + 2^16 - count, in lanes of 32 bits, is 2^16 or more if it is out of range
-                let bias := mul(sub(0x10000, count), LOW_32)
-                let place := faces
-                let end := add(faces, size)
-                for {} lt(add(place, 32), end) { place := add(place, 32) } {
-                    let numbers := calldataload(place)
-                    bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
-                }
-                // what is left of the last word
-                if lt(place, end) {
-                    let numbers := shr(shl(3, sub(add(place, 32), end)), calldataload(place))
-                    bad := or(bad, or(add(and(numbers, LOW_16), bias), add(and(shr(16, numbers), LOW_16), bias)))
-                }
-                bad := and(bad, shl(16, LOW_32))
-            }
-            if (bad == 0) return;
-            for (uint256 face; face != mesh.faceCount; ++face) {
-                uint256 indices = Triangles.readIndices(faces + FACE_SIZE * face);
-                if (
-                    indices >> FACE_FIRST_AT >= count || (indices >> FACE_SECOND_AT) & FACE_INDEX_MASK >= count
-                        || indices & FACE_INDEX_MASK >= count
-                ) {
-                    revert SceneErrors.IndexOutOfRange(object, face, count);
-                }
-            }
-        }
-    }
-
     /// @notice Draws the faces, or lists them for later, besides those that have to be clipped.
     /// @param records Address of the vertex records, 2^shift bytes each.
     /// @param list Where to write the triangles; 0 to draw them at once.
@@ -94,20 +54,14 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     c := mload(add(records, and(c, mask)))
                     // Twice the area, (xc - xa) * (yb - ya) - (xb - xa) * (yc - ya), as the upper part of the product of
                     // K^2 * (yb - ya) + K * (xb - xa) and K * (xc - xa) - K^2 * (yc - ya), where K = 2^64; what is below K is noise,
-                    // and so are all bits of the product below 2^184. Columns are turned round by taking them from 2^20 - 1.
+                    // and so are all bits of the product below 2^186. Columns are turned round by taking them from 2^20 - 1.
                     area := mul(sub(b, a), sub(xor(a, SCREEN_COLUMNS), xor(c, SCREEN_COLUMNS)))
                 }
                 if (area <= loadSigned(LEAST_AREA)) continue;
-                if (area < SMALL_AREA) {
-                    if (area < HALF_AREA) {
-                        if (area > -HALF_AREA) continue;
-                        (b, c) = (c, b);
-                    }
-                    // to find that there is no pixel centre in its box costs a fiftieth of shading it
-                    if (isBetweenPixels(a, b, c) && load(OBJECT_FLAGS) & WIREFRAME == 0) {
-                        if (((a | b | c) & MUST_CLIP) | (a & b & c & IS_OUTSIDE) == 0) store(DRAWN, load(DRAWN) + 1);
-                        continue;
-                    }
+                if (area < HALF_AREA) {
+                    if (area > -HALF_AREA) continue;
+                    (b, c) = (c, b);
+                    area = -area;
                 }
                 uint256 crossing = (a | b | c) & IS_NOT_PLAIN;
                 if (crossing != 0) {
@@ -123,6 +77,7 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     if (b < c) (a, b, c) = (b, c, a);
                 }
                 if (c < a) (a, b, c) = (c, a, b);
+                if (area < SMALL_AREA && load(OBJECT_FLAGS) & WIREFRAME == 0 && isBetweenPixels(a, b, c)) continue;
                 if (load(LIST) == 0) {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
@@ -133,13 +88,30 @@ abstract contract PrimitiveAssembly is Rasterizer {
         }
     }
 
-    /// @dev Whether no row or no column of pixel centres meets the box around a face.
+    /// @dev Whether a triangle covers no pixel centre. Where one lies on an edge the answer is no: the edges of the Rasterizer are rounded.
+    /// @param a, b, c Its screen words, the topmost first, counter-clockwise.
     function isBetweenPixels(uint256 a, uint256 b, uint256 c) private pure returns (bool isBetween) {
         assembly ("memory-safe") {
-            let up := SCREEN_ROUND_UP
-            a := add(a, up)
-            a := or(xor(a, add(b, up)), xor(a, add(c, up)))
-            isBetween := or(iszero(and(a, SCREEN_PIXEL_COLUMNS)), iszero(shr(SCREEN_PIXEL_ROW_AT, a)))
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            x := shl(16, x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
+            isBetween := 1
+            // rows from the first one, in sub-pixels below the first vertex
+            for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, 256) } {
+                // columns, Q16 in sub-pixels: on the left from a by b to c, on the right from a to c, or by c to b
+                let left := add(shl(16, xb), sdiv(mul(sub(y, b), shl(16, sub(xc, xb))), sub(c, b)))
+                let right := left
+                if lt(y, b) { left := sdiv(mul(y, shl(16, xb)), b) }
+                if lt(y, c) { right := sdiv(mul(y, shl(16, xc)), c) }
+                if lt(shr(24, add(x, sub(left, 2))), shr(24, add(x, add(right, 1)))) {
+                    isBetween := 0
+                    break
+                }
+            }
         }
     }
 

@@ -35,30 +35,30 @@ library Quadratic {
     /// @param a The screen words of the vertices, as those of the triangle.
     function setDifferences(uint256 a, uint256 b, uint256 c, uint256 top) internal pure {
         assembly ("memory-safe") {
-            let x := and(shr(64, a), 0xfffff)
-            let xb := sub(and(shr(64, b), 0xfffff), x)
-            let xc := sub(and(shr(64, c), 0xfffff), x)
-            a := shr(128, a)
-            b := sub(shr(128, b), a)
-            c := sub(shr(128, c), a)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
             // from the first vertex to the centres of the row
-            a := sub(shl(8, top), a)
+            a := sub(shl(SUBPIXEL_BITS, top), a)
             // change of s and t per pixel, Q24: (ds/dx, dt/dx) = (-c, b) / area, (ds/dy, dt/dy) = (xc, -xb) / area, in sub-pixels
             top := sub(mul(xc, b), mul(xb, c))
-            let dsdx := sub(0, sdiv(shl(32, c), top))
-            let dtdx := sdiv(shl(32, b), top)
-            xc := sdiv(shl(32, xc), top)
-            xb := sub(0, sdiv(shl(32, xb), top))
+            let dsdx := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, c), top))
+            let dtdx := sdiv(shl(SUBPIXEL_TO_Q24, b), top)
+            xc := sdiv(shl(SUBPIXEL_TO_Q24, xc), top)
+            xb := sub(0, sdiv(shl(SUBPIXEL_TO_Q24, xb), top))
             // s and t at column 0 of the first row, Q24
-            b := sar(8, sub(mul(xc, a), mul(dsdx, x)))
-            c := sar(8, sub(mul(xb, a), mul(dtdx, x)))
+            b := sar(SUBPIXEL_BITS, sub(mul(xc, a), mul(dsdx, x)))
+            c := sar(SUBPIXEL_BITS, sub(mul(xb, a), mul(dtdx, x)))
             {
                 // value, and its derivatives by s and t, Qn+24
                 a := mul(b, mload(QUADRATIC_SS))
                 x := mul(c, mload(QUADRATIC_TT))
-                let ds := add(add(shl(24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST)))
-                let dt := add(shl(24, mload(QUADRATIC_T)), x)
-                mstore(QUADRATIC_START, add(shl(48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt))))
+                let ds := add(add(shl(Q24, mload(QUADRATIC_S)), a), mul(c, mload(QUADRATIC_ST)))
+                let dt := add(shl(Q24, mload(QUADRATIC_T)), x)
+                mstore(QUADRATIC_START, add(shl(Q48, mload(QUADRATIC_1)), add(mul(b, ds), mul(c, dt))))
                 ds := add(ds, a)
                 dt := add(add(dt, x), mul(b, mload(QUADRATIC_ST)))
                 // half the second difference along the row: dsdx * (SS * dsdx) + dtdx * (ST * dsdx + TT * dtdx)

@@ -12,7 +12,10 @@ import "./Registers.sol";
 /// @dev A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 uint256 constant GUARDS = 0x00400000000000004000000000000040000000000000;
 uint256 constant LIMITS = 0x00000003000000000000030000000000000300000000;
-uint256 constant COLOR_LANES = 0xffffff00000000ffffff00000000ffffff;
+/// @dev Twice the area of three pixels, in sub-pixels.
+uint256 constant THREE_PIXELS = 0x60000;
+/// @dev Eight rows, as screen words have them.
+uint256 constant EIGHT_ROWS = 0x80000000000000000000000000000000000;
 
 library Shading {
     /// @notice The attribute words of the vertices with these screen words.
@@ -34,11 +37,10 @@ library Shading {
         returns (uint256 mode, uint256, uint256, uint256)
     {
         unchecked {
-            mode = Lighting.setFace();
+            uint256 light;
+            (mode, light) = Lighting.setFace();
             Lighting.setFacing();
-            if (mode & IS_DIFFUSE == 0 && load(FACE_LIGHT) != ONES << 16) {
-                return (mode, lit(attributesA), lit(attributesB), lit(attributesC));
-            }
+            if (mode & IS_DIFFUSE == 0) return (mode, lit(attributesA, light), lit(attributesB, light), lit(attributesC, light));
             return (mode, attributesA, attributesB, attributesC);
         }
     }
@@ -62,44 +64,44 @@ library Shading {
         pure
         returns (bool yes)
     {
-        uint256 least;
-        uint256 most;
-        uint256 bright;
+        bool large;
         assembly ("memory-safe") {
-            least := xor(a, mul(xor(a, b), lt(b, a)))
-            most := xor(xor(a, b), least)
-            least := shr(ATTRIBUTE_DEPTH_AT, xor(least, mul(xor(least, c), lt(c, least))))
-            most := sub(shr(ATTRIBUTE_DEPTH_AT, xor(most, mul(xor(most, c), lt(most, c)))), least)
-            bright := and(or(or(a, b), c), OVERFLOW)
-            // colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
-            yes := iszero(or(gt(mul(33, most), least), bright))
+            // words compare as rows do
+            large := add(screenA, EIGHT_ROWS)
+            large := or(gt(screenB, large), gt(screenC, large))
         }
-        if (yes) return true;
-        bool large = isLarge(screenA, screenB, screenC);
+        if (large) large = isLarge(screenA, screenB, screenC);
         assembly ("memory-safe") {
-            yes := iszero(or(or(gt(mul(22, most), least), bright), large))
+            let least := xor(a, mul(xor(a, b), lt(b, a)))
+            let change := xor(xor(a, b), least)
+            least := shr(ATTRIBUTE_DEPTH_AT, xor(least, mul(xor(least, c), lt(c, least))))
+            change := sub(shr(ATTRIBUTE_DEPTH_AT, xor(change, mul(xor(change, c), lt(change, c)))), least)
+            // colours of up to 255 may differ as they like where depths do not by more than 12 / 255, in large triangles 8 / 255
+            yes := iszero(or(gt(mul(add(22, mul(11, large)), change), least), and(or(or(a, b), c), OVERFLOW)))
             if iszero(yes) {
-                let limits := or(GUARDS, shr(large, LIMITS))
                 let inverse := div(0x1000000000000000000000, least)
-                b := sub(b, a)
-                c := sub(c, a)
-                a := sub(c, b)
-                // |z_i - z_j| / z, Q20
-                let rb := sar(ATTRIBUTE_DEPTH_AT, b)
-                rb := shr(64, mul(xor(rb, sar(255, rb)), inverse))
-                let rc := sar(ATTRIBUTE_DEPTH_AT, c)
-                rc := shr(64, mul(xor(rc, sar(255, rc)), inverse))
-                let ra := sar(ATTRIBUTE_DEPTH_AT, a)
-                ra := shr(64, mul(xor(ra, sar(255, ra)), inverse))
-                // more would not fit the lanes where colours are up to 20 times 255
-                yes := lt(or(or(rb, rc), ra), ONE_32)
-                // its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit above is cleared
-                b := mul(b, rb)
-                c := mul(c, rc)
-                a := mul(a, ra)
-                rb := and(and(add(limits, b), sub(limits, b)), and(add(limits, c), sub(limits, c)))
-                rb := and(and(rb, GUARDS), and(add(limits, a), sub(limits, a)))
-                yes := and(yes, eq(rb, GUARDS))
+                let limits := or(GUARDS, shr(large, LIMITS))
+                // |z_i - z_j| / z, Q20; its product with the difference of the colours (Q10), in each lane: if it is above the limit, a bit
+                // above is cleared; and more than 2^32 would not fit the lanes where colours are up to 20 times 255
+                change := sub(b, a)
+                let ratio := sar(ATTRIBUTE_DEPTH_AT, change)
+                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                let most := ratio
+                change := mul(change, ratio)
+                let guards := and(add(limits, change), sub(limits, change))
+                change := sub(c, a)
+                ratio := sar(ATTRIBUTE_DEPTH_AT, change)
+                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                most := or(most, ratio)
+                change := mul(change, ratio)
+                guards := and(guards, and(add(limits, change), sub(limits, change)))
+                change := sub(c, b)
+                ratio := sar(ATTRIBUTE_DEPTH_AT, change)
+                ratio := shr(64, mul(xor(ratio, sar(255, ratio)), inverse))
+                most := or(most, ratio)
+                change := mul(change, ratio)
+                guards := and(guards, and(add(limits, change), sub(limits, change)))
+                yes := and(lt(most, ONE_32), eq(and(guards, GUARDS), GUARDS))
             }
         }
     }
@@ -107,9 +109,15 @@ library Shading {
     /// @dev Whether a triangle has more than 8 rows, of more than 3 pixels in the mean. To shade others in blocks would be dear, and
     /// change little.
     function isLarge(uint256 a, uint256 b, uint256 c) internal pure returns (bool large) {
-        unchecked {
-            uint256 rows = ((max(b, c) + load(ROUND_BOTTOM)) >> SCREEN_PIXEL_ROW_AT) - ((a + load(ROUND_TOP)) >> SCREEN_PIXEL_ROW_AT);
-            large = rows > 8 && doubleArea(a, b, c) > rows * (3 << 17);
+        assembly ("memory-safe") {
+            let rows := xor(b, mul(xor(b, c), lt(b, c)))
+            rows := shr(SCREEN_PIXEL_ROW_AT, add(rows, mload(ROUND_BOTTOM)))
+            rows := sub(rows, shr(SCREEN_PIXEL_ROW_AT, add(a, mload(ROUND_TOP))))
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            a := shr(SCREEN_ROW_AT, a)
+            let area := mul(sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, b), a))
+            area := sub(area, mul(sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x), sub(shr(SCREEN_ROW_AT, c), a)))
+            large := and(gt(rows, 8), gt(area, mul(rows, THREE_PIXELS)))
         }
     }
 
@@ -128,10 +136,10 @@ library Shading {
             store(PATCH_SIZE, 1);
             store(PATCH_BEGIN, 0);
             store(PATCH_END, GUARD_BAND);
-            uint256 color = attributesA & COLOR_LANES;
+            uint256 color = attributesA & LANES_24;
             store(COLOR_0, (color << 24) + WEIGHTED_BIAS);
-            store(COLOR_1, (attributesB & COLOR_LANES) - color);
-            store(COLOR_2, (attributesC & COLOR_LANES) - color);
+            store(COLOR_1, (attributesB & LANES_24) - color);
+            store(COLOR_2, (attributesC & LANES_24) - color);
             attributesA >>= ATTRIBUTE_DEPTH_AT;
             attributesB >>= ATTRIBUTE_DEPTH_AT;
             attributesC >>= ATTRIBUTE_DEPTH_AT;
@@ -209,13 +217,12 @@ library Shading {
     }
 
     /// @dev The attribute word with the light of the face on its colour.
-    function lit(uint256 word) private pure returns (uint256 product) {
+    function lit(uint256 word, uint256 factor) private pure returns (uint256 product) {
         assembly ("memory-safe") {
-            let factor := mload(FACE_LIGHT)
-            let color := and(word, COLOR_LANES)
+            let color := and(word, LANES_24)
             product := and(factor, LANE_32)
             switch eq(factor, mul(product, ONES))
-            case 1 { product := and(shr(16, mul(color, product)), COLOR_LANES) }
+            case 1 { product := and(shr(16, mul(color, product)), LANES_24) }
             default {
                 product := shr(16, mul(product, and(color, LANE_24)))
                 product := or(

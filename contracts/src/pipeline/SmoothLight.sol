@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ADDRESS, NOT_DEPTH_64} from "./LinearSpans.sol";
-import {ONES_128} from "./Rasterizer.sol";
+import {ADDRESS} from "./LinearSpans.sol";
 import "./Registers.sol";
 
 // The light of one lamp on smooth surfaces. Normals N are interpolated between the vertices, and so are the directions L to the light and
@@ -53,13 +52,38 @@ uint256 constant STEEP_LIGHT = 2;
 
 /// @dev Half the range of a lane of 85 bits, for vectors of Q20.
 uint256 constant VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000;
-uint256 constant LANE_85 = 0x1fffffffffffffffffffff;
-uint256 constant MIDDLE_LANE_85 = 0x3ffffffffffffffffffffe00000000000000000000;
-/// @dev The uppermost of three lanes; that and the one below.
-uint256 constant UPPER_LANE_85 = 0xfffffffffffffffffffffc000000000000000000000000000000000000000000;
-uint256 constant UPPER_LANES_85 = 0xffffffffffffffffffffffffffffffffffffffffffe000000000000000000000;
-uint256 constant IS_GREY_OR_STEEP = 0x1800;
-uint256 constant IS_CUT_OR_CROSSING = 0x4100;
+
+/// @dev Products of vectors of which one is twice its value: shifts that bring them, as Q20, from the upper lane to the upper, the middle
+/// and the lowest one, where n and m of `products` are Q30; and shifts of a square of Q40 and of one of half vectors, Q29 and Q21.
+uint256 constant PRODUCT_TO_UPPER = 41;
+uint256 constant PRODUCT_TO_MIDDLE = 116;
+uint256 constant PRODUCT_TO_LOWER = 201;
+uint256 constant SQUARE_AT = 171;
+uint256 constant HALF_SQUARE_AT = 180;
+/// @dev From Q20 to the Q29 of VERTEX_HALF.
+uint256 constant Q20_TO_Q29 = 9;
+/// @dev 15/16 and 1/8, Q40: from where to where squares of normals may be.
+uint256 constant LEAST_SQUARE = 0xf000000000;
+uint256 constant SQUARES = 0x2000000000;
+/// @dev 1/4, Q40: half vectors L + V that are shorter than a half turn too fast.
+uint256 constant LEAST_HALF_SQUARE = 0x4000000000;
+/// @dev 3/4, Q20: three times the least square of an interpolated normal.
+uint256 constant LEAST_SQUARE_3 = 0xc0000;
+/// @dev Weights (Q10): 1 - 11/255 (43.5 of 1,024), 7/8 and 3/4.
+uint256 constant NEAR_ONE = 980;
+uint256 constant SEVEN_EIGHTHS = 896;
+uint256 constant THREE_QUARTERS = 768;
+
+/// @dev Behind the normal of a vertex the same with its lanes the other way round.
+uint256 constant REVERSED = 0x20;
+
+/// @dev At fragments: twice the root of N * N, Q34, is within 3 % of ROOT_AT_0 + (N * N) * ROOT_SLOPE >> ROOT_SHIFT.
+uint256 constant ROOT_AT_0 = 5892665057;
+uint256 constant ROOT_SLOPE = 702;
+uint256 constant ROOT_SHIFT = 44;
+/// @dev Where N * L is Q59, and N * H Q46, once its lane is at the top of a word.
+uint256 constant N_DOT_L_AT = 180;
+uint256 constant N_DOT_H_AT = 193;
 
 library SmoothLight {
     /// @notice The coefficients of the quadratic products of a triangle.
@@ -90,23 +114,23 @@ library SmoothLight {
             function setVertex(vertex) {
                 let screen := mload(vertex)
                 // the ray (x, y, 1), Q24
-                let x := add(mload(RAY_LEFT), sar(8, mul(and(shr(64, screen), 0xfffff), mload(RAY_STEP))))
-                let y := add(mload(RAY_TOP), sar(8, mul(shr(128, screen), mload(RAY_STEP))))
+                let x := add(mload(RAY_LEFT), sar(SUBPIXEL_BITS, mul(and(shr(SCREEN_COLUMN_AT, screen), SCREEN_COLUMN_MASK), mload(RAY_STEP))))
+                let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, screen), mload(RAY_STEP))))
                 let lx := mload(add(LIGHTS, LIGHT_X))
                 let ly := mload(add(LIGHTS, LIGHT_Y))
                 let lz := mload(add(LIGHTS, LIGHT_Z))
                 let bounded := 1
-                let length := 0x1000000
+                let length := ONE_24
                 if mload(add(LIGHTS, LIGHT_IS_POINT)) {
                     // from the vertex to the light, Q16
-                    let z := div(mload(DEPTH_SCALE), shr(168, mload(add(vertex, 0x20))))
-                    let place := sar(40, mul(x, z))
+                    let z := div(mload(DEPTH_SCALE), shr(ATTRIBUTE_DEPTH_AT, mload(add(vertex, VERTEX_ATTRIBUTES))))
+                    let place := sar(Q40, mul(x, z))
                     lx := sub(lx, place)
                     let square := mul(place, place)
-                    place := sar(40, mul(y, z))
+                    place := sar(Q40, mul(y, z))
                     ly := sub(ly, place)
                     square := add(square, mul(place, place))
-                    z := shr(16, z)
+                    z := shr(Q16, z)
                     lz := sub(lz, z)
                     square := add(square, mul(z, z))
                     length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
@@ -114,34 +138,34 @@ library SmoothLight {
                     bounded := iszero(gt(shl(2, square), mul(5, length)))
                     length := root(length, add(LIGHTS, LIGHT_HINT))
                 }
-                lx := sdiv(shl(20, lx), length)
-                ly := sdiv(shl(20, ly), length)
-                lz := sdiv(shl(20, lz), length)
-                mstore(add(vertex, VERTEX_LIGHT), shl(1, add(add(lz, shl(85, ly)), shl(170, lx))))
+                lx := sdiv(shl(Q20, lx), length)
+                ly := sdiv(shl(Q20, ly), length)
+                lz := sdiv(shl(Q20, lz), length)
+                mstore(add(vertex, VERTEX_LIGHT), shl(1, add(add(lz, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lx))))
                 if mload(FRAME_IS_ORTHOGRAPHIC) {
                     x := 0
                     y := 0
                 }
                 // H = L + V, where V is the ray turned round
-                length := root(add(add(mul(x, x), mul(y, y)), 0x1000000000000), RAY_HINT)
-                lx := sub(lx, sdiv(shl(20, x), length))
-                ly := sub(ly, sdiv(shl(20, y), length))
-                lz := sub(lz, div(0x100000000000, length))
+                length := root(add(add(mul(x, x), mul(y, y)), ONE_48), RAY_HINT)
+                lx := sub(lx, sdiv(shl(Q20, x), length))
+                ly := sub(ly, sdiv(shl(Q20, y), length))
+                lz := sub(lz, div(ONE_44, length))
                 length := add(add(mul(lx, lx), mul(ly, ly)), mul(lz, lz))
                 // not against the light, where it turns without bound
-                bounded := and(bounded, gt(length, 0x4000000000))
+                bounded := and(bounded, gt(length, LEAST_HALF_SQUARE))
                 length := root(length, HALF_HINT)
-                lx := sdiv(shl(20, lx), length)
-                ly := sdiv(shl(20, ly), length)
-                lz := sdiv(shl(20, lz), length)
-                mstore(add(vertex, VERTEX_HALF), shl(9, add(add(lx, shl(85, ly)), shl(170, lz))))
-                mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(85, ly)), shl(170, lx))))
+                lx := sdiv(shl(Q20, lx), length)
+                ly := sdiv(shl(Q20, ly), length)
+                lz := sdiv(shl(Q20, lz), length)
+                mstore(add(vertex, VERTEX_HALF), shl(Q20_TO_Q29, add(add(lx, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lz))))
+                mstore(add(vertex, VERTEX_HALF_REVERSED), shl(1, add(add(lz, shl(MIDDLE_85_AT, ly)), shl(UPPER_85_AT, lx))))
                 x := mload(add(vertex, VERTEX_NORMAL))
                 y := add(x, VECTOR_BIAS)
-                y := shl(1, sub(or(or(shl(170, and(y, LANE_85)), shr(170, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
+                y := shl(1, sub(or(or(shl(UPPER_85_AT, and(y, LANE_85)), shr(UPPER_85_AT, y)), and(y, MIDDLE_LANE_85)), VECTOR_BIAS))
                 mstore(add(vertex, VERTEX_REVERSED), y)
                 // the square of the normal, Q40, is from 15/16 to 17/16
-                bounded := and(bounded, lt(sub(sar(171, mul(x, y)), 0xf000000000), 0x2000000000))
+                bounded := and(bounded, lt(sub(sar(SQUARE_AT, mul(x, y)), LEAST_SQUARE), SQUARES))
                 mstore(add(vertex, VERTEX_STATE), sub(UNBOUNDED, bounded))
             }
 
@@ -149,9 +173,9 @@ library SmoothLight {
             // A product of two vectors stands in the uppermost lane, but for bit 255, where the lowest of what is above it would be: that
             // is 0, since one of them is twice its value.
             function products(n, r, l, m, h) -> packed {
-                packed := and(sar(41, mul(n, r)), UPPER_LANE_85)
-                packed := add(packed, and(sar(116, mul(n, l)), UPPER_LANES_85))
-                packed := add(packed, sar(201, mul(m, h)))
+                packed := and(sar(PRODUCT_TO_UPPER, mul(n, r)), UPPER_LANE_85)
+                packed := add(packed, and(sar(PRODUCT_TO_MIDDLE, mul(n, l)), UPPER_LANES_85))
+                packed := add(packed, sar(PRODUCT_TO_LOWER, mul(m, h)))
             }
 
             // the normals of a vertex times a weight (Q10), and its products
@@ -159,7 +183,7 @@ library SmoothLight {
                 let n := mul(weight, mload(add(vertex, VERTEX_NORMAL)))
                 let r := mul(weight, mload(add(vertex, VERTEX_REVERSED)))
                 mstore(place, n)
-                mstore(add(place, 0x20), r)
+                mstore(add(place, REVERSED), r)
                 packed := products(n, r, mload(add(vertex, VERTEX_LIGHT)), n, mload(add(vertex, VERTEX_HALF_REVERSED)))
             }
 
@@ -168,32 +192,44 @@ library SmoothLight {
                 let n := sub(mload(placeV), mload(placeU))
                 let h := sub(mload(add(v, VERTEX_HALF)), mload(add(u, VERTEX_HALF)))
                 let reversed := sub(mload(add(v, VERTEX_HALF_REVERSED)), mload(add(u, VERTEX_HALF_REVERSED)))
-                let square := sar(180, mul(h, reversed))
+                let square := sar(HALF_SQUARE_AT, mul(h, reversed))
                 if sgt(square, mload(HALF_CHANGE)) { mstore(HALF_CHANGE, square) }
                 square := sub(mload(add(v, VERTEX_LIGHT)), mload(add(u, VERTEX_LIGHT)))
-                packed := products(n, sub(mload(add(placeV, 0x20)), mload(add(placeU, 0x20))), square, sub(n, h), reversed)
+                packed := products(n, sub(mload(add(placeV, REVERSED)), mload(add(placeU, REVERSED))), square, sub(n, h), reversed)
             }
 
             // What has to be added to that, so that the light in the middle is right: four times the error there,
             // (N_u + N_v) * (L_u + L_v - 2 L), and the same of H, which is not too short there
             function correction(u, v, placeU, placeV) -> packed {
-                mstore(MIDDLE, shl(64, shr(1, add(shr(64, mload(u)), shr(64, mload(v))))))
-                mstore(add(MIDDLE, 0x20), shl(168, shr(1, add(shr(168, mload(add(u, 0x20))), shr(168, mload(add(v, 0x20)))))))
+                mstore(MIDDLE, shl(SCREEN_COLUMN_AT, shr(1, add(shr(SCREEN_COLUMN_AT, mload(u)), shr(SCREEN_COLUMN_AT, mload(v))))))
+                mstore(
+                    add(MIDDLE, VERTEX_ATTRIBUTES),
+                    shl(
+                        ATTRIBUTE_DEPTH_AT,
+                        shr(
+                            1,
+                            add(
+                                shr(ATTRIBUTE_DEPTH_AT, mload(add(u, VERTEX_ATTRIBUTES))),
+                                shr(ATTRIBUTE_DEPTH_AT, mload(add(v, VERTEX_ATTRIBUTES)))
+                            )
+                        )
+                    )
+                )
                 mstore(add(MIDDLE, VERTEX_NORMAL), mload(add(u, VERTEX_NORMAL)))
                 setVertex(MIDDLE)
                 let n := add(mload(placeU), mload(placeV))
                 let t := sub(add(mload(add(u, VERTEX_LIGHT)), mload(add(v, VERTEX_LIGHT))), shl(1, mload(add(MIDDLE, VERTEX_LIGHT))))
-                packed := and(sar(116, mul(n, t)), UPPER_LANES_85)
+                packed := and(sar(PRODUCT_TO_MIDDLE, mul(n, t)), UPPER_LANES_85)
                 t := add(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
-                packed := add(packed, sar(201, mul(n, sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))))
+                packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, sub(t, shl(1, mload(add(MIDDLE, VERTEX_HALF_REVERSED)))))))
                 n := sub(mload(add(u, VERTEX_HALF)), mload(add(v, VERTEX_HALF)))
                 t := sub(mload(add(u, VERTEX_HALF_REVERSED)), mload(add(v, VERTEX_HALF_REVERSED)))
-                packed := add(packed, sar(201, mul(n, t)))
+                packed := add(packed, sar(PRODUCT_TO_LOWER, mul(n, t)))
             }
 
-            a := and(a, 0xffffffff)
-            b := and(b, 0xffffffff)
-            c := and(c, 0xffffffff)
+            a := and(a, SCREEN_RECORD_MASK)
+            b := and(b, SCREEN_RECORD_MASK)
+            c := and(c, SCREEN_RECORD_MASK)
             kind := and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE)))
             if iszero(and(kind, LIT)) {
                 if iszero(mload(add(a, VERTEX_STATE))) { setVertex(a) }
@@ -202,25 +238,31 @@ library SmoothLight {
                 kind := and(and(and(mload(add(a, VERTEX_STATE)), mload(add(b, VERTEX_STATE))), mload(add(c, VERTEX_STATE))), LIT)
             }
             if kind {
-                let p := 1024
-                let q := 1024
-                let r := 1024
+                let p := ONE_10
+                let q := ONE_10
+                let r := ONE_10
                 if iszero(mload(FRAME_IS_ORTHOGRAPHIC)) {
                     // depths by the greatest of them
-                    p := shr(168, mload(add(a, 0x20)))
-                    q := shr(168, mload(add(b, 0x20)))
-                    r := shr(168, mload(add(c, 0x20)))
+                    p := shr(ATTRIBUTE_DEPTH_AT, mload(add(a, VERTEX_ATTRIBUTES)))
+                    q := shr(ATTRIBUTE_DEPTH_AT, mload(add(b, VERTEX_ATTRIBUTES)))
+                    r := shr(ATTRIBUTE_DEPTH_AT, mload(add(c, VERTEX_ATTRIBUTES)))
                     let nearest := p
                     if gt(q, nearest) { nearest := q }
                     if gt(r, nearest) { nearest := r }
-                    p := div(shl(10, p), nearest)
-                    q := div(shl(10, q), nearest)
-                    r := div(shl(10, r), nearest)
+                    p := div(shl(Q10, p), nearest)
+                    q := div(shl(Q10, q), nearest)
+                    r := div(shl(Q10, r), nearest)
                     // colours of up to 255 may differ as they like where depths do not by more than 12 / 255: see Shading.isAffine
-                    kind := add(AFFINE_LIGHT, or(or(lt(p, 980), lt(q, 980)), lt(r, 980)))
+                    kind := add(AFFINE_LIGHT, or(or(lt(p, NEAR_ONE), lt(q, NEAR_ONE)), lt(r, NEAR_ONE)))
                     mstore(DEPTHS_DIFFER, 0)
                     if eq(kind, STEEP_LIGHT) {
-                        mstore(DEPTHS_DIFFER, add(or(or(lt(p, 896), lt(q, 896)), lt(r, 896)), or(or(lt(p, 768), lt(q, 768)), lt(r, 768))))
+                        mstore(
+                            DEPTHS_DIFFER,
+                            add(
+                                or(or(lt(p, SEVEN_EIGHTHS), lt(q, SEVEN_EIGHTHS)), lt(r, SEVEN_EIGHTHS)),
+                                or(or(lt(p, THREE_QUARTERS), lt(q, THREE_QUARTERS)), lt(r, THREE_QUARTERS))
+                            )
+                        )
                     }
                 }
                 p := atVertex(a, p, NORMAL_0)
@@ -235,8 +277,8 @@ library SmoothLight {
                     let least := p
                     if slt(q, least) { least := q }
                     if slt(r, least) { least := r }
-                    least := sub(mul(3, sar(170, least)), 0xc0000)
-                    least := and(and(slt(sar(170, ab), least), slt(sar(170, ac), least)), slt(sar(170, bc), least))
+                    least := sub(mul(3, sar(UPPER_85_AT, least)), LEAST_SQUARE_3)
+                    least := and(and(slt(sar(UPPER_85_AT, ab), least), slt(sar(UPPER_85_AT, ac), least)), slt(sar(UPPER_85_AT, bc), least))
                     kind := mul(kind, least)
                 }
                 // an eighth of the reach where depths differ, and with them the lengths of N for which |H| = 1 is made up
@@ -269,51 +311,53 @@ library SmoothLight {
             function span(p, end, attribute, light, step, plain) {
                 let pixel := add(mload(IMAGE_ORIGIN), mul(3, shr(3, p)))
                 for {} 1 {} {
-                    if gt(attribute, or(mload(p), NOT_DEPTH_64)) {
+                    if gt(attribute, or(mload(p), BEHIND_DEPTH)) {
                         // copying a few bytes is cheaper than to put them into a word
                         mstore(0, attribute)
                         mcopy(p, 0, 8)
                         // N * N, Q68, and twice its root, Q34
-                        let square := shr(170, light)
-                        let length := add(shr(44, mul(702, square)), 5892665057)
+                        let square := shr(UPPER_85_AT, light)
+                        let length := add(shr(ROOT_SHIFT, mul(ROOT_SLOPE, square)), ROOT_AT_0)
                         length := add(length, div(square, length))
                         let factor := mload(FACE_LIGHT_40)
                         let sum := HALF_LEVEL
                         // N * L, Q59
-                        let t := sar(180, shl(86, light))
+                        let t := sar(N_DOT_L_AT, shl(MIDDLE_85_TO_TOP, light))
                         if sgt(t, 0) {
                             // its quotient by |N|, Q24
                             factor := add(factor, mul(mload(add(LIGHTS, LIGHT_DIFFUSE)), div(t, length)))
                             // N * H, Q46
-                            t := sar(193, shl(171, light))
+                            t := sar(N_DOT_H_AT, shl(LOWER_85_TO_TOP, light))
                             if sgt(t, 0) {
                                 t := div(mul(t, t), square)
                                 if gt(t, mload(SPECULAR_BEGIN)) {
                                     t := mul(sub(t, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
-                                    if gt(t, 0x400000000000) { t := 0x400000000000 }
-                                    let entry := mload(add(SPECULAR_TABLE, and(shr(35, t), 0xffffe0)))
-                                    entry := add(shr(128, entry), shr(16, mul(and(entry, 0xffffffff), and(shr(24, t), 0xffff))))
-                                    sum := add(sum, and(shr(6, mul(mload(add(LIGHTS, LIGHT_COLOR)), entry)), LANES_24))
+                                    if gt(t, SPECULAR_LAST) { t := SPECULAR_LAST }
+                                    let entry := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT, t), SPECULAR_ENTRY_MASK)))
+                                    entry := add(
+                                        shr(SPECULAR_VALUE_AT, entry),
+                                        shr(Q16, mul(and(entry, LANE_32), and(shr(SPECULAR_REST_AT, t), SPECULAR_REST_MASK)))
+                                    )
+                                    sum := add(sum, and(shr(Q16_TO_Q10, mul(mload(add(LIGHTS, LIGHT_COLOR)), entry)), LANES_24))
                                 }
                             }
                         }
-                        t := and(shr(32, attribute), LANES_24)
+                        t := and(shr(ACCUMULATOR_FRACTION, attribute), LANES_24)
                         switch plain
-                        case 1 { t := add(sum, and(shr(16, mul(t, and(shr(24, factor), 0xffffffff))), LANES_24)) }
+                        case 1 { t := add(sum, and(shr(Q16, mul(t, and(shr(BLUE_Q40_AT, factor), LANE_32))), LANES_24)) }
                         default {
-                            if and(mload(MODE), IS_STEEP) { t := and(shr(16, mul(t, div(mload(NEAREST), shr(192, attribute)))), LANES_24) }
-                            factor := shr(24, factor)
-                            sum := add(sum, shr(16, mul(and(t, 0xffffff), and(factor, 0xffffffff))))
-                            t := shr(56, t)
-                            sum := add(sum, shl(56, shr(16, mul(and(t, 0xffffff), and(shr(56, factor), 0xffffffff)))))
-                            t := add(sum, shl(112, shr(16, mul(shr(56, t), shr(112, factor)))))
+                            if and(mload(MODE), IS_STEEP) {
+                                t := and(shr(Q16, mul(t, div(mload(NEAREST), shr(ACCUMULATOR_DEPTH_AT, attribute)))), LANES_24)
+                            }
+                            factor := shr(Q40_TO_Q16, factor)
+                            sum := add(sum, shr(Q16, mul(and(t, LANE_24), and(factor, LANE_32))))
+                            t := shr(MIDDLE_AT, t)
+                            sum := add(sum, shl(MIDDLE_AT, shr(Q16, mul(and(t, LANE_24), and(shr(MIDDLE_AT, factor), LANE_32)))))
+                            t := add(sum, shl(UPPER_AT, shr(Q16, mul(shr(MIDDLE_AT, t), shr(UPPER_AT, factor)))))
                         }
                         // lanes above 255 get all the bits of 255
-                        if and(t, OVERFLOW) { t := or(t, mul(and(shr(30, add(t, 0x3ffc00000000003ffc00000000003ffc0000)), ONES), 0x3fc00)) }
-                        mstore(
-                            0,
-                            mul(and(t, 0x3fc000000000003fc000000000003fc00), 0x400000000000000040000000000000004000000000000000000000000000)
-                        )
+                        if and(t, OVERFLOW) { t := or(t, mul(and(shr(OVERFLOW_CARRY_AT, add(t, OVERFLOW_TO_CARRY)), ONES), BYTE_Q10)) }
+                        mstore(0, mul(and(t, BYTES_Q10), Q10_TO_PIXEL))
                         mcopy(pixel, 0, 3)
                     }
                     p := add(p, 8)
@@ -356,13 +400,13 @@ library SmoothLight {
                     }
                 }
                 for {} rows {} {
-                    let p := and(shr(45, edges), ADDRESS)
-                    let end := and(shr(173, edges), ADDRESS)
+                    let p := and(shr(EDGE_ADDRESS_FRACTION, edges), ADDRESS)
+                    let end := and(shr(EDGE_RIGHT_ADDRESS_AT, edges), ADDRESS)
                     if gt(mode, 1) {
                         // addresses may be below 0 beside the tile, columns are not
-                        end := sub(edges, mul(shl(45, row), ONES_128))
-                        p := and(shr(48, end), 0xffff)
-                        end := shr(176, end)
+                        end := sub(edges, mul(shl(EDGE_ADDRESS_FRACTION, row), ONES_128))
+                        p := and(shr(EDGES_LEFT_COLUMN_AT, end), EDGES_LEFT_COLUMN_MASK)
+                        end := shr(EDGES_RIGHT_COLUMN_AT, end)
                         if lt(p, mload(COLUMN_BEGIN)) { p := mload(COLUMN_BEGIN) }
                         if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
                         // a row without pixels stays one where addresses are below 0

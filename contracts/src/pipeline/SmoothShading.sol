@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Quadratic} from "./Quadratic.sol";
-import {Shading, COLOR_LANES} from "./Shading.sol";
+import {Shading} from "./Shading.sol";
 import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
 import "./Registers.sol";
 
@@ -24,19 +24,19 @@ library SmoothShading {
             }
             if (kind == UNBOUNDED_LIGHT) return prepareExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            uint256 top = (a + (255 << 128)) >> 136;
+            uint256 top = (a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT;
             if (top < load(BAND_TOP)) top = load(BAND_TOP);
             Quadratic.setDifferences(a, b, c, top);
             if (kind == STEEP_LIGHT && !Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
                 mode |= IS_STEEP;
-                uint256 nearest = Shading.max(attributesA, Shading.max(attributesB, attributesC)) >> 168;
-                store(NEAREST, nearest << 24);
+                uint256 nearest = Shading.max(attributesA, Shading.max(attributesB, attributesC)) >> ATTRIBUTE_DEPTH_AT;
+                store(NEAREST, nearest << Q24);
                 attributesA = weighted(attributesA, nearest);
                 attributesB = weighted(attributesB, nearest);
                 attributesC = weighted(attributesC, nearest);
             }
             store(MODE, mode | crossing);
-            store(ATTRIBUTE_0, (attributesA << 32) + SMOOTH_BIAS);
+            store(ATTRIBUTE_0, (attributesA << ACCUMULATOR_FRACTION) + SMOOTH_BIAS);
             store(DELTA_1, attributesB - attributesA);
             store(DELTA_2, attributesC - attributesA);
         }
@@ -63,7 +63,8 @@ library SmoothShading {
     /// @dev The attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest.
     function weighted(uint256 word, uint256 nearest) private pure returns (uint256) {
         unchecked {
-            return (word >> 168 << 168) | ((((word & COLOR_LANES) * ((word >> 168 << 10) / nearest)) >> 10) & COLOR_LANES);
+            uint256 depth = word >> ATTRIBUTE_DEPTH_AT;
+            return (depth << ATTRIBUTE_DEPTH_AT) | ((((word & LANES_24) * ((depth << Q10) / nearest)) >> Q10) & LANES_24);
         }
     }
 }

@@ -6,81 +6,98 @@ import "./Registers.sol";
 // The highlights of directional lights at the vertices of a flat face.
 //
 // The half vector H = L - V, for unit vectors L to the light and V along the ray, is kept in the space of the mesh, Q32, where the product
-// with the normal of a face is the middle lane of one product of words: coordinates of normals are up to 2^49, so that it is below 2^83.
-// H is off by 2^-22 at most, as rays and directions are Q24.
+// with the normal of a face is the middle coefficient of one product of words: coordinates of normals are up to 2^49, so that it is below
+// 2^83. H is off by 2^-22 at most, as rays and directions are Q24. Beside it is its square in the unit in which
+//
+//   (N.H)^2 / (N.N * square)
+//
+// is a place in the table of the highlight, cos^2 times the entries per unit of it, Q24. So that rounding leads to no place behind the
+// last entry, H^2 is taken 2^-20 too great, more than it may be off: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of
+// 128 and H^2 = 1, by 0.016 levels.
 
-/// @dev Three lanes of 85 bits: half of a lane in each; what is left of a lane that is shifted down by 48 bits; half of that.
-uint256 constant HALF_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
-uint256 constant LOW_37 = 0x7ffffffffc000000000003ffffffffe000000000001fffffffff;
-uint256 constant HALF_37 = 0x4000000000000000000002000000000000000000001000000000;
+/// @dev 1 + 2^-21, Q24.
+uint256 constant ABOVE_ONE_24 = 0x1000008;
+/// @dev 1, Q56: divided by a length of Q24 it is Q32, which makes Q80 of what is Q48.
+uint256 constant ONE_56 = 0x100000000000000;
+/// @dev Between Q formats; and from a square (Q48, half of it times the length) to the unit in which it is kept.
+uint256 constant Q24_TO_Q80 = 56;
+uint256 constant Q80_TO_Q32 = 48;
+uint256 constant Q40_TO_Q10 = 30;
+uint256 constant SQUARE_SHIFT = 33;
 
 library VertexHighlights {
     /// @notice Adds the highlights at its vertices to the attribute words of a flat triangle. Records of vertices keep what does not depend
     /// on the face.
-    /// @param a, b, c The screen words of its vertices, whose attribute words are in ATTRIBUTE_0, DELTA_1 and DELTA_2.
-    function addAll(uint256 a, uint256 b, uint256 c) internal pure {
+    /// @param a, b, c The screen words of its vertices.
+    /// @param p, q, r Their attribute words.
+    function addTo(uint256 a, uint256 b, uint256 c, uint256 p, uint256 q, uint256 r) internal pure returns (uint256, uint256, uint256) {
         assembly ("memory-safe") {
-            // for each light H, and its square, Q40: 2 * (length - L.V) / length
+            // for each light H, and its square, behind the first two words of a record, which are as many as those of a half vector
             function fill(vertex) {
                 let x := mload(vertex)
-                let y := add(mload(RAY_TOP), sar(8, mul(shr(128, x), mload(RAY_STEP))))
-                x := add(mload(RAY_LEFT), sar(8, mul(and(shr(64, x), 0xfffff), mload(RAY_STEP))))
+                let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, x), mload(RAY_STEP))))
+                x := and(shr(SCREEN_COLUMN_AT, x), SCREEN_COLUMN_MASK)
+                x := add(mload(RAY_LEFT), sar(SUBPIXEL_BITS, mul(x, mload(RAY_STEP))))
                 if mload(FRAME_IS_ORTHOGRAPHIC) {
                     x := 0
                     y := 0
                 }
-                let square := add(add(mul(x, x), mul(y, y)), 0x1000000000000)
+                let square := add(add(mul(x, x), mul(y, y)), ONE_48)
                 let length := add(mload(LENGTH_AT_0), shr(48, mul(square, mload(LENGTH_SLOPE))))
                 length := shr(1, add(length, div(square, length)))
                 for { let steps := mload(LENGTH_STEPS) } steps { steps := sub(steps, 1) } {
                     length := shr(1, add(length, div(square, length)))
                 }
                 // V, Q80
-                let ray := add(add(mul(x, mload(NORMAL_X)), mul(y, mload(NORMAL_Y))), shl(24, mload(NORMAL_Z)))
-                ray := mul(ray, div(0x100000000000000, length))
-                for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
-                    vertex := add(vertex, 0x40)
-                    square := sub(shl(56, mload(add(record, LIGHT_MESH_X))), ray)
-                    mstore(vertex, sub(and(shr(48, add(square, HALF_85)), LOW_37), HALF_37))
+                let ray := add(add(mul(x, mload(NORMAL_X)), mul(y, mload(NORMAL_Y))), shl(COSINE_FRACTION, mload(NORMAL_Z)))
+                ray := mul(ray, div(ONE_56, length))
+                for { let record := LIGHTS } 1 {} {
+                    vertex := add(vertex, HALF_SIZE)
+                    square := sub(shl(Q24_TO_Q80, mload(add(record, LIGHT_MESH_X))), ray)
+                    mstore(add(vertex, HALF_VECTOR), sub(and(shr(Q80_TO_Q32, add(square, HALF_86)), Q32_86), HALF_Q32_86))
+                    // H^2 = 2 * (length - L.V) / length
                     square := add(mul(mload(add(record, LIGHT_X)), x), mul(mload(add(record, LIGHT_Y)), y))
-                    square := sub(shl(24, sub(length, mload(add(record, LIGHT_Z)))), square)
-                    mstore(add(vertex, 32), sdiv(shl(17, square), length))
+                    square := sub(mul(length, ABOVE_ONE_24), add(square, shl(COSINE_FRACTION, mload(add(record, LIGHT_Z)))))
+                    mstore(add(vertex, HALF_SQUARE), sdiv(shl(SQUARE_SHIFT, square), mul(length, mload(SPECULAR_SCALE))))
+                    record := add(record, LIGHT_SIZE)
+                    if iszero(lt(record, mload(LIGHTS_END))) { break }
                 }
             }
 
-            // the light of a record on a vertex, what of it the vertex keeps, and its attribute word
-            function shine(record, kept, pointer) {
-                // the square of N.H / (|N| * |H|), Q24
-                let half := sar(171, shl(1, mul(mload(FACE_NORMAL), mload(kept))))
-                if sgt(half, 0) {
-                    half := div(mul(half, half), mul(mload(FACE_SQUARE), mload(add(kept, 32))))
-                    if gt(half, mload(SPECULAR_BEGIN)) {
-                        half := mul(sub(half, mload(SPECULAR_BEGIN)), mload(SPECULAR_SCALE))
-                        if gt(half, 0x400000000000) { half := 0x400000000000 }
-                        let entry := mload(add(SPECULAR_TABLE, and(shr(35, half), 0xffffe0)))
-                        entry := add(shr(128, entry), shr(16, mul(and(entry, 0xffffffff), and(shr(24, half), 0xffff))))
-                        entry := and(shr(6, mul(mload(add(record, LIGHT_COLOR)), entry)), LANES_24)
-                        mstore(pointer, add(mload(pointer), entry))
-                    }
+            // the light of a record where a vertex keeps what is at `kept`: lanes of Q10
+            function shine(record, kept) -> color {
+                let place := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(add(kept, HALF_VECTOR))))
+                // 0 where N.H is negative
+                place := mul(place, sgt(place, 0))
+                place := div(mul(place, place), mul(mload(FACE_SQUARE), mload(add(kept, HALF_SQUARE))))
+                place := sub(place, mload(SPECULAR_OFFSET))
+                if sgt(place, 0) {
+                    color := mload(add(SPECULAR_TABLE, and(shr(SPECULAR_ENTRY_SHIFT_24, place), SPECULAR_ENTRY_MASK_24)))
+                    // (value * 2^24 + increase * what is behind the entry), Q40, is the upper half of a product
+                    color := shr(SPECULAR_VALUE_AT, mul(color, or(ONE_24, and(shl(SPECULAR_VALUE_AT, place), SPECULAR_REST_AT_128))))
+                    color := and(shr(Q40_TO_Q10, mul(mload(add(record, LIGHT_COLOR)), color)), LANES_24)
                 }
             }
 
-            a := add(and(a, 0xffffffff), 0x40)
-            b := add(and(b, 0xffffffff), 0x40)
-            c := add(and(c, 0xffffffff), 0x40)
-            if iszero(mload(a)) { fill(sub(a, 0x40)) }
-            if iszero(mload(b)) { fill(sub(b, 0x40)) }
-            if iszero(mload(c)) { fill(sub(c, 0x40)) }
-            for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
+            a := add(and(a, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            b := add(and(b, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            c := add(and(c, SCREEN_RECORD_MASK), VERTEX_SIZE)
+            if iszero(mload(a)) { fill(sub(a, VERTEX_SIZE)) }
+            if iszero(mload(b)) { fill(sub(b, VERTEX_SIZE)) }
+            if iszero(mload(c)) { fill(sub(c, VERTEX_SIZE)) }
+            for { let record := LIGHTS } 1 {} {
                 if sgt(mload(add(record, LIGHT_N_DOT_L)), 0) {
-                    shine(record, a, ATTRIBUTE_0)
-                    shine(record, b, DELTA_1)
-                    shine(record, c, DELTA_2)
+                    p := add(p, shine(record, a))
+                    q := add(q, shine(record, b))
+                    r := add(r, shine(record, c))
                 }
-                a := add(a, 0x40)
-                b := add(b, 0x40)
-                c := add(c, 0x40)
+                record := add(record, LIGHT_SIZE)
+                if iszero(lt(record, mload(LIGHTS_END))) { break }
+                a := add(a, HALF_SIZE)
+                b := add(b, HALF_SIZE)
+                c := add(c, HALF_SIZE)
             }
         }
+        return (p, q, r);
     }
 }

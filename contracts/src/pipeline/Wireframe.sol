@@ -8,7 +8,16 @@ import "./Registers.sol";
 // From the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel that is nearest to it, with the depth and the colour of the line at the centre of that column or row.
 
+/// @dev Modes of triangles whose fragments are not of linear colours.
+uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
+
+/// @dev 1 / 2^8 of the length of a line in sub-pixels is an accumulator's change for each pixel: Q32 of attributes, Q8 of sub-pixels.
+int256 constant STEP_ONE = 1 << 40;
+
 abstract contract Wireframe is Rasterizer {
+    /// @notice Draws the rows from `row` to before `last`, if the mode is BY_FRAGMENTS: see Rasterizer.drawRows, where they are addresses.
+    function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
+
     /// @notice Draws the edges of the triangles of a list into the current band.
     function drawWires(uint256 list, uint256 end) internal pure virtual {
         unchecked {
@@ -74,7 +83,7 @@ abstract contract Wireframe is Rasterizer {
             if (top >= bottom) return;
             int256 below = int256(top << SUBPIXEL_BITS) - row(p);
             int256 slope = (dx << EDGE_FRACTION) / dy;
-            uint256 step = uint256((1 << 40) / dy);
+            uint256 step = uint256(STEP_ONE / dy);
             // the pixel whose middle is nearest
             uint256 left = uint256((column(p) << EDGE_SUBPIXEL_SHIFT) + ((below * slope) >> SUBPIXEL_BITS) + int256(HALF_COLUMN));
             store(DX, 0);
@@ -95,25 +104,28 @@ abstract contract Wireframe is Rasterizer {
             if (begin >= end) return;
             top = max(top, (min(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT);
             bottom = min(bottom, ((max(p, q) + (HALF_PIXEL << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT) + 1);
-            uint256 step = uint256((1 << 40) / dx);
+            uint256 step = uint256(STEP_ONE / dx);
             store(DX, change * step);
             store(DY, 0);
             attribute += change * uint256((-column(p) * int256(step)) >> SUBPIXEL_BITS);
-            int256 slope = dy == 0 ? int256(0) : (dx << EDGE_FRACTION) / dy;
+            // where the line enters the first row, and how far it goes in each
+            int256 enter = begin << EDGE_FRACTION;
+            int256 slope = (end - begin) << EDGE_FRACTION;
+            if (dy != 0) {
+                slope = (dx << EDGE_FRACTION) / dy;
+                enter = (column(p) << EDGE_SUBPIXEL_SHIFT)
+                    + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - row(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
+            }
             for (; top < bottom; ++top) {
-                (int256 left, int256 right) = (begin, end);
-                if (dy != 0) {
-                    // where the line enters and leaves the row
-                    int256 enter = (column(p) << EDGE_SUBPIXEL_SHIFT)
-                        + (((int256(top << SUBPIXEL_BITS) - int256(HALF_PIXEL) - row(p)) * slope) >> SUBPIXEL_BITS) + int256(CEIL_48);
-                    int256 exit = (enter + slope) >> EDGE_FRACTION;
-                    enter >>= EDGE_FRACTION;
-                    if (dy < 0) (enter, exit) = (exit, enter);
-                    if (enter > left) left = enter;
-                    if (exit < right) right = exit;
-                }
-                // one row only, so that the slopes make no difference
+                int256 exit = enter + slope;
+                (int256 left, int256 right) = dy < 0 ? (exit, enter) : (enter, exit);
+                enter = exit;
+                left >>= EDGE_FRACTION;
+                right >>= EDGE_FRACTION;
+                if (left < begin) left = begin;
+                if (right > end) right = end;
                 uint256 edges = uint256(left << EDGES_LEFT_COLUMN_AT) | (uint256(right) << EDGES_RIGHT_COLUMN_AT);
+                // one row only, so that the slopes make no difference
                 if (left < right) draw(edges, uint256(slope), attribute, top, top + 1);
             }
         }
@@ -122,6 +134,7 @@ abstract contract Wireframe is Rasterizer {
     /// @dev The fragments of the rows from `top` to before `bottom`.
     function draw(uint256 edges, uint256 slopes, uint256 attribute, uint256 top, uint256 bottom) private pure {
         unchecked {
+            if (load(MODE) & BY_FRAGMENTS != 0) return drawFragments(edges, slopes, attribute, top, bottom);
             (uint256 origin, uint256 stride) = (load(DEPTH_ORIGIN), load(DEPTH_STRIDE));
             drawRows(edges, slopes, attribute, origin - stride * top, origin - stride * bottom);
         }

@@ -18,14 +18,31 @@ uint256 constant SUBPIXEL_BITS = 8;
 /// @dev These bits; added before they are shifted away, it rounds up.
 uint256 constant SUBPIXEL_MASK = 255;
 uint256 constant HALF_PIXEL = 128;
+/// @dev A quotient of sub-pixel lengths by twice an area, shifted so, is Q24 per pixel.
+uint256 constant SUBPIXEL_TO_Q24 = 32;
 
-// ----------------------------------------------------------------------------------------------------------------------- fixed-point ones
+// -------------------------------------------------------------------------------------------------------------------- fixed-point formats
 
+/// @dev Bits behind the point. A number is brought from one format to another by their difference.
+uint256 constant Q10 = 10;
+uint256 constant Q16 = 16;
+uint256 constant Q20 = 20;
+uint256 constant Q24 = 24;
+uint256 constant Q32 = 32;
+uint256 constant Q40 = 40;
+uint256 constant Q48 = 48;
+uint256 constant Q16_TO_Q10 = 6;
+uint256 constant Q40_TO_Q16 = 24;
+/// @dev One in each.
+uint256 constant ONE_10 = 0x400;
 uint256 constant ONE_16 = 0x10000;
 uint256 constant HALF_24 = 0x800000;
 uint256 constant ONE_24 = 0x1000000;
 uint256 constant ONE_32 = 0x100000000;
+uint256 constant ONE_44 = 0x100000000000;
 uint256 constant ONE_48 = 0x1000000000000;
+/// @dev The greatest depth of a vertex is 2 to this power: see DEPTH_SCALE.
+uint256 constant DEPTH_BITS = 54;
 
 // ----------------------------------------------------------------------------------------------------------------------- mesh in calldata
 
@@ -40,16 +57,14 @@ uint256 constant FACE_SIZE = 6;
 /// @dev Its three vertex numbers at the top of a word; where the first and the second are in them; a number.
 uint256 constant FACE_AT = 208;
 uint256 constant FACE_FIRST_AT = 32;
+/// @dev The first and the second in the word of calldata.
+uint256 constant FACE_FIRST_IN_WORD = 240;
+uint256 constant FACE_SECOND_IN_WORD = 224;
 uint256 constant FACE_SECOND_AT = 16;
 uint256 constant FACE_INDEX_MASK = 0xffff;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of screen words
 
-/// @dev Left or right; above or below; any of them; that or MUST_CLIP.
-uint256 constant IS_BESIDE = 0x60000000000;
-uint256 constant IS_OVER = 0x180000000000;
-uint256 constant IS_OUTSIDE = 0x1e0000000000;
-uint256 constant IS_NOT_PLAIN = 0x1f0000000000;
 /// @dev All bits of the column.
 uint256 constant SCREEN_COLUMNS = 0xfffff0000000000000000;
 /// @dev Row in whole pixels.
@@ -61,12 +76,21 @@ uint256 constant SCREEN_ROUND_UP = 0xff00000000000000ff0000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------ parts of accumulators
 
+/// @dev The bits that a depth has more than in a vertex.
+uint256 constant DEPTH_FRACTION = 8;
+/// @dev A depth of the buffer has 2^3 bytes.
+uint256 constant DEPTH_SIZE_BITS = 3;
 /// @dev The bits that it has more than an attribute word.
 uint256 constant ACCUMULATOR_FRACTION = 32;
 /// @dev Depth as in a vertex.
 uint256 constant ACCUMULATOR_VERTEX_DEPTH_AT = 200;
 /// @dev 1 in the lane of s.
 uint256 constant ATTRIBUTE_S = 0x100000000000000;
+/// @dev Where s and t have Q24 numbers, and the last bytes of their lanes.
+uint256 constant ACCUMULATOR_S_AT = 64;
+uint256 constant ACCUMULATOR_S_LAST_BYTE = 20;
+uint256 constant ACCUMULATOR_T_AT = 8;
+uint256 constant ACCUMULATOR_T_LAST_BYTE = 6;
 /// @dev Bias of the lanes: half a level for colours.
 uint256 constant COLOR_BIAS = 0x100000000000200000000000002000000000000020000000000;
 /// @dev 2^-15 for barycentric coordinates, so that gradients that are rounded (see Rasterizer) leave none below zero.
@@ -74,8 +98,6 @@ uint256 constant WEIGHT_BIAS = 0x10000000000000000000000000000000200000000000002
 
 // --------------------------------------------------------------------------------------------------------------------- parts of triangles
 
-/// @dev Brings CROSSING_BIT to IS_CROSSING.
-uint256 constant TRIANGLE_CROSSING_SHIFT = 139;
 /// @dev The three edges.
 uint256 constant EDGE_AB = 0x1000000000000000000000000000000000000;
 uint256 constant EDGE_BC = 0x2000000000000000000000000000000000000;
@@ -87,11 +109,21 @@ uint256 constant CLIP_BIAS = 0x800000000000000000000000800000000000000000000000;
 /// @dev What it adds to each.
 uint256 constant CLIP_HALF = 0x800000000000000000000000;
 
+// ----------------------------------------------------------------------------------------------------------------------- parts of borders
+
+/// @dev Bits of a lane; how many there are.
+uint256 constant BORDER_BITS = 28;
+uint256 constant BORDER_COUNT = 9;
+/// @dev 2^27, below which values are, less 2^16 for the tile and more 2^16 for the guard band, which is more than their rounding.
+uint256 constant BORDER_BIAS = 0x801000080100008010000801000080100007ff00007ff00007ff00007ff0000;
+
 // ------------------------------------------------------------------------------------------------------------------------- parts of edges
 
 /// @dev Bits of a column behind the point; where it stands for an address of a depth.
 uint256 constant EDGE_FRACTION = 48;
 uint256 constant EDGE_ADDRESS_FRACTION = 45;
+/// @dev Where the address of the right edge is.
+uint256 constant EDGE_RIGHT_ADDRESS_AT = 173;
 /// @dev Brings sub-pixels to a column.
 uint256 constant EDGE_SUBPIXEL_SHIFT = 40;
 uint256 constant HALF_COLUMN = 0x800000000000;
@@ -109,7 +141,22 @@ uint256 constant GRADIENT_TO_ACCUMULATOR = 5;
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of colours
 
-/// @dev Where green and red are.
+/// @dev Bits of a colour 0xRRGGBB; where they are; and how far from there their lanes are.
+uint256 constant BLUE = 255;
+uint256 constant GREEN = 0xff00;
+uint256 constant RED = 0xff0000;
+uint256 constant GREEN_AT = 8;
+uint256 constant RED_AT = 16;
+uint256 constant GREEN_TO_LANE = 48;
+uint256 constant RED_TO_LANE = 96;
+/// @dev Bits behind the point of light; of light while it is summed; of a cosine, a direction, a ray.
+uint256 constant LIGHT_FRACTION = 16;
+uint256 constant LIGHT_SUM_FRACTION = 40;
+uint256 constant COSINE_FRACTION = 24;
+/// @dev Where a lane of Q10 has what is above 255, and the six bits of it.
+uint256 constant OVERFLOW_AT = 18;
+uint256 constant OVERFLOW_MASK = 63;
+/// @dev Where green and red are in lanes.
 uint256 constant MIDDLE_AT = 56;
 uint256 constant UPPER_AT = 112;
 /// @dev A lane by itself.
@@ -117,8 +164,12 @@ uint256 constant LANE_24 = 0xffffff;
 uint256 constant LANE_32 = 0xffffffff;
 /// @dev Brings the bytes of a colour 0xRRGGBB to BYTES_Q10, besides others.
 uint256 constant COLOR_SPREAD = 0x400000000000400000000000400;
-/// @dev Brings BYTES_56 together at the top of a word.
+/// @dev A byte as Q10, in a lane by itself.
+uint256 constant BYTE_Q10 = 0x3fc00;
+uint256 constant OVERFLOW_CARRY_AT = 30;
+/// @dev Brings BYTES_56 together at the top of a word; BYTES_Q10.
 uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
+uint256 constant Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------------ parts of pixels
 
@@ -128,10 +179,30 @@ uint256 constant TEN_PIXELS = 0x100000100000100000100000100000100000100000100000
 uint256 constant TOPS_64_TO_24 = 0x1000000000100000000010000000001;
 uint256 constant PIXELS_AT_120 = 0x1000001000001000001000000000000000000000000000000;
 
+// ------------------------------------------------------------------------------------------------ parts of vectors in the space of a mesh
+
+uint256 constant MIDDLE_86_AT = 86;
+uint256 constant UPPER_86_AT = 172;
+/// @dev Half of what the middle lane counts in, and half of what the upper one does: they round to the nearest.
+uint256 constant HALF_MIDDLE_86 = 0x2000000000000000000000;
+uint256 constant HALF_UPPER_86 = 0x8000000000000000000000000000000000000000000;
+
 // ---------------------------------------------------------------------------------------------------------------- parts of signed colours
 
 uint256 constant MIDDLE_85_AT = 85;
 uint256 constant UPPER_85_AT = 170;
+/// @dev The lowest lane, the middle one, the uppermost, and the upper two.
+uint256 constant LANE_85 = 0x1fffffffffffffffffffff;
+uint256 constant MIDDLE_LANE_85 = 0x3ffffffffffffffffffffe00000000000000000000;
+uint256 constant UPPER_LANE_85 = 0xfffffffffffffffffffffc000000000000000000000000000000000000000000;
+uint256 constant UPPER_LANES_85 = 0xffffffffffffffffffffffffffffffffffffffffffe000000000000000000000;
+/// @dev Shifts that bring the sign of the lowest lane to the top of a word, and that of the middle one.
+uint256 constant LOWER_85_TO_TOP = 171;
+uint256 constant MIDDLE_85_TO_TOP = 86;
+/// @dev The sign of the lowest lane, and what that carries into.
+uint256 constant SIGN_85 = 84;
+uint256 constant CARRY_85 = 85;
+uint256 constant Q10_TO_Q58 = 48;
 /// @dev Where each lane of Q58 has a Q9 number.
 uint256 constant BLUE_Q9_AT = 49;
 uint256 constant GREEN_Q9_AT = 134;
@@ -168,9 +239,14 @@ uint256 constant SPECULAR_LAST = 0x400000000000;
 /// @dev Brings a place in the table, Q40, to bytes; those of whole words; what is between two entries, Q16.
 uint256 constant SPECULAR_ENTRY_SHIFT = 35;
 uint256 constant SPECULAR_ENTRY_MASK = 0xffffe0;
+uint256 constant SPECULAR_REST_AT = 24;
 uint256 constant SPECULAR_REST_MASK = 0xffff;
 /// @dev Where an entry has its value.
 uint256 constant SPECULAR_VALUE_AT = 128;
+/// @dev The same for a place in Q24; what is between two entries, at bit 128.
+uint256 constant SPECULAR_ENTRY_SHIFT_24 = 19;
+uint256 constant SPECULAR_ENTRY_MASK_24 = 0xfe0;
+uint256 constant SPECULAR_REST_AT_128 = 0xffffff00000000000000000000000000000000;
 
 // ------------------------------------------------------------------------------------------------------------------- normals of fragments
 
@@ -184,18 +260,19 @@ uint256 constant NORMAL_HALF = 0x4000000;
 uint256 constant NORMAL_BIAS = 0x10000000000000000000008000000000000000000004000000000;
 
 // ---------------------------------------------------------------------------------------------------------------------------- screen word
-// Where a vertex is on the screen. Comparing screen words as numbers compares rows.
+// Where a vertex is on the screen. Comparing screen words as numbers compares rows. What is below the column must stay below bit 41: see
+// the area in PrimitiveAssembly, of which it is the error, 2^149 times as large, and half of the least area is 2^191.
 
 /// @dev Address of the vertex record.
 uint256 constant SCREEN_RECORD_AT = 0;
 uint256 constant SCREEN_RECORD_MASK = 0xffffffff;
 /// @dev The triangle must be clipped.
-uint256 constant MUST_CLIP = 0x10000000000;
+uint256 constant MUST_CLIP = 0x100000000;
 /// @dev The vertex lies left of the tile; right of it; above it; below it.
-uint256 constant IS_LEFT = 0x20000000000;
-uint256 constant IS_RIGHT = 0x40000000000;
-uint256 constant IS_ABOVE = 0x80000000000;
-uint256 constant IS_BELOW = 0x100000000000;
+uint256 constant IS_LEFT = 0x200000000;
+uint256 constant IS_RIGHT = 0x400000000;
+uint256 constant IS_ABOVE = 0x800000000;
+uint256 constant IS_BELOW = 0x1000000000;
 /// @dev Sub-pixel column.
 uint256 constant SCREEN_COLUMN_AT = 64;
 uint256 constant SCREEN_COLUMN_MASK = 0xfffff;
@@ -262,6 +339,34 @@ uint256 constant EDGES_LEFT_COLUMN_MASK = 0xffff;
 uint256 constant EDGES_RIGHT_COLUMN_AT = 176;
 uint256 constant EDGES_RIGHT_COLUMN_MASK = 0xffff;
 
+// ------------------------------------------------------------------------------------------------------------------------- flags together
+
+/// @dev Left or right; above or below; any of them; that or MUST_CLIP.
+uint256 constant IS_BESIDE = 0x600000000;
+uint256 constant IS_OVER = 0x1800000000;
+uint256 constant IS_OUTSIDE = 0x1e00000000;
+uint256 constant IS_NOT_PLAIN = 0x1f00000000;
+/// @dev What tells how the rows of a smooth triangle are drawn.
+uint256 constant IS_GREY_OR_STEEP = 0xc00;
+uint256 constant IS_CUT_OR_CROSSING = 0x2080;
+
+// ----------------------------------------------------------------------------------------------------------------- flags that are shifted
+
+/// @dev From a triangle of a list to its mode.
+uint256 constant TRIANGLE_CROSSING_SHIFT = 140;
+
+// -------------------------------------------------------------------------------------------------------------------- borders of the tile
+// Four lanes of 28 bits for the left, right, upper and lower border: positive where a vertex lies beyond. See TileCulling.
+
+/// @dev Set where the value is positive.
+uint256 constant BORDER_SIGNS = 0x8000000800000080000008000000;
+
+// -------------------------------------------------------------------------------------------------------------- borders of the guard band
+// Behind these five for the left, right, upper and lower border of the guard band, and the near plane.
+
+/// @dev Set where the value is positive.
+uint256 constant GUARD_SIGNS = 0x800000080000008000000800000080000000000000000000000000000000000;
+
 // -------------------------------------------------------------------------------------------------------------------------------- colours
 // Three lanes of 56 bits: blue at bit 0, green at 56, red at 112. One ADD or MUL works on all of them. A signed number in a lane borrows
 // from the lane above; as long as the sum in the end is positive in every lane (a bias sees to that), the lanes come out right.
@@ -273,8 +378,9 @@ uint256 constant LANES_24 = 0xffffff00000000ffffff00000000ffffff;
 uint256 constant LANES_32 = 0xffffffff000000ffffffff000000ffffffff;
 /// @dev Half a level, Q10.
 uint256 constant HALF_LEVEL = 0x2000000000000020000000000000200;
-/// @dev What is set in lanes of Q10 above 255.
+/// @dev What is set in lanes of Q10 above 255; what makes it carry into bit OVERFLOW_CARRY_AT.
 uint256 constant OVERFLOW = 0xfc000000000000fc000000000000fc0000;
+uint256 constant OVERFLOW_TO_CARRY = 0x3ffc00000000003ffc00000000003ffc0000;
 /// @dev A byte in each lane; a byte as Q10.
 uint256 constant BYTES_56 = 0xff000000000000ff000000000000ff;
 uint256 constant BYTES_Q10 = 0x3fc000000000003fc000000000003fc00;
@@ -314,3 +420,12 @@ uint256 constant BYTES_Q58 = 0xff00000000000000000007f80000000000000000003fc0000
 uint256 constant ABOVE_Q58 = 0x7ffff00000000000000003ffff80000000000000001ffffc0000000000000000;
 uint256 constant CARRIES_85 = 0x8000000000000000000004000000000000000000002000000000000000000000;
 uint256 constant SIGNS_85 = 0x4000000000000000000002000000000000000000001000000000000000000000;
+
+// --------------------------------------------------------------------------------------------------------- vectors in the space of a mesh
+// Three signed lanes of 86 bits. The middle coefficient of the product of two vectors, one of them with its lanes the other way round, is
+// their dot product, and has all bits from UPPER_86_AT on: what is above is beyond the word.
+
+/// @dev Half the range of each lane; the bits that are left of a lane of Q80 as Q32; half of them.
+uint256 constant HALF_86 = 0x8000000000000000000008000000000000000000002000000000000000000000;
+uint256 constant Q32_86 = 0xfffffffff000000000000fffffffffc000000000003fffffffff;
+uint256 constant HALF_Q32_86 = 0x8000000000000000000008000000000000000000002000000000;

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {LibZip} from "solady/src/utils/LibZip.sol";
+import {forward} from "../encode/Forward.sol";
 import {PngEncoder} from "../encode/PngEncoder.sol";
 import {COMPACT, LAST_FORMAT, SCENE, kindOf} from "../mesh/Kinds.sol";
 import {Meshes} from "../mesh/Meshes.sol";
@@ -97,42 +98,42 @@ contract Studio is WithRenderer, StudioErrors {
     /// @notice The picture of a scene that is kept.
     /// @return A Windows bitmap of 24 bits a pixel.
     function render(address pointer) external view returns (bytes memory) {
-        return renderer.render(scene(pointer));
+        forward(address(renderer), abi.encodeCall(Renderer.render, (scene(pointer))));
     }
 
     /// @notice The same with changes.
     function render(address pointer, Changes memory changes) external view returns (bytes memory) {
-        return renderer.render(scene(pointer, changes));
+        forward(address(renderer), abi.encodeCall(Renderer.render, (scene(pointer, changes))));
     }
 
     /// @notice The picture as a PNG file, each pixel a square of `scale` pixels, 1..8.
     function renderPNG(address pointer, uint256 scale) external view returns (bytes memory) {
-        return encoder.encode(renderer.render(scene(pointer)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(scene(pointer)), scale)));
     }
 
     /// @notice The same with changes.
     function renderPNG(address pointer, uint256 scale, Changes memory changes) external view returns (bytes memory) {
-        return encoder.encode(renderer.render(scene(pointer, changes)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(scene(pointer, changes)), scale)));
     }
 
     /// @notice The PNG file as a `data:` URI.
     function renderDataURI(address pointer, uint256 scale) external view returns (string memory) {
-        return encoder.dataURI(renderer.render(scene(pointer)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer)), scale)));
     }
 
     /// @notice The same with changes.
     function renderDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
-        return encoder.dataURI(renderer.render(scene(pointer, changes)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer, changes)), scale)));
     }
 
     /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
     function drawPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
-        return encoder.encode(renderer.render(opened(scene_)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(opened(scene_)), scale)));
     }
 
     /// @notice The same as a `data:` URI.
     function drawDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
-        return encoder.dataURI(renderer.render(opened(scene_)), scale);
+        forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(opened(scene_)), scale)));
     }
 
     function opened(Scene memory scene_) private view returns (Scene memory) {

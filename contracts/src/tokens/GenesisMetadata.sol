@@ -7,7 +7,7 @@ import {Scene} from "../scene/Scene.sol";
 import {Genesis} from "../genesis/Genesis.sol";
 import {Piece, Traits} from "../genesis/Piece.sol";
 import {NoPrismToChoose} from "../genesis/Colors.sol";
-import {Png} from "../encode/Png.sol";
+import {PngEncoder} from "../encode/PngEncoder.sol";
 import {Json} from "./Json.sol";
 import {PieceScene} from "../genesis/PieceScene.sol";
 import {Placeholder} from "./Placeholder.sol";
@@ -31,12 +31,16 @@ contract GenesisMetadata {
     Genesis public immutable genesis;
     /// @notice What draws those pictures.
     Renderer public immutable renderer;
+    /// @notice What makes PNG files of them.
+    PngEncoder public immutable encoder;
 
     error NoGenesis(address genesis);
+    error NoEncoder(address encoder);
 
-    constructor(Genesis genesis_) {
+    constructor(Genesis genesis_, PngEncoder encoder_) {
         if (address(genesis_).code.length == 0) revert NoGenesis(address(genesis_));
-        (genesis, renderer) = (genesis_, genesis_.renderer());
+        if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
+        (genesis, renderer, encoder) = (genesis_, genesis_.renderer(), encoder_);
     }
 
     /// @notice The seed that stands for what was drawn, and the traits of its piece. It is what was drawn, if that has a piece; very few
@@ -52,37 +56,25 @@ contract GenesisMetadata {
     /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
     function tokenURI(uint256 tokenId, bytes32 drawn) external view returns (string memory) {
         (bytes32 seed, Piece memory piece) = pieceOf(drawn);
-        return Json.uri(
-            Json.token(
-                title(tokenId),
-                string.concat(DESCRIPTION, " Seed ", uint256(seed).toHexString(32), "."),
-                list(piece.traits),
-                picture(PieceScene.make(piece))
-            )
-        );
+        string memory description = string.concat(DESCRIPTION, " Seed ", uint256(seed).toHexString(32), ".");
+        show(Json.token(title(tokenId), description, list(piece.traits)), PieceScene.make(piece));
     }
 
     /// @notice The metadata of a token whose seed is not drawn or not revealed yet: a picture that all such tokens share.
     /// @param blockNumber The block that draws it.
     function hiddenURI(uint256 tokenId, uint256 blockNumber) external view returns (string memory) {
-        return Json.uri(
-            Json.token(
-                title(tokenId),
-                string.concat(
-                    DESCRIPTION,
-                    " This one is not revealed yet: block ",
-                    blockNumber.toString(),
-                    " draws its seed, and anyone may reveal it after that."
-                ),
-                Json.trait("Revealed", false),
-                cover()
-            )
+        string memory description = string.concat(
+            DESCRIPTION,
+            " This one is not revealed yet: block ",
+            blockNumber.toString(),
+            " draws its seed, and anyone may reveal it after that."
         );
+        show(Json.token(title(tokenId), description, Json.trait("Revealed", false)), cover());
     }
 
     /// @notice The metadata of the collection, as ERC-7572 has it.
     function contractURI() external view returns (string memory) {
-        return Json.uri(Json.collection(NAME, SYMBOL, DESCRIPTION, cover()));
+        show(Json.collection(NAME, SYMBOL, DESCRIPTION), cover());
     }
 
     function pieceOf(bytes32 drawn) private view returns (bytes32 seed, Piece memory piece) {
@@ -121,11 +113,31 @@ contract GenesisMetadata {
         );
     }
 
-    function cover() private view returns (string memory) {
-        return picture(Placeholder.scene(PieceScene.SIDE));
+    function cover() private pure returns (Scene memory) {
+        return Placeholder.scene(PieceScene.SIDE);
     }
 
-    function picture(Scene memory scene) private view returns (string memory) {
-        return Json.dataUri("data:image/png;base64,", Png.encode(renderer.render(scene), SCALE));
+    /// @dev Ends the call with the `data:` URI of a document.
+    /// @param head The document up to its picture.
+    /// @param scene The picture.
+    function show(bytes memory head, Scene memory scene) private view {
+        bytes memory data = abi.encodeCall(Renderer.render, (scene));
+        (address target, bytes4 selector) = (address(renderer), PngEncoder.dataURI.selector);
+        uint256 begin;
+        uint256 size;
+        assembly ("memory-safe") {
+            // the bitmap, as it is answered, behind the head of the next call: selector, offset and scale
+            let bitmap := add(mload(0x40), 0x40)
+            let done := staticcall(gas(), target, add(data, 0x20), mload(data), 0, 0)
+            returndatacopy(bitmap, 0, returndatasize())
+            if iszero(done) { revert(bitmap, returndatasize()) }
+            // the scale takes the place of its offset
+            mstore(bitmap, SCALE)
+            mstore(sub(bitmap, 0x20), 0x40)
+            begin := sub(bitmap, 0x24)
+            mstore(sub(bitmap, 0x40), shr(224, selector))
+            size := add(0x24, returndatasize())
+        }
+        Json.answer(head, address(encoder), begin, size);
     }
 }

@@ -215,23 +215,25 @@ contract IconsCollection is Collection, StudioErrors {
     function tokenURI(uint256 tokenId) public view override returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         Icon storage it = icons[iconOf(tokenId)];
-        string memory name_ = it.name;
-        return Json.uri(
-            Json.token(
-                string.concat(name_, " #", tokenId.toString()),
-                DESCRIPTION,
-                string.concat(Json.trait("Icon", name_), ",", Json.trait("Supply", uint256(it.supply))),
-                picture(it)
-            )
-        );
+        string memory name_ = Strings.escapeJSON(it.name);
+        string memory traits = string.concat(Json.trait("Icon", name_), ",", Json.trait("Supply", uint256(it.supply)));
+        show(Json.token(string.concat(name_, " #", tokenId.toString()), DESCRIPTION, traits), it);
     }
 
     /// @inheritdoc Collection
     function contractURI() external view override returns (string memory) {
-        return Json.uri(Json.collection(name(), symbol(), DESCRIPTION, icons.length == 0 ? "" : picture(icons[0])));
+        if (icons.length == 0) Json.answer(Json.pictureless(name(), symbol(), DESCRIPTION));
+        show(Json.collection(name(), symbol(), DESCRIPTION), icons[0]);
     }
 
-    function picture(Icon storage it) private view returns (string memory) {
-        return Json.dataUri("data:image/png;base64,", studio.renderPNG(it.scene, it.scale));
+    /// @dev Ends the call with the `data:` URI of a document.
+    /// @param head The document up to its picture.
+    function show(bytes memory head, Icon storage it) private view {
+        bytes memory request = abi.encodeWithSignature("renderDataURI(address,uint256)", it.scene, it.scale);
+        uint256 data;
+        assembly ("memory-safe") {
+            data := add(request, 0x20)
+        }
+        Json.answer(head, address(studio), data, request.length);
     }
 }

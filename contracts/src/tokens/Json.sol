@@ -4,13 +4,17 @@ pragma solidity 0.8.37;
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Base64} from "../encode/Base64.sol";
 
-/// @title Json: what marketplaces and wallets read of a token.
+/// @title Json: what marketplaces and wallets read of a token. Text comes as it stands in JSON, escaped where it has to be.
 library Json {
     using Strings for uint256;
 
+    /// @dev Bytes of what a `data:` URI of a document begins with; and of what ends a document behind its picture.
+    uint256 private constant SCHEME_SIZE = 29;
+    uint256 private constant TAIL_SIZE = 2;
+
     /// @notice A trait whose value is text.
     function trait(string memory kind, string memory value) internal pure returns (string memory) {
-        return string.concat('{"trait_type":"', kind, '","value":"', Strings.escapeJSON(value), '"}');
+        return string.concat('{"trait_type":"', kind, '","value":"', value, '"}');
     }
 
     /// @notice A trait whose value is a number.
@@ -23,75 +27,77 @@ library Json {
         return trait(kind, value ? "Yes" : "No");
     }
 
-    /// @notice The metadata of a token.
+    /// @notice The metadata of a token up to its picture.
     /// @param traits Separated by commas.
-    /// @param image A `data:` URI.
-    function token(string memory name, string memory description, string memory traits, string memory image)
-        internal
-        pure
-        returns (bytes memory)
-    {
-        return abi.encodePacked(
-            '{"name":"',
-            Strings.escapeJSON(name),
-            '","description":"',
-            Strings.escapeJSON(description),
-            '","attributes":[',
-            traits,
-            '],"image":"',
-            image,
-            '"}'
-        );
+    function token(string memory name, string memory description, string memory traits) internal pure returns (bytes memory) {
+        return abi.encodePacked('{"name":"', name, '","description":"', description, '","attributes":[', traits, '],"image":"');
     }
 
-    /// @notice The metadata of a collection, as ERC-7572 has it.
-    /// @param image A `data:` URI; none if it is empty.
-    function collection(string memory name, string memory symbol, string memory description, string memory image)
-        internal
-        pure
-        returns (bytes memory)
-    {
-        return abi.encodePacked(
-            '{"name":"',
-            Strings.escapeJSON(name),
-            '","symbol":"',
-            Strings.escapeJSON(symbol),
-            '","description":"',
-            Strings.escapeJSON(description),
-            bytes(image).length == 0 ? "" : '","image":"',
-            image,
-            '"}'
-        );
+    /// @notice The metadata of a collection up to its picture, as ERC-7572 has it.
+    function collection(string memory name, string memory symbol, string memory description) internal pure returns (bytes memory) {
+        return abi.encodePacked(pictureless(name, symbol, description), '","image":"');
     }
 
-    /// @notice The `data:` URI of a document.
-    function uri(bytes memory json) internal pure returns (string memory) {
-        return dataUri("data:application/json;base64,", json);
+    /// @notice The metadata of a collection without a picture, but for their end.
+    function pictureless(string memory name, string memory symbol, string memory description) internal pure returns (bytes memory) {
+        return abi.encodePacked('{"name":"', name, '","symbol":"', symbol, '","description":"', description);
     }
 
-    /// @notice A `data:` URI of bytes of any kind.
-    /// @param head All before the characters of the bytes.
-    function dataUri(string memory head, bytes memory data) internal pure returns (string memory text) {
-        uint256 begin;
-        uint256 last;
-        uint256 neighbour;
-        uint256 target;
+    /// @notice Ends the call with the `data:` URI of a document that shows no picture.
+    /// @param head The document but for its end.
+    function answer(bytes memory head) internal pure {
+        finish(head, 0, 0);
+    }
+
+    /// @notice Ends the call with the `data:` URI of a document, or with why there is no picture.
+    /// @param head The document up to its picture.
+    /// @param source The contract that answers the picture, a `data:` URI.
+    /// @param data Address of the data of that call, and `size` how many bytes. They may be overwritten.
+    function answer(bytes memory head, address source, uint256 data, uint256 size) internal view {
+        uint256 length;
         assembly ("memory-safe") {
-            text := mload(0x40)
-            target := add(add(text, 0x20), mload(head))
-            mcopy(add(text, 0x20), add(head, 0x20), mload(head))
-            // the encoder wants zeros behind the data: what is there comes back afterwards
-            begin := add(data, 0x20)
-            last := add(begin, mload(data))
-            neighbour := mload(last)
-            mstore(last, 0)
+            if iszero(staticcall(gas(), source, data, size, 0, 0)) {
+                let begin := mload(0x40)
+                returndatacopy(begin, 0, returndatasize())
+                revert(begin, returndatasize())
+            }
+            // behind the offset
+            returndatacopy(0, 0x20, 0x20)
+            length := mload(0)
         }
-        uint256 end = Base64.encode(begin, data.length, target);
-        assembly ("memory-safe") {
-            mstore(last, neighbour)
-            mstore(text, sub(sub(end, text), 0x20))
-            mstore(end, 0)
-            mstore(0x40, and(add(end, 0x3f), not(0x1f)))
+        finish(head, 0x40, length);
+    }
+
+    /// @dev Memory grows with the square: the picture is copied once, and the characters of the document overwrite it.
+    /// @param offset Where the picture begins in what was answered last, and `size` how many bytes.
+    function finish(bytes memory head, uint256 offset, uint256 size) private pure {
+        unchecked {
+            uint256 begin;
+            assembly ("memory-safe") {
+                begin := mload(0x40)
+            }
+            uint256 length = head.length + size + TAIL_SIZE;
+            // behind offset and length of what is answered
+            uint256 target = begin + 0x40 + SCHEME_SIZE;
+            uint256 document = target + length / 3 + Base64.OVERLAP;
+            assembly ("memory-safe") {
+                mcopy(document, add(head, 0x20), mload(head))
+                let place := add(document, mload(head))
+                returndatacopy(place, offset, size)
+                place := add(place, size)
+                // with zeros behind it, for the encoder
+                mstore(place, '"}')
+                mstore(add(place, 0x20), 0)
+                mstore(begin, 0x20)
+                mstore(add(begin, 0x40), "data:application/json;base64,")
+            }
+            uint256 end = Base64.encode(document, length, target);
+            assembly ("memory-safe") {
+                mstore(end, 0)
+                end := sub(end, begin)
+                mstore(add(begin, 0x20), sub(end, 0x40))
+                return(begin, and(add(end, 0x1f), not(0x1f)))
+            }
         }
     }
 }

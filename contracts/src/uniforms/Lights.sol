@@ -9,7 +9,7 @@ import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
 /// @dev Over how much of the cosine a spot light fades at least, 2^-10, Q24: 1/1000 in glTF.
-int256 constant MIN_CONE = 1 << 14;
+int256 constant MIN_CONE = int256(ONE_24 >> 10);
 
 library Lights {
     /// @notice Lights in camera space.
@@ -26,7 +26,7 @@ library Lights {
                 store(record + LIGHT_IS_POINT, isPoint ? 1 : 0);
                 Vector memory v = light.vector;
                 v = view_.toCamera(isPoint ? v.sub(view_.eye) : normalize(v));
-                uint256 shift = isPoint ? 16 : 8;
+                uint256 shift = isPoint ? Q32 - Q16 : Q32 - Q24;
                 storeSigned(record + LIGHT_X, v.x.raw() >> shift);
                 storeSigned(record + LIGHT_Y, v.y.raw() >> shift);
                 storeSigned(record + LIGHT_Z, v.z.raw() >> shift);
@@ -50,17 +50,18 @@ library Lights {
                 Fixed.wrap(Extensions.spotNumber(extension, 2))
             );
             axis = view_.toCamera(normalize(axis));
-            storeSigned(record + LIGHT_AXIS_X, axis.x.raw() >> 8);
-            storeSigned(record + LIGHT_AXIS_Y, axis.y.raw() >> 8);
-            storeSigned(record + LIGHT_AXIS_Z, axis.z.raw() >> 8);
-            int256 outer = Extensions.spotNumber(extension, 4) >> 8;
-            int256 cone = (Extensions.spotNumber(extension, 3) >> 8) - outer;
+            storeSigned(record + LIGHT_AXIS_X, axis.x.raw() >> (Q32 - Q24));
+            storeSigned(record + LIGHT_AXIS_Y, axis.y.raw() >> (Q32 - Q24));
+            storeSigned(record + LIGHT_AXIS_Z, axis.z.raw() >> (Q32 - Q24));
+            int256 outer = Extensions.spotNumber(extension, 4) >> (Q32 - Q24);
+            int256 cone = (Extensions.spotNumber(extension, 3) >> (Q32 - Q24)) - outer;
             storeSigned(record + LIGHT_COS_OUTER, outer);
             storeSigned(record + LIGHT_CONE, cone < MIN_CONE ? MIN_CONE : cone);
         }
     }
 
-    function colorLanes(uint256 color) private pure returns (uint256) {
-        return (color & 0xff) | ((color & 0xff00) << 48) | ((color & 0xff0000) << 96);
+    /// @return Lanes of bytes.
+    function colorLanes(uint256 color) internal pure returns (uint256) {
+        return (color & BLUE) | ((color & GREEN) << GREEN_TO_LANE) | ((color & RED) << RED_TO_LANE);
     }
 }

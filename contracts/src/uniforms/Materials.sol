@@ -6,6 +6,9 @@ import {Specular} from "./Specular.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";
 
+/// @dev A reach, in squares of sub-pixels, that nothing exceeds.
+uint256 constant UNBOUNDED_REACH = 1 << 60;
+
 /// @notice How a surface that is lit answers the lights, and how finely it has to be shaded for that.
 library Materials {
     /// @return mode What the material adds to OBJECT_MODE.
@@ -24,6 +27,7 @@ library Materials {
                 record += LIGHT_SIZE;
             }
             if (material.specular.raw() != 0) mode |= HAS_SPECULAR;
+            if (grey) mode |= IS_GREY;
             Specular.setTable(uint256(material.specular.raw()), material.shininess);
             // without lights the normal makes no difference
             if (material.shading == FLAT || lights.length == 0) {
@@ -31,9 +35,8 @@ library Materials {
                 store(FRAGMENT_SQUARE, ONE_48);
                 store(FRAGMENT_NORMAL_LENGTH, ONE_24);
             } else {
-                store(FACE_LIGHT, load(AMBIENT));
-                store(FACE_LIGHT_40, load(AMBIENT) << 24);
-                uint256 focal = uint256(view_.focal) >> 32;
+                store(FACE_LIGHT_40, load(AMBIENT) << (Q40 - Q16));
+                uint256 focal = uint256(view_.focal) >> Q32;
                 bool isPoint = load(LIGHTS + LIGHT_IS_POINT) != 0;
                 store(SMOOTH_REACH, smoothReach(focal, uint256(material.diffuse.raw()), isPoint));
                 store(HALF_REACH, Specular.halfReach(uint256(material.specular.raw()), material.shininess));
@@ -41,7 +44,7 @@ library Materials {
                 if (lights.length == 1 && mode & IS_SPOT_LIT == 0 && !(view_.orthographic && isPoint) && !Specular.isBroad(material)) {
                     mode |= IS_QUADRATIC;
                 }
-                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE | (grey ? IS_GREY : 0);
+                mode |= IS_SMOOTH | IS_LIT | IS_DIFFUSE;
             }
         }
     }
@@ -49,8 +52,9 @@ library Materials {
     /// @dev Colour bytes times a coefficient (Q32), lanes of Q16 where 255 is one.
     function scaled(uint256 color, int256 coefficient) private pure returns (uint256) {
         unchecked {
-            uint256 k = uint256(coefficient) >> 16;
-            return ((color & 0xff) * k / 255) | (((color >> 8) & 0xff) * k / 255) << MIDDLE_AT | ((color >> 16) * k / 255) << UPPER_AT;
+            uint256 k = uint256(coefficient) >> (Q32 - Q16);
+            return ((color & BLUE) * k / 255) | (((color >> GREEN_AT) & BLUE) * k / 255) << MIDDLE_AT
+                | ((color >> RED_AT) * k / 255) << UPPER_AT;
         }
     }
 
@@ -65,14 +69,14 @@ library Materials {
     /// One and a half levels of 255 are allowed.
     function setReach(View memory view_, Light[] calldata lights, Material calldata material) private pure {
         unchecked {
-            uint256 focal = uint256(view_.focal) >> 32;
+            uint256 focal = uint256(view_.focal) >> Q32;
             uint256 strength = material.shininess * uint256(material.specular.raw());
             bool point;
             for (uint256 i; i != lights.length; ++i) if (lights[i].kind == POINT) point = true;
             if (point) strength += 2 * uint256(material.diffuse.raw());
             strength *= lights.length;
-            if (view_.orthographic) store(REACH, point ? 0 : 1 << 60);
-            else store(REACH, strength == 0 ? 1 << 60 : (48 * focal * focal << 32) / (255 * strength));
+            if (view_.orthographic) store(REACH, point ? 0 : UNBOUNDED_REACH);
+            else store(REACH, strength == 0 ? UNBOUNDED_REACH : (48 * focal * focal << Q32) / (255 * strength));
             if (Specular.isBroad(material)) store(REACH, 0);
         }
     }
@@ -83,7 +87,7 @@ library Materials {
     function smoothReach(uint256 focal, uint256 coefficient, bool isPoint) private pure returns (uint256) {
         unchecked {
             // 4 * 4 * 4 / 5 = 13
-            return isPoint && coefficient != 0 ? (13 * focal * focal << 32) / (255 * coefficient) : 1 << 60;
+            return isPoint && coefficient != 0 ? (13 * focal * focal << Q32) / (255 * coefficient) : UNBOUNDED_REACH;
         }
     }
 }

@@ -10,7 +10,7 @@ import "../pipeline/Registers.sol";
 // Flat faces are lit where their corners are small integers: in the space of the mesh.
 
 /// @dev The scale that makes Q24 of a unit vector: see storeMeshVector.
-int256 constant DIRECTION = 1 << 40;
+int256 constant DIRECTION = int256(1 << (Q32 + Q32 - Q24));
 
 library MeshSpace {
     /// @notice Scale, and eye and lights in the space of the mesh.
@@ -19,7 +19,7 @@ library MeshSpace {
             int256 scale = object.scale.raw();
             if (scale == 0) return;
             storeSigned(SCALE, scale);
-            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << 64) / loadSigned(NEAR));
+            if (!view_.orthographic) storeSigned(SCALE_PER_NEAR, (scale << (Q32 + Q32)) / loadSigned(NEAR));
             Vector memory position = object.position;
             if (view_.orthographic) storeMeshVector(EYE_X, rotation.transposedTimes(view_.forward), DIRECTION);
             else storeMeshVector(EYE_X, rotation.transposedTimes(view_.eye.sub(position)), scale);
@@ -37,10 +37,11 @@ library MeshSpace {
         }
     }
 
-    /// @dev A unit vector, Q24, in signed lanes of 85 bits, z lowest.
+    /// @dev A unit vector, Q24, in signed lanes of 86 bits, z lowest.
     function storeLanes(uint256 pointer, Vector memory v) private pure {
         unchecked {
-            storeSigned(pointer, ((v.x.raw() >> 8) << 170) + ((v.y.raw() >> 8) << 85) + (v.z.raw() >> 8));
+            uint256 shift = Q32 - Q24;
+            storeSigned(pointer, ((v.x.raw() >> shift) << UPPER_86_AT) + ((v.y.raw() >> shift) << MIDDLE_86_AT) + (v.z.raw() >> shift));
         }
     }
 
@@ -48,9 +49,9 @@ library MeshSpace {
     /// to 2^60 leave room for the shift.
     function storeMeshVector(uint256 pointer, Vector memory v, int256 scale) private pure {
         unchecked {
-            storeSigned(pointer, (v.x.raw() << 32) / scale);
-            storeSigned(pointer + 32, (v.y.raw() << 32) / scale);
-            storeSigned(pointer + 64, (v.z.raw() << 32) / scale);
+            storeSigned(pointer, (v.x.raw() << Q32) / scale);
+            storeSigned(pointer + 32, (v.y.raw() << Q32) / scale);
+            storeSigned(pointer + 64, (v.z.raw() << Q32) / scale);
         }
     }
 }

@@ -79,6 +79,12 @@ library Runs {
         }
     }
 
+    /// @notice Changes a call: so many objects are in it.
+    function setCount(uint256 data, uint256 count) internal pure {
+        store(registerOf(data, OBJECT_COUNT), count);
+        store(registerOf(data, OBJECT_TOTAL), count);
+    }
+
     /// @notice Changes a call: pixels and depths that were drawn before stand at this address.
     function setDrawn(uint256 data, uint256 drawn) internal pure {
         unchecked {

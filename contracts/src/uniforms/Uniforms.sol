@@ -8,6 +8,8 @@ import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
 import {MeshSpace} from "./MeshSpace.sol";
+import {Runs} from "./Runs.sol";
+import {TileCulling} from "./TileCulling.sol";
 import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
 import "../pipeline/Registers.sol";
@@ -17,8 +19,9 @@ import "../pipeline/Registers.sol";
 //
 //   4 bytes            selector
 //   FRAME_SIZE bytes   the registers of the frame
-//                      the scene, as it stands in the call of the Renderer, with all that follows it; the engine reads the meshes of it
-//   for each object:   its registers, OBJECT_BYTES bytes
+//                      the scene, as it stands in the call of the Renderer, with all that follows it; the engine reads the meshes of it,
+//                      in which for a tile only those faces are left that may touch it: see TileCulling. Then a word of any content
+//   for each object:   its registers, OBJECT_BYTES bytes; not for those without faces in a tile
 //                      what other engines have drawn before: see DRAWN_BEFORE
 
 library Uniforms {
@@ -40,6 +43,7 @@ library Uniforms {
             data = freeMemory() + room;
             uint256 size;
             uint256 moved;
+            bool culls = (tile.width < scene.canvas.width || tile.height < scene.canvas.height) && TileCulling.areApart(scene);
             assembly ("memory-safe") {
                 size := sub(calldatasize(), scene)
                 mstore(data, selector)
@@ -47,21 +51,24 @@ library Uniforms {
                 calldatacopy(end, scene, size)
                 // the place in the engine's calldata of what is at 0 in these
                 moved := sub(add(4, FRAME_SIZE), scene)
-                end := add(end, size)
+                end := add(add(end, size), 32)
                 mstore(OBJECTS, sub(end, data))
                 mstore(OBJECTS_BEGIN, sub(end, data))
                 mcopy(add(data, 4), REGISTERS, FRAME_SIZE)
             }
+            uint256 count;
             for (uint256 i; i != scene.objects.length; ++i) {
                 // what is allocated for an object is given up with it
                 setFreeMemory(end);
                 extension = setOpacity(scene, i, extension);
-                setObject(view_, scene, scene.objects[i], tile, moved);
+                if (!setObject(view_, scene, i, tile, moved, culls ? data + moved : 0)) continue;
+                ++count;
                 assembly ("memory-safe") {
                     mcopy(end, OBJECT_BYTES, mload(OBJECT_BYTES))
                     end := add(end, mload(OBJECT_BYTES))
                 }
             }
+            Runs.setCount(data, count);
             setFreeMemory(data - room);
         }
     }
@@ -76,13 +83,29 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
-            store(CANVAS_HEIGHT, scene.canvas.height);
-            store(BACKGROUND_TOP, scene.background.top);
-            store(BACKGROUND_BOTTOM, scene.background.bottom);
+            setBackground(scene, tile);
             store(INVERT, scene.invert);
-            store(OBJECT_COUNT, scene.objects.length);
-            store(OBJECT_TOTAL, scene.objects.length);
             extension = Lights.set(view_, scene);
+        }
+    }
+
+    /// @dev Lanes of Q24: the lowest row of the tile, and the change from row to row upwards.
+    function setBackground(Scene calldata scene, Rectangle memory tile) private pure {
+        unchecked {
+            (uint256 top, uint256 bottom, uint256 height) = (scene.background.top, scene.background.bottom, scene.canvas.height);
+            uint256 step = laneStep(top, bottom, height == 1 ? 1 : height - 1);
+            uint256 lowest = (Lights.colorLanes(height == 1 ? top : bottom) << 24) + (ONES << 23);
+            store(BACKGROUND, lowest + step * (height - tile.y - tile.height));
+            store(BACKGROUND_STEP, step);
+        }
+    }
+
+    function laneStep(uint256 top, uint256 bottom, uint256 rows) private pure returns (uint256 step) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) {
+                int256 difference = int256((top >> (8 * i)) & 0xff) - int256((bottom >> (8 * i)) & 0xff);
+                step += uint256((difference << 24) / int256(rows)) << (MIDDLE_AT * i);
+            }
         }
     }
 
@@ -101,18 +124,29 @@ library Uniforms {
     }
 
     /// @param moved How much farther the scene stands in the engine's calldata; may be negative.
-    function setObject(View memory view_, Scene calldata scene, Object calldata object, Rectangle memory tile, uint256 moved) private pure {
+    /// @param copied If not 0, only what may touch the tile is to be left of the mesh; the scene in memory is so much farther.
+    /// @return Whether there is something to draw.
+    function setObject(View memory view_, Scene calldata scene, uint256 number, Rectangle memory tile, uint256 moved, uint256 copied)
+        private
+        pure
+        returns (bool)
+    {
         unchecked {
+            Object calldata object = scene.objects[number];
             Matrix memory rotation = object.rotation.toMatrix();
+            Transform.setMatrix(view_, object, rotation);
+            Transform.setRounding(tile, object.flags & WIREFRAME != 0);
             Mesh memory mesh = openMesh(object.mesh);
+            if (copied != 0) {
+                TileCulling.run(mesh, copied, number);
+                if (mesh.faceCount == 0) return false;
+            }
             mesh.vertices += moved;
             mesh.faces += moved;
             assembly ("memory-safe") {
                 mcopy(MESH_VERTICES, mesh, 0xc0)
             }
             store(OBJECT_FLAGS, object.flags);
-            Transform.setMatrix(view_, object, rotation);
-            Transform.setRounding(tile, object.flags & WIREFRAME != 0);
             uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
             if (load(OPACITY) != OPAQUE) mode |= IS_BLENDED;
             uint256 end = OBJECT_LIT;
@@ -126,6 +160,7 @@ library Uniforms {
             }
             store(OBJECT_MODE, mode);
             store(OBJECT_BYTES, end - OBJECT_BYTES);
+            return true;
         }
     }
 }

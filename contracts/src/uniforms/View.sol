@@ -35,14 +35,14 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
         view_.down = view_.forward.cross(view_.right);
 
         view_.orthographic = camera.projection == ORTHOGRAPHIC;
-        // 256 sub-pixels, half the height
-        view_.focal = (int256(height) << 71) / camera.halfHeight.raw();
-        view_.centerX = 2 * int256(width * 128 + PIXEL_BIAS * 256 - 128) + 1;
-        view_.centerY = 2 * int256(height * 128 + PIXEL_BIAS * 256 - 128) + 1;
+        // sub-pixels of half the height
+        view_.focal = (int256(height) << (SUBPIXEL_BITS - 1 + Q32 + Q32)) / camera.halfHeight.raw();
+        view_.centerX = 2 * int256(width * HALF_PIXEL + (PIXEL_BIAS << SUBPIXEL_BITS) - HALF_PIXEL) + 1;
+        view_.centerY = 2 * int256(height * HALF_PIXEL + (PIXEL_BIAS << SUBPIXEL_BITS) - HALF_PIXEL) + 1;
 
         store(FRAME_IS_ORTHOGRAPHIC, view_.orthographic ? 1 : 0);
         storeSigned(NEAR, camera.near.raw());
-        storeSigned(DEPTH_SCALE, view_.orthographic ? int256(1 << 54) : camera.near.raw() << 54);
+        storeSigned(DEPTH_SCALE, view_.orthographic ? int256(1 << DEPTH_BITS) : camera.near.raw() << DEPTH_BITS);
         setRays(view_, width, height);
     }
 }
@@ -51,7 +51,7 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
 function setRays(View memory view_, uint256 width, uint256 height) pure {
     unchecked {
         // where all rays are parallel, places in world units (Q32) instead
-        int256 step = (view_.orthographic ? int256(1 << 72) : int256(1 << 64)) / view_.focal;
+        int256 step = (view_.orthographic ? int256(1 << (SUBPIXEL_BITS + Q32 + Q32)) : int256(1 << (SUBPIXEL_BITS + Q32 + Q24))) / view_.focal;
         storeSigned(RAY_STEP, step);
         storeSigned(RAY_LEFT, ((int256(1) - int256(width + 2 * PIXEL_BIAS)) * step) / 2);
         storeSigned(RAY_TOP, ((int256(1) - int256(height + 2 * PIXEL_BIAS)) * step) / 2);
@@ -60,14 +60,14 @@ function setRays(View memory view_, uint256 width, uint256 height) pure {
         // The square root is taken from the chord between the middle and the corner of the canvas, raised by half its largest error
         uint256 x = width * uint256(step) / 2;
         uint256 y = height * uint256(step) / 2;
-        uint256 square = (1 << 48) + x * x + y * y;
+        uint256 square = ONE_48 + x * x + y * y;
         uint256 corner = sqrt(square);
-        uint256 slope = ((corner - (1 << 24)) << 48) / (square - (1 << 48) + 1);
-        uint256 raised = (corner - (1 << 24)) * (corner - (1 << 24)) / (8 * (corner + (1 << 24)));
+        uint256 slope = ((corner - ONE_24) << Q48) / (square - ONE_48 + 1);
+        uint256 raised = (corner - ONE_24) * (corner - ONE_24) / (8 * (corner + ONE_24));
         store(LENGTH_SLOPE, slope);
-        store(LENGTH_AT_0, (1 << 24) - slope + raised);
+        store(LENGTH_AT_0, ONE_24 - slope + raised);
         // relative error of the first step: 2^-16 up to 1.3 times the middle; each further step squares it and halves that
-        store(LENGTH_STEPS, corner < 21810380 ? 0 : corner < 41943040 ? 1 : corner < 100663296 ? 2 : 12);
+        store(LENGTH_STEPS, corner < ONE_24 * 13 / 10 ? 0 : corner < ONE_24 * 5 / 2 ? 1 : corner < ONE_24 * 6 ? 2 : 12);
     }
 }
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any
 
-from Crypto.Hash import keccak
+from ..ethereum.abi import SOLIDITY_ERRORS, Errors, Interface, error_table
 
-#: What draws: the others are for those who want them.
+#: The contracts that draw.
 RENDERER = ("Engine", "FragmentEngine", "Renderer")
 
 
@@ -23,7 +23,6 @@ class Artifact:
     runtime: what stands on the chain then, but for immutable values.
     parts: the contracts whose addresses the constructor asks for.
     selectors: of each function, by its name.
-    errors: name and parameters (name, type) of each error, by its selector.
     """
 
     name: str
@@ -33,17 +32,21 @@ class Artifact:
     runtime: bytes
     parts: list[str]
     selectors: dict[str, bytes]
-    errors: dict[bytes, tuple[str, list[tuple[str, str]]]]
 
-    @property
-    def functions(self) -> dict[bytes, str]:
-        """The name of each function, by its selector."""
-        return {selector: name for name, selector in self.selectors.items()}
+    @cached_property
+    def interface(self) -> Interface:
+        """The functions of the contract, to encode calls and decode answers."""
+        return Interface(self.abi)
+
+    @cached_property
+    def errors(self) -> Errors:
+        """Name and parameters (name, type) of each error, by its selector."""
+        return error_table(self.abi)
 
 
 @cache
 def artifact(name: str) -> Artifact:
-    """The contract of that name."""
+    """Return the compiled contract of that name."""
     data = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
     return Artifact(
         name=name,
@@ -61,18 +64,20 @@ def artifact(name: str) -> Artifact:
         selectors={
             signature.split("(")[0]: bytes.fromhex(value) for signature, value in data["methodIdentifiers"].items()
         },
-        errors=dict(map(_error, (entry for entry in data["abi"] if entry["type"] == "error"))),
     )
 
 
 def contracts(group: str | None = None) -> list[str]:
-    """The names of all compiled contracts, or of those of a group."""
+    """Return the names of all compiled contracts, or of those of a group."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
     found = sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
     return [name for name in found if group is None or artifact(name).group == group]
 
 
-def _error(entry: dict[str, Any]) -> tuple[bytes, tuple[str, list[tuple[str, str]]]]:
-    parameters = [(parameter["name"], parameter["type"]) for parameter in entry["inputs"]]
-    signature = f"{entry['name']}({','.join(kind for _, kind in parameters)})"
-    return keccak.new(digest_bits=256, data=signature.encode()).digest()[:4], (entry["name"], parameters)
+@cache
+def known_errors() -> Errors:
+    """Return the errors of all contracts, since each passes on those of the contracts that it calls."""
+    errors = dict(SOLIDITY_ERRORS)
+    for name in contracts():
+        errors |= artifact(name).errors
+    return errors

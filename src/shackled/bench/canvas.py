@@ -9,15 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from ..image import decode_bmp
 from ..scene.camera import Projection
 from .lab import Lab
-from .measure import cost, evm
+from .measure import cost, picture
 from .original import original_gas
 from .plots import ORIGINAL, OURS, powers_of_two
-from .report import Report
+from .report import Report, millions, ratio, table
 from .scenes import cube
-from .table import millions, ratio, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -98,6 +96,4 @@ def _gallery(sides: tuple[int, ...]) -> PillowImage.Image:
 
 
 def _picture(projection: Projection, side: int) -> NDArray[np.uint8]:
-    scene = cube(side, projection)
-    pixels = decode_bmp(evm().draw(scene).bmp, side, side)
-    return np.kron(pixels, np.ones((SHOWN // side, SHOWN // side, 1), np.uint8))
+    return np.kron(picture(cube(side, projection)), np.ones((SHOWN // side, SHOWN // side, 1), np.uint8))

@@ -11,14 +11,12 @@ from attrs import evolve
 
 from ..datasets import require
 from ..datasets.common import builtin
-from ..image import decode_bmp
 from ..scene.look import resize
 from .lab import Lab
-from .measure import cost, evm
+from .measure import cost, picture
 from .original import PAPER_CULLED, PAPER_CULLING_RATIO, PAPER_UNCULLED, original
 from .plots import FOURTH, OURS
-from .report import Report
-from .table import millions, table
+from .report import Report, millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -77,7 +75,7 @@ def measure(name: str) -> Pair:
     scene = resize(require(name).make(), SIDE)
     culled, open_ = (evolve(scene, objects=[evolve(o, cull=cull) for o in scene.objects]) for cull in (True, False))
     a, b = cost(culled), cost(open_)
-    pixels = [decode_bmp(evm().draw(each).bmp, SIDE, SIDE) for each in (culled, open_)]
+    pixels = [picture(each) for each in (culled, open_)]
     return Pair(
         name=name,
         faces=scene.triangles,

@@ -6,13 +6,13 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from ..artifacts import RENDERER, artifact
-from ..chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain, intrinsic_gas
+from ..chain.embedded import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain
 from ..deploy.contract import STANDARD
+from ..ethereum import intrinsic_gas
 from .lab import Lab
 from .original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from .plots import ORIGINAL, OURS
-from .report import Cell, Report
-from .table import millions, table
+from .report import Cell, Report, millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

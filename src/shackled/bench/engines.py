@@ -3,33 +3,29 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from ..artifacts import artifact
-from ..chain import CHAINS, ContractChain, open_chain
+from ..chain import CHAINS, ContractChain, open_chain, open_node
+from ..chain.node import NodeChain
 from ..datasets.teapot import teapot
 from ..errors import RenderError
 from ..scene.codec import encode
 from ..scene.scene import Scene
 from ..scene.staging import Look, stage
-from .anvil import AnvilChain, find_anvil
 from .lab import Lab
 from .plots import FOURTH, ORIGINAL, OURS, THIRD
-from .report import Cell, Report
+from .report import Cell, Report, millions, table
 from .scenes import cube, equal_triangles
-from .table import millions, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: The names of engines: those of chains, and the node.
-ENGINES = ("pyrevm", "pyevm", "anvil")
-NAMES = {"pyrevm": "pyrevm", "pyevm": "py-evm", "anvil": "anvil (eth_call over HTTP)"}
+#: The embedded engines: how figures and how people call them.
+ENGINES = {"pyrevm": "pyrevm", "pyevm": "py-evm"}
 #: Calls are made again while they have taken less than this together, in seconds; the shortest counts.
 ENOUGH = 1.0
 
@@ -46,11 +42,10 @@ class Run:
 def run(lab: Lab) -> Report:
     """A few scenes in each. Nothing else is measured at the same time, so that the times mean something."""
     scenes = all_scenes(lab.quick)
-    engines = [name for name in ENGINES if is_at_hand(name)]
+    engines = opened(lab.rpc)
     runs: dict[tuple[str, str], Run] = {}
-    for engine in engines:
-        with opened(engine) as chain:
-            found = lab.map(engine, partial(measure, chain), scenes.values(), alone=True)
+    for engine, chain in engines.items():
+        found = lab.map(engine, partial(measure, chain), scenes.values(), alone=True)
         runs |= {(engine, name): each for name, each in zip(scenes, found, strict=True)}
     for name in scenes:
         if len({(runs[engine, name].gas, runs[engine, name].output) for engine in engines}) != 1:
@@ -61,11 +56,13 @@ def run(lab: Lab) -> Report:
         axes = figure.add_subplot()
         for engine, color in zip(engines, (OURS, ORIGINAL, THIRD, FOURTH), strict=False):
             points = sorted((runs[engine, name].gas / 1e6, runs[engine, name].seconds) for name in scenes)
-            axes.plot(*zip(*points, strict=True), "o-", color=color, ms=4, lw=1.2, label=NAMES[engine])
+            axes.plot(*zip(*points, strict=True), "o-", color=color, ms=4, lw=1.2, label=label_of(engine))
         axes.set(xscale="log", yscale="log", xlabel="gas of the picture, millions", ylabel="seconds")
         axes.legend()
 
-    return Report("Engines", ["engine", "scene", "gas", "seconds"], rows, _text(engines, list(scenes), runs), draw)
+    return Report(
+        "Engines", ["engine", "scene", "gas", "seconds"], rows, _text(list(engines), list(scenes), runs), draw
+    )
 
 
 def all_scenes(quick: bool) -> dict[str, Scene]:
@@ -80,36 +77,35 @@ def all_scenes(quick: bool) -> dict[str, Scene]:
     }
 
 
-def is_at_hand(engine: str) -> bool:
-    """Whether it is installed."""
-    return find_anvil() is not None if engine == "anvil" else find_spec(CHAINS[engine]) is not None
+def opened(rpc: str | None) -> dict[str, ContractChain | NodeChain]:
+    """Open each engine that is installed, and the node at an address, by the names that the figures give them."""
+    found: dict[str, ContractChain | NodeChain] = {}
+    for name in ENGINES:
+        if find_spec(CHAINS[name]) is not None:
+            chain = open_chain(name)
+            assert isinstance(chain, ContractChain)
+            found[name] = chain
+    if rpc is not None:
+        node = open_node(rpc)
+        # such as anvil/v1.7.1
+        found[str(node.connection.request("web3_clientVersion")).partition("/")[0].lower()] = node
+    return found
 
 
-@contextmanager
-def opened(engine: str) -> Iterator[ContractChain]:
-    """The engine with the contracts in it."""
-    if engine != "anvil":
-        chain = open_chain(engine)
-        assert isinstance(chain, ContractChain)
-        chain.address("Renderer")  # type: ignore[attr-defined]
-        yield chain
-        return
-    binary = find_anvil()
-    assert binary is not None
-    with AnvilChain(binary) as node:
-        node.address("Renderer")
-        yield node
+def label_of(engine: str) -> str:
+    """Name an engine in plots and tables."""
+    return ENGINES.get(engine, f"{engine} (eth_call over HTTP)")
 
 
-def measure(chain: ContractChain, scene: Scene) -> Run:
-    """The shortest of some calls; the first is not counted where there are several."""
+def measure(chain: ContractChain | NodeChain, scene: Scene) -> Run:
+    """Time the shortest of some calls, after a first one that sets the contracts up."""
     data = encode(artifact("Renderer").selectors["render"], scene)
     result = chain.call("Renderer", data)
-    call = chain.read if isinstance(chain, AnvilChain) else chain.call
+    assert result.gas is not None, "the node does not tell the gas of a call"
     seconds: list[float] = []
     while sum(seconds) < ENOUGH:
         started = time.perf_counter()
-        call("Renderer", data)
+        chain.call("Renderer", data)
         seconds.append(time.perf_counter() - started)
     return Run(min(seconds), result.gas, result.output)
 
@@ -123,9 +119,10 @@ def _text(engines: list[str], scenes: list[str], runs: dict[tuple[str, str], Run
     speeds = []
     for engine in engines:
         last = runs[engine, scenes[-1]]
-        speeds.append(f"{NAMES[engine]} {last.gas / last.seconds / 1e6:,.{0 if last.seconds < 1 else 1}f}")
+        speeds.append(f"{label_of(engine)} {last.gas / last.seconds / 1e6:,.{0 if last.seconds < 1 else 1}f}")
     return (
         "The same bytes for the same gas in each. The times are of the machine on which this ran, and the only figures"
         " here that differ from machine to machine. Millions of gas a second, for the last scene:"
-        f" {', '.join(speeds)}.\n\n" + table(["scene", "gas", *(f"{NAMES[engine]}, ms" for engine in engines)], lines)
+        f" {', '.join(speeds)}.\n\n"
+        + table(["scene", "gas", *(f"{label_of(engine)}, ms" for engine in engines)], lines)
     )

@@ -14,8 +14,7 @@ from .lab import Lab
 from .measure import cost
 from .original import original
 from .plots import INK, ORIGINAL, OURS, THIRD
-from .report import Report
-from .table import millions, table
+from .report import Report, millions, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,8 +69,8 @@ def measure(number: int) -> Piece:
     """One piece."""
     scene = require(f"genesis/{number}").make()
     found = cost(scene)
-    faces = scene.triangles
-    return Piece(number, faces, found.triangles, found.lit_pixels, any(o.wireframe for o in scene.objects), found.gas)
+    wireframe = any(o.wireframe for o in scene.objects)
+    return Piece(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
 def line(x: ArrayLike, y: ArrayLike) -> tuple[float, float, float]:

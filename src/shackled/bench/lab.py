@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context
+from collections.abc import Callable, Iterable, Iterator
 from types import TracebackType
 from typing import TypeVar
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from ..errors import RenderError
+from ..workers import each
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -22,15 +19,15 @@ Result = TypeVar("Result")
 class Lab:
     """A context in which experiments are made."""
 
-    def __init__(self, quick: bool = False, processes: int | None = None) -> None:
+    def __init__(self, quick: bool = False, processes: int | None = None, rpc: str | None = None) -> None:
         """With as many processes as cores, unless `processes` says how many: embedded EVMs hold Python's lock, so that
         threads would not help.
 
-        quick: whether a few small scenes suffice, to see that everything works.
+        quick: whether a few small scenes suffice, to see that everything works. rpc: a node to be measured too.
         """
+        self.rpc = rpc
         self.quick = quick
         self.processes = processes or os.cpu_count() or 1
-        self._pool: ProcessPoolExecutor | None = None
         self._progress = Progress(
             TextColumn("{task.description:10}"),
             BarColumn(),
@@ -48,8 +45,6 @@ class Lab:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._progress.stop()
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
 
     def map(
         self, label: str, function: Callable[[Item], Result], items: Iterable[Item], alone: bool = False
@@ -61,19 +56,12 @@ class Lab:
         """
         items = list(items)
         task = self._progress.add_task(label, total=len(items))
+        results: dict[int, Result] = {}
         if alone or self.processes == 1:
-            results = []
-            for item in items:
-                results.append(function(item))
-                self._progress.advance(task)
-            return results
-        if self._pool is None:
-            self._pool = ProcessPoolExecutor(self.processes, get_context("spawn"))
-        try:
-            futures: list[Future[Result]] = [self._pool.submit(function, item) for item in items]
-            for future in as_completed(futures):
-                future.result()
-                self._progress.advance(task)
-        except BrokenProcessPool:
-            raise RenderError(f"a process that measured {label} ended: was there too little memory?") from None
-        return [future.result() for future in futures]
+            found: Iterator[tuple[int, Result]] = ((place, function(item)) for place, item in enumerate(items))
+        else:
+            found = each(function, items, self.processes)
+        for place, result in found:
+            results[place] = result
+            self._progress.advance(task)
+        return [results[place] for place in range(len(items))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,14 +10,13 @@ import numpy as np
 from ..scene.light import Light
 from ..scene.material import Material
 from ..scene.scene import Scene
-from .fits import Column, Fit, fit
+from .fits import Column, fit, line
 from .lab import Lab
 from .measure import cost
 from .original import original
 from .plots import FOURTH, OURS, THIRD
-from .report import Report
+from .report import Report, table
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
-from .table import table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,14 +43,14 @@ def run(lab: Lab) -> Report:
     """Squares cut ever finer, cubes on ever larger canvases; and the scenes that the original was measured with."""
     divisions, sides = (DIVISIONS[::8], SIDES[:3]) if lab.quick else (DIVISIONS, SIDES)
     tasks: list[tuple[str, Scene]] = []
-    for look, (material, lights) in LOOKS.items():
-        tasks += [(f"{look} squares", square(n, SQUARE_SIDE, material, lights)) for n in divisions]
-        tasks += [(f"{look} cubes", turned_cube(side, material, lights)) for side in sides]
+    for look in LOOKS:
+        tasks += [(f"{look} squares", scene) for scene in squares(look, divisions)]
+        tasks += [(f"{look} cubes", scene) for scene in cubes(look, sides)]
     tasks += [("equal triangles", equal_triangles(n)) for n in (range(1, 4) if lab.quick else range(1, 17))]
     tasks += [("cubes of the original", cube(side)) for side in sides]
     costs = lab.map("linear", cost, [scene for _, scene in tasks])
     rows = [
-        (series, faces_of(scene), scene.width * scene.height, found.gas)
+        (series, scene.triangles, scene.width * scene.height, found.gas)
         for (series, scene), found in zip(tasks, costs, strict=True)
     ]
 
@@ -70,9 +70,16 @@ def run(lab: Lab) -> Report:
     return Report("Straight lines", ["series", "triangles", "pixels", "gas"], rows, _text(rows), draw, (7.6, 3.3))
 
 
-def faces_of(scene: Scene) -> int:
-    """Triangles of all meshes."""
-    return scene.triangles
+def squares(look: str, divisions: Sequence[int] = DIVISIONS) -> list[Scene]:
+    """Make the same square, cut ever finer."""
+    material, lights = LOOKS[look]
+    return [square(each, SQUARE_SIDE, material, lights) for each in divisions]
+
+
+def cubes(look: str, sides: Sequence[int] = SIDES) -> list[Scene]:
+    """Make the same cube on ever larger canvases."""
+    material, lights = LOOKS[look]
+    return [turned_cube(side, material, lights) for side in sides]
 
 
 def columns_of(rows: list[Row], *series: str) -> tuple[str, Column, Column, Column]:
@@ -87,20 +94,20 @@ def _text(rows: list[Row]) -> str:
         found = sorted((f for key, f in original().items() if key.startswith(f"{name}_")), key=lambda f: f.gas)
         gas = np.array([f.gas for f in found], float)
         if name == "tris":
-            lines.append(_line("original: equal triangles", ("triangles",), fit([[f.triangles for f in found]], gas)))
+            lines.append(line("original: equal triangles", ("triangles",), fit([[f.triangles for f in found]], gas)))
         else:
-            lines.append(_line("original: cubes", ("pixels",), fit([[f.canvas**2 for f in found]], gas)))
+            lines.append(line("original: cubes", ("pixels",), fit([[f.canvas**2 for f in found]], gas)))
     _, triangles, _, gas = columns_of(rows, "equal triangles")
-    lines.append(_line("ours: equal triangles", ("triangles",), fit([triangles], gas)))
+    lines.append(line("ours: equal triangles", ("triangles",), fit([triangles], gas)))
     _, _, pixels, gas = columns_of(rows, "cubes of the original")
-    lines.append(_line("ours: cubes", ("pixels",), fit([pixels], gas)))
+    lines.append(line("ours: cubes", ("pixels",), fit([pixels], gas)))
     for look in LOOKS:
         _, triangles, _, gas = columns_of(rows, f"{look} squares")
-        lines.append(_line(f"ours: {look} squares", ("triangles",), fit([triangles], gas)))
+        lines.append(line(f"ours: {look} squares", ("triangles",), fit([triangles], gas)))
         _, _, pixels, gas = columns_of(rows, f"{look} cubes")
-        lines.append(_line(f"ours: {look} cubes", ("pixels",), fit([pixels], gas)))
+        lines.append(line(f"ours: {look} cubes", ("pixels",), fit([pixels], gas)))
         _, triangles, pixels, gas = columns_of(rows, f"{look} squares", f"{look} cubes")
-        lines.append(_line(f"ours: {look}, all", ("triangles", "pixels"), fit([triangles, pixels], gas)))
+        lines.append(line(f"ours: {look}, all", ("triangles", "pixels"), fit([triangles, pixels], gas)))
     counts = [row[1] for row in rows if row[0] == "unlit squares"]
     return (
         "R2 says what share of the differences a straight line explains. The first four rows are the same scenes on"
@@ -109,9 +116,3 @@ def _text(rows: list[Row]) -> str:
         " pixels of large triangles and for the vertices of small ones, so that a glossy square cut finer first needs"
         " more gas, then less, then more again, and lies on no line.\n\n" + table(["scenes", "gas", "R2"], lines)
     )
-
-
-def _line(name: str, quantities: tuple[str, ...], by: Fit) -> list[str]:
-    constant, *slopes = by.coefficients
-    terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, quantities, strict=True)]
-    return [name, " ".join([f"{constant:,.0f}", *terms]), f"{by.r2:.6f}"]

@@ -1,12 +1,16 @@
-"""What one call costs."""
+"""What one call costs. Gas is exact, so that one call is enough."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..artifacts import artifact
-from ..chain import ContractChain, open_chain
-from ..scene.codec import encode
+from ..chain import CallResult, ContractChain, open_chain
+from ..image import decode_bmp
+from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
 
 
@@ -19,19 +23,33 @@ class Cost:
     lit_pixels: int
 
 
-def cost(scene: Scene) -> Cost:
-    """What the picture of a scene costs, in the fastest EVM that is installed."""
-    return Cost(call(scene)[0], *evm().count(scene))
-
-
-def call(scene: Scene, function: str = "render") -> tuple[int, int]:
-    """Execution gas of a function of the Renderer that takes a scene, and bytes of the file that it returns."""
-    result = evm().call("Renderer", encode(artifact("Renderer").selectors[function], scene))
-    return result.gas, int.from_bytes(result.output[32:64], "big")
-
-
 def evm() -> ContractChain:
-    """The fastest one that is installed."""
+    """Open the fastest EVM that is installed."""
     chain = open_chain()
     assert isinstance(chain, ContractChain)
     return chain
+
+
+def call(contract: str, data: bytes) -> CallResult:
+    """Call a contract."""
+    return evm().call(contract, data)
+
+
+def call_renderer(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> CallResult:
+    """Call a function of the Renderer that takes a scene."""
+    return call("Renderer", encode(artifact("Renderer").selectors[function], scene, tile))
+
+
+def gas(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> int:
+    """Measure the execution gas of a function of the Renderer that takes a scene."""
+    return call_renderer(scene, function, tile).gas
+
+
+def cost(scene: Scene) -> Cost:
+    """Measure what the picture of a scene costs."""
+    return Cost(gas(scene), *evm().count(scene))
+
+
+def picture(scene: Scene) -> NDArray[np.uint8]:
+    """Draw a scene: (H, W, 3)."""
+    return decode_bmp(evm().draw(scene).bmp, scene.width, scene.height)

@@ -7,15 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image as PillowImage
 
-from ..image import decode_bmp
 from .fits import Column, Fit, fit, quadratic_share
 from .lab import Lab
-from .measure import cost, evm
+from .measure import cost, picture
 from .original import original_gas
 from .plots import ORIGINAL, OURS
-from .report import Report
+from .report import Report, millions, ratio, table
 from .scenes import equal_triangles
-from .table import millions, ratio, table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -79,6 +77,6 @@ def _panel(axes: Axes, x: Column, y: Column, color: str, title: str, label: str)
 
 def _gallery(counts: tuple[int, ...]) -> PillowImage.Image:
     """Four pictures a row."""
-    pictures = [decode_bmp(evm().draw(equal_triangles(count)).bmp, 128, 128) for count in counts]
+    pictures = [picture(equal_triangles(count)) for count in counts]
     rows = [np.hstack(pictures[at : at + 4]) for at in range(0, len(pictures), 4)]
     return PillowImage.fromarray(np.vstack(rows))

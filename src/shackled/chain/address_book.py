@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import InputError, OutputError
+from ..ethereum import checksum_address, parse_address
 from ..whole_file import write_whole
-from .addresses import parse_address, show_address
 
 #: Names the file, where it is set.
 VARIABLE = "SHACKLED_ADDRESS_BOOK"
 
 
 def book_path() -> Path:
-    """That of the variable SHACKLED_ADDRESS_BOOK, or else in the system's folder for such files; it may not exist."""
+    """Return the path in the variable SHACKLED_ADDRESS_BOOK, or one in the system's folder for data of users."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return Path(chosen)
@@ -34,37 +35,37 @@ class AddressBook:
         self.path = book_path() if path is None else path
 
     def find(self, chain_id: int, contract: str) -> bytes | None:
-        """The address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
+        """Return the address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
         return self.entries(chain_id).get(contract)
 
     def entries(self, chain_id: int) -> dict[str, bytes]:
-        """All that is known of a chain. InputError if the file cannot be read."""
+        """Return all that is known of a chain. InputError if the file cannot be read."""
         chain = self._read().get(str(chain_id), {})
         return {name: parse_address(text, f"{name} on chain {chain_id} in {self.path}") for name, text in chain.items()}
 
     def places(self, contract: str) -> dict[int, bytes]:
-        """The addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
+        """Return the addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
         found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
         return {chain: address for chain, address in found.items() if address is not None}
 
     def check(self) -> None:
-        """InputError if `write` would fail; makes the folder."""
+        """Make the folder. Raises InputError if the book is broken, OutputError if it could not be written."""
         self._read()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise self._unwritable(error.strerror) from None
+            raise self._unwritable(error) from None
         if not os.access(self.path.parent, os.W_OK):
-            raise self._unwritable("nothing can be written to its folder")
+            raise self._unwritable(PermissionError(errno.EACCES, "nothing can be written to its folder"))
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
         """Adds addresses of a chain to the file, or puts them in place of those that are there.
 
-        InputError if the file cannot be read or written; then nothing has changed.
+        Raises InputError if the file cannot be read, OutputError if it cannot be written; then nothing has changed.
         """
         chains = self._read()
         known = chains.setdefault(str(chain_id), {})
-        new = known | {name: show_address(address) for name, address in addresses.items()}
+        new = known | {name: checksum_address(address) for name, address in addresses.items()}
         if new == known:
             return
         chains[str(chain_id)] = new
@@ -73,10 +74,11 @@ class AddressBook:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, text.encode())
         except OSError as error:
-            raise self._unwritable(error.strerror) from None
+            raise self._unwritable(error) from None
 
-    def _unwritable(self, why: str | None) -> InputError:
-        return InputError(f"the address book {self.path} cannot be written: {why}; name another file in {VARIABLE}")
+    def _unwritable(self, error: OSError) -> OutputError:
+        why = f"{error.strerror}; name another file in {VARIABLE}"
+        return OutputError(error.errno, why, f"the address book {self.path}")
 
     def _read(self) -> dict[str, dict[str, str]]:
         hint = f"repair or remove it, or name another file in {VARIABLE}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from ..artifacts import artifact
 from ..errors import RenderError
@@ -41,12 +41,10 @@ class Chain(Protocol):
         """What it is, for people."""
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """The picture of a scene, or of a part of its canvas."""
+        """Return the picture of a scene, or of a part of its canvas."""
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
-        any of them covers.
-        """
+        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
 
 
 class ContractChain(ABC):
@@ -58,24 +56,27 @@ class ContractChain(ABC):
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses or the gas does not suffice.
+        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
         """
 
+    def ask(self, contract: str, function: str, *arguments: Any) -> Any:
+        """Call a function of a contract by its ABI, and return its value, or a tuple of them if there are several."""
+        interface = artifact(contract).interface
+        return interface.decode(function, self.call(contract, interface.encode(function, *arguments)).output)
+
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """The picture of a scene, or of a part of its canvas."""
+        """Return the picture of a scene, or of a part of its canvas."""
         selector = artifact("Renderer").selectors["render" if tile is None else "renderTile"]
         result = self.call("Renderer", encode(selector, scene, tile))
         return Drawing(returned_bytes(result.output, 0), result.gas, result.intrinsic_gas)
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
-        any of them covers.
-        """
+        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
         return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
 
 def count_call(scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """The data of the call of the Renderer that draws a scene, or a part of its canvas, and counts."""
+    """Return the data of the call of the Renderer that draws a scene, or a part of its canvas, and counts."""
     selector = artifact("Renderer").selectors["renderCounted" if tile is None else "renderTileCounted"]
     return encode(selector, scene, tile)
 
@@ -88,7 +89,7 @@ def returned_counts(output: bytes) -> tuple[int, int]:
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:
-    """The ABI field `field`, of type bytes, of what a function returned."""
+    """Return the ABI field `field`, of type bytes, of what a function returned."""
     start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import re
 import time
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
-from ..errors import InputError, NodeBusyError, NodeError, RenderError, WrongChainError
+from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
+from ..ethereum import to_hex
 from .failures import rpc_failure
-
-if TYPE_CHECKING:
-    from web3 import Web3
 
 #: Seconds that a node may take for an answer, and that it may be given at most.
 PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
@@ -25,7 +23,7 @@ class Connection:
     """Asks a node by JSON-RPC; several threads may at once. No message shows a key that the address holds."""
 
     def __init__(self, url: str, timeout: float = PATIENCE, attempts: int = 1) -> None:
-        """Nothing is sent yet.
+        """Prepare requests; nothing is sent yet.
 
         timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
         InputError if the address is none.
@@ -40,11 +38,9 @@ class Connection:
             parts, host, port = urlsplit(""), None, None
         if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
             shown = _without_key(url)
-            raise InputError(f"--rpc must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
+            raise InputError(f"`rpc` must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
         if not 0 < timeout <= MOST_PATIENCE:
-            raise InputError(
-                f"--rpc-timeout must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}"
-            )
+            raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}")
         shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
         self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
         local = host in ("localhost", "::1") or host.startswith("127.")
@@ -52,12 +48,11 @@ class Connection:
         long = [piece for piece in pieces if piece and len(piece) >= 8]
         long += [label for label in host.split(".") if _KEY.fullmatch(label)]
         self._secrets = {*long, *map(unquote, long)}
-        #: What carries the requests, a provider of web3.
-        self.transport = Transport(self.url, self.name, timeout, local)
+        self._transport = Transport(self.url, self.name, timeout, local)
         self._chain_id: int | None = None
 
     def request(self, method: str, *parameters: Any) -> Any:
-        """The result of a method.
+        """Return the result of a method.
 
         NodeError or its kinds if the node fails, RevertError or OutOfGasError if the call does that was asked for.
         """
@@ -73,7 +68,7 @@ class Connection:
         raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
 
     def number(self, method: str, *parameters: Any) -> int:
-        """The result of a method that answers with a number, of at most 256 bits."""
+        """Return the result of a method that answers with a number, of at most 256 bits."""
         result = self.request(method, *parameters)
         try:
             return quantity(result)
@@ -81,7 +76,7 @@ class Connection:
             raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
 
     def data(self, method: str, *parameters: Any) -> bytes:
-        """The result of a method that answers with bytes."""
+        """Return the result of a method that answers with bytes."""
         result = self.request(method, *parameters)
         try:
             if isinstance(result, str) and result.startswith("0x"):
@@ -89,6 +84,32 @@ class Connection:
         except ValueError:
             pass
         raise NodeError(f"the {self.name} answered {method} with what is no string of bytes: {result!r:.60}")
+
+    def code(self, address: bytes) -> bytes:
+        """Return the code at an address, empty if there is none."""
+        return self.data("eth_getCode", to_hex(address), "latest")
+
+    def balance(self, address: bytes) -> int:
+        """Return the balance of an account, in wei."""
+        return self.number("eth_getBalance", to_hex(address), "latest")
+
+    def block(self, number: int | None = None) -> dict[str, Any]:
+        """Return a block, by default the latest, without its transactions. Raises NodeError if the node has it not."""
+        which = "latest" if number is None else hex(number)
+        block = self.request("eth_getBlockByNumber", which, False)
+        if block is None and number is not None:
+            raise NodeError(f"the {self.name} does not have block {number:,}; take one that keeps them all")
+        if not isinstance(block, dict):
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}")
+        return block
+
+    def block_gas_limit(self) -> int:
+        """Return the gas that all transactions of a block may use."""
+        block = self.block()
+        try:
+            return quantity(block.get("gasLimit"))
+        except ValueError:
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}") from None
 
     @property
     def chain_id(self) -> int:
@@ -98,26 +119,17 @@ class Connection:
         return self._chain_id
 
     def expect_chain(self, chain_id: int | None) -> None:
-        """WrongChainError if the node belongs to another chain; None expects none."""
+        """Raise WrongChainError if the node belongs to another chain; None expects none."""
         if chain_id is not None and self.chain_id != chain_id:
             raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
 
-    @property
-    def web3(self) -> Web3:
-        """web3 over this connection."""
-        from web3 import Web3
-
-        return Web3(self.transport)
-
     def _request(self, method: str, parameters: tuple[Any, ...]) -> Any:
-        from web3.types import RPCEndpoint
-
         try:
-            answer = self.transport.make_request(RPCEndpoint(method), list(parameters))
+            answer = self._transport.send(method, parameters)
             if answer.get("error"):
                 raise rpc_failure(self.name, answer["error"])
             return answer["result"]
-        except RenderError as error:
+        except ChainError as error:
             # some nodes repeat the address of a request in what they say of it
             error.args = tuple(self._clean(str(each)) for each in error.args)
             raise
@@ -129,14 +141,14 @@ class Connection:
 
 
 def quantity(value: Any) -> int:
-    """The number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
+    """Return the number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
     if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
         return int(value, 16)
     raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
 
 
 def _without_key(url: str) -> str:
-    """The address up to where a key may stand."""
+    """Return the address up to where a key may stand."""
     scheme, mark, rest = url.partition("://")
     if not mark:
         scheme, rest = "", url

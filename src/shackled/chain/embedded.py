@@ -10,8 +10,8 @@ from functools import cached_property
 from typing import Any
 
 from ..artifacts import artifact
-from ..errors import RenderError
-from .addresses import create2_address
+from ..errors import ChainError, RenderError
+from ..ethereum import create2_address, intrinsic_gas, to_hex, word
 from .chain import CallResult, ContractChain
 from .refusal import out_of_gas, refusal
 
@@ -20,15 +20,8 @@ DEFAULT_GAS_LIMIT = 30_000_000_000
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
 
-
 #: Zeros that pyrevm appends to the code of a contract when it is created, for itself.
 PADDING = 33
-
-
-def intrinsic_gas(data: bytes) -> int:
-    """What a transaction with this data costs before anything is executed, in Cancun."""
-    zeros = data.count(0)
-    return 21000 + 4 * zeros + 16 * (len(data) - zeros)
 
 
 class EmbeddedChain(ContractChain):
@@ -43,48 +36,47 @@ class EmbeddedChain(ContractChain):
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses or the gas does not suffice.
+        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
         """
         return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
 
     def address(self, contract: str) -> bytes:
-        """Where a contract stands: here as on every chain on which `shackled deploy` has put it."""
+        """Return where a contract stands: here as on every chain on which `shackled deploy` has put it."""
         if contract not in self._addresses:
             creation = self.creation(contract)
-            code = self._create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
+            code = self.create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
             address = create2_address(creation)
             self._codes[address] = code
             self._addresses[contract] = address
         return self._addresses[contract]
 
     def creation(self, contract: str) -> bytes:
-        """What deploys a contract, with the arguments of its constructor."""
+        """Return what deploys a contract, with the arguments of its constructor."""
         built = artifact(contract)
-        return built.creation + b"".join(self.address(part).rjust(32, b"\0") for part in built.parts)
+        return built.creation + b"".join(word(self.address(part)) for part in built.parts)
 
     def code(self, contract: str) -> bytes:
-        """What stands at the address of a contract."""
+        """Return what stands at the address of a contract."""
         return self._codes[self.address(contract)]
 
     def put(self, address: bytes, code: bytes) -> None:
         """Places code that is none of the package's contracts."""
         self._codes[address] = code
 
-    def create(self, name: str, creation: bytes) -> bytes:
-        """The code that creation code, arguments included, leaves. `name` is for people. RenderError if it refuses."""
-        return self._create(name, creation)
-
     def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
         """Calls whatever stands at an address."""
         return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
 
     def codes(self) -> dict[bytes, bytes]:
-        """The code of every contract that was set up, by its address."""
+        """Return the code of every contract that was set up, by its address."""
         return dict(self._codes)
 
     @abstractmethod
-    def _create(self, contract: str, creation: bytes) -> bytes:
-        """The runtime code that creation code leaves."""
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves.
+
+        name: for the message of the ChainError that is raised if the constructor refuses.
+        """
 
     @abstractmethod
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -102,27 +94,28 @@ class PyrevmChain(EmbeddedChain):
         # a new one each time: it keeps addresses warm from call to call, and takes no more calls after one that failed
         evm = pyrevm.EVM(spec_id="Cancun")
         for address, code in self._codes.items():
-            evm.insert_account_info(_hex(address), pyrevm.AccountInfo(code=code))
+            evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
         return evm
 
-    def _create(self, contract: str, creation: bytes) -> bytes:
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
         evm = self._evm()
         try:
-            address = evm.deploy(_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
+            address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
         except RuntimeError as error:
-            raise RenderError(f"the contract {contract} could not be deployed: {error}") from None
+            raise ChainError(f"the contract {name} could not be deployed: {error}") from None
         return bytes(evm.get_code(address))[:-PADDING]
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
         evm, intrinsic = self._evm(), intrinsic_gas(data)
         try:
-            output = bytes(evm.message_call(_hex(SENDER), _hex(address), data, None, gas_limit + intrinsic))
+            output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas_limit + intrinsic))
         except RuntimeError as error:
             raise _pyrevm_error(str(error), gas_limit) from None
         return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
 
 
-def _pyrevm_error(message: str, gas_limit: int) -> RenderError:
+def _pyrevm_error(message: str, gas_limit: int) -> ChainError:
     if message.startswith("Revert"):
         return refusal(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
     if "OutOfGas" in message:
@@ -135,7 +128,8 @@ class PyEvmChain(EmbeddedChain):
 
     name = "embedded EVM (py-evm)"
 
-    def _create(self, contract: str, creation: bytes) -> bytes:
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
         from eth.constants import CREATE_CONTRACT_ADDRESS
 
         address = bytes.fromhex("c0de") + bytes(18)
@@ -143,7 +137,7 @@ class PyEvmChain(EmbeddedChain):
         message = self._message(creation, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=address)
         computation = state.computation_class.apply_create_message(state, message, self._transaction)
         if computation.is_error:
-            raise RenderError(f"the contract {contract} could not be deployed: {computation.error!r}")
+            raise ChainError(f"the contract {name} could not be deployed: {computation.error!r}")
         return bytes(state.get_code(address))
 
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
@@ -198,7 +192,3 @@ class PyEvmChain(EmbeddedChain):
         from eth_typing import Address
 
         return BaseTransactionContext(gas_price=0, origin=Address(SENDER))
-
-
-def _hex(address: bytes) -> str:
-    return "0x" + address.hex()

@@ -10,12 +10,12 @@ from email.utils import parsedate_to_datetime
 from typing import Any
 
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
@@ -103,14 +103,14 @@ REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -
 
 
 def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes) -> NodeError:
-    """The error of an answer with an HTTP status that is not 200."""
+    """Return the error of an answer with an HTTP status that is not 200."""
     said = f"the {name} answered with HTTP status {status}"
     if status == 429 or (status == 503 and retry_after(headers) is not None):
         return too_often(name, retry_after(headers), f" (HTTP status {status})")
     if status == 413:
         return too_large(name, len(body) and _words(body))
     if status in (408, 504, 522, 524):
-        return NodeTimeoutError(f"{said}: it took too long; take a smaller --size, or another node")
+        return NodeTimeoutError(f"{said}: it took too long; take a smaller `size`, or another node")
     if status in (401, 403, 407):
         return NodeError(f"{said}: it lets nobody in without the right key; check its address")
     if status in (404, 405):
@@ -124,8 +124,8 @@ def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes
     return NodeError(f"{said}{_quote(_words(body))}; check its address")
 
 
-def rpc_failure(name: str, error: Any) -> RenderError:
-    """The error that a node gave in place of a result, by its words, its number and its data."""
+def rpc_failure(name: str, error: Any) -> ChainError:
+    """Return the error that a node gave in place of a result, by its words, its number and its data."""
     fields = error if isinstance(error, dict) else {"message": error}
     message, code, data = str(fields.get("message", error)), fields.get("code"), fields.get("data")
     reverted = revert_data(data)
@@ -142,7 +142,7 @@ def rpc_failure(name: str, error: Any) -> RenderError:
         return too_often(name, None, _quote(message))
     if says(TOO_LITTLE_GAS):
         return OutOfGasError(
-            f"the {name} allows a call too little gas for this: take a smaller --size, or raise its limit"
+            f"the {name} allows a call too little gas for this: take a smaller `size`, or raise its limit"
         )
     if says(OLD_CHAIN):
         return WrongChainError(
@@ -152,7 +152,7 @@ def rpc_failure(name: str, error: Any) -> RenderError:
         return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or take another node")
     if says(TOO_SLOW):
         return NodeTimeoutError(
-            f"the {name} gave up a call that took too long{_quote(message)}; take a smaller --size, or another node"
+            f"the {name} gave up a call that took too long{_quote(message)}; take a smaller `size`, or another node"
         )
     if "revert" in letters:
         return RevertError(f"the call was reverted: {_shorten(message)}")
@@ -167,7 +167,7 @@ def rpc_failure(name: str, error: Any) -> RenderError:
 
 
 def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError:
-    """The error of a node that wants to be asked less often."""
+    """Return the error of a node that wants to be asked less often."""
     when = "later" if seconds is None else f"in {math.ceil(seconds)} s"
     return NodeBusyError(
         f"the {name} asks to be called less often{said}; try again {when}, or take another node", seconds
@@ -175,15 +175,15 @@ def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError
 
 
 def too_large(name: str, said: object = "") -> TooLargeError:
-    """The error of a node that takes no request, or gives no answer, of this size."""
+    """Return the error of a node that takes no request, or gives no answer, of this size."""
     return TooLargeError(
         f"the {name} does not take a request or give an answer of this size{_quote(str(said or ''))}: "
-        "take a smaller --size or --max-triangles, or raise its limit"
+        "take a smaller `size` or `max_triangles`, or raise its limit"
     )
 
 
 def retry_after(headers: Mapping[str, str]) -> float | None:
-    """The seconds that the header Retry-After asks for, given as such or as a date."""
+    """Return the seconds that the header Retry-After asks for, given as such or as a date."""
     value = headers.get("Retry-After", "").strip()
     if not value:
         return None
@@ -201,7 +201,7 @@ def retry_after(headers: Mapping[str, str]) -> float | None:
 
 
 def revert_data(data: Any) -> bytes | None:
-    """The bytes of a revert, wherever a node puts them: bare, behind a word, or in an object; None if nowhere."""
+    """Find the bytes of a revert: nodes put them bare, behind a word, or in an object. None if there are none."""
     if isinstance(data, dict):
         for key in ("data", "result", "output", "return"):
             found = revert_data(data.get(key))
@@ -222,5 +222,5 @@ def _shorten(said: str, most: int = 200) -> str:
 
 
 def _words(body: bytes) -> str:
-    """The text of a page, without its tags."""
+    """Return the text of a page, without its tags."""
     return _shorten(re.sub(r"<[^>]*>", " ", body[:2000].decode(errors="replace")), 100)

@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import threading
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 
 from ..artifacts import RENDERER, artifact
 from ..errors import (
-    NodeBusyError,
+    ChainError,
+    NoAnswerError,
     NodeError,
-    NodeTimeoutError,
-    NodeUnreachableError,
     OutOfGasError,
     RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
 )
+from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
 from ..scene.codec import Rectangle, encode
 from ..scene.scene import Scene
 from .address_book import AddressBook
-from .addresses import show_address
 from .chain import Drawing, count_call, returned_bytes, returned_counts
 from .connection import Connection
-from .embedded import DEFAULT_GAS_LIMIT, EmbeddedChain, intrinsic_gas
+from .embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
 from .refusal import out_of_gas, refusal
 
 #: EIP-3860: the longest data of a call that creates a contract.
@@ -70,7 +70,7 @@ class NodeChain:
         address: bytes | None = None,
         book: AddressBook | None = None,
     ) -> None:
-        """Nothing is asked yet.
+        """Prepare calls; nothing is asked yet.
 
         local: sets up the contracts whose code is sent or compared. address: of a deployed renderer that is to be
         called. book: where addresses are looked up; None takes the user's.
@@ -92,22 +92,20 @@ class NodeChain:
         return self.connection.name + (f" ({ways})" if ways else "")
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """The picture of a scene, or of a part of its canvas."""
+        """Return the picture of a scene, or of a part of its canvas."""
         data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
         result = self.call("Renderer", data)
         return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that
-        any of them covers.
-        """
+        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
         return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
         """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
         None leaves the limit to the node.
-        RenderError if the contract refuses, the gas does not suffice, or the node fails.
+        ChainError of the kind that says what failed: the contract, the gas, or the node.
         """
         try:
             place = self.place(contract)
@@ -133,7 +131,7 @@ class NodeChain:
         return max(0, self._probed.gas * 63 // 64 - 30_000 - self._carried_gas)
 
     def too_little(self) -> OutOfGasError:
-        """The error of a node whose calls have too little gas for any render."""
+        """Return the error of a node whose calls have too little gas for any render."""
         said = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
         if not self._carried_gas:
             return OutOfGasError(f"{said}; raise its limit, or take another node")
@@ -143,7 +141,7 @@ class NodeChain:
         )
 
     def place(self, contract: str) -> bytes | None:
-        """Where a contract is deployed on the node's chain, as it is here; None if it is not.
+        """Return where a contract is deployed on the node's chain, as it is here; None if it is not.
 
         RenderError if a renderer was named and what is there is none.
         """
@@ -153,21 +151,21 @@ class NodeChain:
             return self._places[contract]
 
     def _named(self, contract: str) -> bytes | None:
-        """The renderer that was named, or one of its engines."""
+        """Return the renderer that was named, or one of its engines."""
         assert self._address is not None
         if contract not in RENDERER:
             return None
-        where = f"{show_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
+        where = f"{checksum_address(self._address)} on chain {self.connection.chain_id} (the {self.connection.name})"
         code = self._code(self._address)
         if not code:
             raise RenderError(
-                f"there is no contract at {where}: put one there with shackled deploy, or leave out --address"
+                f"there is no contract at {where}: put one there with shackled deploy, or leave out `address`"
             )
         parts = self._parts("Renderer", code)
         if parts is None or any(self._code(place) != self._local.code(part) for part, place in parts.items()):
             raise RenderError(
                 f"the contract at {where} is not the renderer of this version of shackled: "
-                "name another one, or leave out --address"
+                "name another one, or leave out `address`"
             )
         return parts.get(contract, self._address)
 
@@ -179,15 +177,15 @@ class NodeChain:
         return None
 
     def _stands(self, contract: str, address: bytes) -> bool:
-        """Whether the contract, and those that it calls, are there."""
+        """Return whether the contract, and those that it calls, are there."""
         parts = self._parts(contract, self._code(address))
         return parts is not None and all(self._stands(part, place) for part, place in parts.items())
 
     def _parts(self, contract: str, code: bytes) -> dict[str, bytes] | None:
-        """The addresses of those that it calls, from the code of a contract; None if the code is not its own."""
+        """Return the addresses of those that it calls, from the code of a contract; None if the code is not its own."""
         expected, parts = self._local.code(contract), {}
         for part in artifact(contract).parts:
-            here = self._local.address(part).rjust(32, b"\0")
+            here = word(self._local.address(part))
             at = expected.find(here)
             there = code[at : at + 32]
             if at >= 0 and len(there) == 32:
@@ -196,41 +194,37 @@ class NodeChain:
         return parts if code == expected else None
 
     def _code(self, address: bytes) -> bytes:
-        return self.connection.data("eth_getCode", _hex(address), "latest")
+        return self.connection.code(address)
 
     def _metered(self, contract: str, place: bytes | None, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A call through the meter, which a state override places; so are the contracts that are not deployed."""
-        codes = {METER: artifact("Meter").runtime}
+        """Call a contract through the Meter, with the contracts that are not deployed in the same state override."""
+        codes = {}
         if place is None:
             place = self._local.address(contract)
             for name in [contract, *self._below(contract)]:
                 codes[self._local.address(name)] = self._local.code(name)
-        head = place.rjust(32, b"\0") + _limit(gas_limit)
-        overrides = {_hex(address): {"code": _hex(code)} for address, code in codes.items()}
-        request = {"to": _hex(METER), "data": _hex(head + data)} | self._probed.field
-        output = self.connection.data("eth_call", request, "latest", overrides)
-        return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
+        return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A call of what is deployed, by a creation that counts its gas if that is possible."""
-        init = artifact("DeployedCall").creation + place.rjust(32, b"\0") + _limit(gas_limit) + _bytes(data, 96)
+        """Call what is deployed, by a creation that counts its gas if that is possible."""
+        init = artifact("DeployedCall").creation + word(place) + _limit(gas_limit) + _bytes(data, 96)
         if len(init) <= MAX_INIT_CODE and self._answers_creations:
             try:
                 return self._answer_of(init)
-            except (RevertError, OutOfGasError, NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+            except (RevertError, OutOfGasError, NoAnswerError):
                 raise
             except NodeError:
                 self._answers_creations = False
         field = self._probed.field if gas_limit is None else {"gas": hex(gas_limit + intrinsic_gas(data))}
-        request = {"to": _hex(place), "data": _hex(data)} | field
+        request = {"to": to_hex(place), "data": to_hex(data)} | field
         return NodeResult(self.connection.data("eth_call", request, "latest"), None)
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
-        """A creation that makes the contracts, and calls the last of them."""
+        """Call a contract by a creation that makes the contracts first."""
         names = [*reversed(self._below(contract)), contract]
         codes = [artifact(name).creation for name in names]
         packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
-        head = artifact("CreationCall").creation + _limit(gas_limit) + _word(len(codes))
+        head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
         # as it is if there is room, since what is packed has to be unpacked, for gas
         for level in (0, 9):
             deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
@@ -240,14 +234,14 @@ class NodeChain:
         raise NodeError(
             f"the {self.connection.name} knows no state overrides, and the scene of {len(data):,} bytes is too large "
             f"for a creation call with the contracts: {len(init):,} bytes packed, of {MAX_INIT_CODE:,} allowed; "
-            "run shackled deploy, take a smaller --max-triangles, or another node"
+            "run shackled deploy, take a smaller `max_triangles`, or another node"
         )
 
     def _carried(self, init: bytes) -> NodeResult:
-        """What a creation says that brings the contracts along."""
+        """Make a creation call that brings the contracts along, and return what it says."""
         try:
             return self._answer_of(init)
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, TooLargeError, WrongChainError):
+        except (NoAnswerError, TooLargeError, WrongChainError):
             raise
         except NodeError as error:
             if not self._probed.creations:
@@ -261,14 +255,14 @@ class NodeChain:
             raise
 
     def _answer_of(self, init: bytes) -> NodeResult:
-        """What a creation that ends by a revert says of the call that it made."""
+        """Make a creation call that ends by a revert, and return what it says of the call that it made."""
         try:
-            self.connection.request("eth_call", {"data": _hex(init)} | self._probed.field, "latest")
+            self.connection.request("eth_call", {"data": to_hex(init)} | self._probed.field, "latest")
         except RevertError as error:
             flag, gas, output = error.data[:32], int.from_bytes(error.data[32:64], "big"), error.data[64:]
-            if flag == _word(1):
+            if flag == word(1):
                 return NodeResult(output, gas)
-            if flag == _word(0):
+            if flag == word(0):
                 raise RevertError(str(error), output) from None
             if error.data[:4] in artifact("CreationCall").errors:
                 # NotCreated: one of the contracts ran out of gas
@@ -279,15 +273,15 @@ class NodeChain:
         )
 
     def _below(self, contract: str) -> list[str]:
-        """The contracts that a contract needs, the nearest first."""
+        """Return the contracts that a contract needs, the nearest first."""
         parts = artifact(contract).parts
         return parts + [each for part in parts for each in self._below(part)]
 
-    def _refused(self, data: bytes | None, gas_limit: int | None) -> RenderError:
-        """The error of a call whose contract said this, or, with None, that had too little gas."""
+    def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
+        """Return the error of a call whose contract said this, or, with None, that had too little gas."""
         failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
-            hint = "take a smaller --size, or raise its limit"
+            hint = "take a smaller `size`, or raise its limit"
             return OutOfGasError(f"the {self.connection.name} allows a call too little gas for this: {hint}")
         return failure
 
@@ -321,20 +315,39 @@ class _Probed:
         return {"gas": hex(self.gas)} if self.named else {}
 
 
+def metered(
+    connection: Connection,
+    place: bytes,
+    data: bytes,
+    gas_limit: int | None = None,
+    codes: Mapping[bytes, bytes] | None = None,
+    fields: Mapping[str, str] | None = None,
+) -> NodeResult:
+    """Call a contract through the Meter, which counts gas and which a state override puts on the chain for that long.
+
+    codes: more code for the override, by its address. fields: more fields of the request, such as its gas.
+    """
+    codes = {METER: artifact("Meter").runtime, **(codes or {})}
+    overrides = {to_hex(address): {"code": to_hex(code)} for address, code in codes.items()}
+    request = {"to": to_hex(METER), "data": to_hex(word(place) + _limit(gas_limit) + data), **(fields or {})}
+    output = connection.data("eth_call", request, "latest", overrides)
+    return NodeResult(output[32:], int.from_bytes(output[:32], "big"))
+
+
 def _probe(connection: Connection) -> _Probed:
-    """Whether a node knows state overrides, and how much gas a call gets if it asks for very much, or for none."""
-    override = {_hex(METER): {"code": _hex(GAS_LEFT)}}
+    """Find out whether a node knows state overrides, and how much gas a call gets that asks for much or for none."""
+    override = {to_hex(METER): {"code": to_hex(GAS_LEFT)}}
     for overrides in (True, False):
         found = []
         for named in (True, False):
-            request = {"to": _hex(METER)} if overrides else {"data": _hex(GAS_LEFT)}
+            request = {"to": to_hex(METER)} if overrides else {"data": to_hex(GAS_LEFT)}
             if named:
                 request["gas"] = hex(DEFAULT_GAS_LIMIT)
             try:
                 output = connection.data("eth_call", request, "latest", *([override] if overrides else []))
-            except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+            except (NoAnswerError, WrongChainError):
                 raise
-            except RenderError:
+            except ChainError:
                 continue
             if len(output) == 32:
                 left = int.from_bytes(output, "big")
@@ -343,26 +356,14 @@ def _probe(connection: Connection) -> _Probed:
             # what need not be named is better not named
             return max(found, key=lambda each: (each.gas, not each.named))
     # it makes no creation calls, and what is deployed has to do
-    block = connection.request("eth_getBlockByNumber", "latest", False)
-    try:
-        return _Probed(False, int(block["gasLimit"], 16), False, creations=False)
-    except (TypeError, LookupError, ValueError):
-        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
-
-
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()
-
-
-def _word(value: int) -> bytes:
-    return value.to_bytes(32, "big")
+    return _Probed(False, connection.block_gas_limit(), False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:
-    """As the contracts take it: 0 is none."""
-    return _word(0 if gas is None else max(1, gas))
+    """Encode a limit as the contracts take it: 0 is none."""
+    return word(0 if gas is None else max(1, gas))
 
 
 def _bytes(data: bytes, offset: int) -> bytes:
-    """The last argument, of type bytes, which begins so many bytes behind the first."""
-    return _word(offset) + _word(len(data)) + data + bytes(-len(data) % 32)
+    """Return the last argument, of type bytes, which begins so many bytes behind the first."""
+    return word(offset) + word(len(data)) + data + bytes(-len(data) % 32)

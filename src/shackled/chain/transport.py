@@ -1,22 +1,20 @@
-"""Bytes to a node and back over HTTP, through web3's provider: one attempt, a bounded time, a whole answer or an error.
-
-web3's own way would give up after 30 seconds, then try calls that took too long four times more.
-"""
+"""JSON-RPC over HTTP: one attempt, a bounded time, a whole answer or an error."""
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 import threading
 import time
+from collections.abc import Sequence
 from typing import Any, cast
 from urllib.parse import urlsplit
 
 import requests
 import urllib3
-from web3 import HTTPProvider
-from web3.types import RPCEndpoint, RPCResponse
 
+from .. import __version__
 from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
 from ..json_text import read_json
 from .failures import http_failure, too_large
@@ -28,36 +26,41 @@ STALE = 1.0
 #: Bytes of an answer that are taken; the largest picture has 13 MB, two characters each.
 MAX_ANSWER = 64 << 20
 
+HEADERS = {
+    "Content-Type": "application/json",
+    "Accept": "application/json",
+    "User-Agent": f"shackled/{__version__}",
+}
 BROKEN = "broke off its answer; is it running, or was the picture too much for it?"
 
 
-class Transport(HTTPProvider):
-    """web3's provider, with its own way to make a request. It may be used by several threads at once."""
+class Transport:
+    """Sends requests to a node and reads its answers. Several threads may use it at once."""
 
     def __init__(self, url: str, name: str, timeout: float, local: bool) -> None:
         """timeout: seconds for a whole answer. local: the node is on this machine, behind no proxy."""
-        super().__init__(url, exception_retry_configuration=None)
-        self.name, self.timeout, self.local = name, timeout, local
+        self.url, self.name, self.timeout, self.local = url, name, timeout, local
+        self._numbers = itertools.count()
         self._sessions = threading.local()
 
-    def make_request(self, method: RPCEndpoint, params: Any) -> RPCResponse:
-        """The answer to a request. NodeError and its kinds if there is none."""
-        request = self.encode_rpc_request(method, params)
+    def send(self, method: str, parameters: Sequence[Any]) -> dict[str, Any]:
+        """Send a request and return the answer, with its `result` or `error`. Raises NodeError and its kinds."""
+        number = next(self._numbers)
+        request = json.dumps({"jsonrpc": "2.0", "method": method, "params": parameters, "id": number}).encode()
         body = self._post(request)
         try:
             answer = read_json(body.decode())
         except ValueError:
             raise self._no_node("what is not JSON" if body else "nothing") from None
-        number = json.loads(request)["id"]
         if not isinstance(answer, dict) or not ("result" in answer or answer.get("error")):
             raise self._no_node("JSON that is not JSON-RPC")
         # an error may come before the number of the request was read
         if answer.get("id") != number and not (answer.get("id") is None and answer.get("error")):
             raise NodeUnreachableError(f"the {self.name} answered another request than the one made; try again")
-        return cast(RPCResponse, answer)
+        return answer
 
     def _post(self, request: bytes) -> bytes:
-        """The body of the answer."""
+        """Return the body of the answer."""
         started = time.monotonic()
         while True:
             kept = hasattr(self._sessions, "session")
@@ -73,9 +76,9 @@ class Transport(HTTPProvider):
     def _attempt(self, request: bytes, end: float) -> bytes:
         left = max(0.001, end - time.monotonic())
         with self._session().post(
-            str(self.endpoint_uri),
+            self.url,
             data=request,
-            headers={**self.get_request_headers(), "Accept": "application/json"},
+            headers=HEADERS,
             timeout=(min(CONNECT_PATIENCE, left), left),
             stream=True,
             allow_redirects=False,
@@ -96,7 +99,7 @@ class Transport(HTTPProvider):
         return body
 
     def _session(self) -> requests.Session:
-        """That of the thread."""
+        """Return the session of this thread."""
         if not hasattr(self._sessions, "session"):
             self._sessions.session = requests.Session()
             self._sessions.session.trust_env = not self.local
@@ -107,7 +110,7 @@ class Transport(HTTPProvider):
 
 
 def is_address(url: str) -> bool:
-    """Whether a request can be sent there."""
+    """Return whether a request can be sent there."""
     try:
         requests.Request("POST", url).prepare()
     except (requests.RequestException, ValueError):
@@ -117,12 +120,12 @@ def is_address(url: str) -> bool:
 
 
 def _failure(error: Exception) -> tuple[type[NodeError], str]:
-    """The kind of what came in place of an answer, and what to say of the node."""
+    """Return the kind of what came in place of an answer, and what to say of the node."""
     reason = getattr(error.args[0], "reason", None) if error.args else None
     if isinstance(error, requests.exceptions.ConnectTimeout):
         return NodeUnreachableError, "takes no connection; is it running, and is its address right?"
     if isinstance(error, requests.Timeout | urllib3.exceptions.TimeoutError | TimeoutError):
-        return NodeTimeoutError, "did not answer within {} seconds: take a smaller --size, or a larger --rpc-timeout"
+        return NodeTimeoutError, "did not answer within {} seconds: take a smaller `size`, or a larger `timeout`"
     if isinstance(error, requests.exceptions.SSLError):
         return NodeUnreachableError, "cannot be reached by a safe connection; is its address right, http or https?"
     if isinstance(error, requests.exceptions.ProxyError):
@@ -133,7 +136,7 @@ def _failure(error: Exception) -> tuple[type[NodeError], str]:
 
 
 def _is_rpc_error(status: int, body: bytes, request: bytes) -> bool:
-    """Whether an answer is a node's refusal of this very request, which says more than the status."""
+    """Return whether an answer is a node's refusal of this very request, which says more than the status."""
     if status in (413, 429):
         return False
     try:

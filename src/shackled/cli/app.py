@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from .. import __version__
-from ..errors import FetchError, InputError, InputWarning, OutputError, RenderError
+from ..errors import InputError, InputWarning, ShackledError
 from ..plain import plain
 from .arguments import with_cluster
 from .bench import bench
@@ -76,7 +76,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
         return _fail(error, 2)
-    except (RenderError, FetchError, OutputError) as error:
+    except ShackledError as error:
         return _fail(error, 1)
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)

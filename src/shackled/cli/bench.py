@@ -26,6 +26,9 @@ def bench(
     processes: Annotated[
         int | None, typer.Option("--processes", min=1, help="How many; else one for each core.", metavar="N")
     ] = None,
+    rpc: Annotated[
+        str | None, typer.Option("--rpc", help="A node that `engines` measures too, as http://...", metavar="URL")
+    ] = None,
 ) -> None:
     """Make the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Lab, check_plots, run
@@ -42,6 +45,6 @@ def bench(
         raise InputError("the experiments need a folder to write to: -o DIR")
     folder = check_output_folder(Path(output))
     check_plots()
-    with Lab(quick, processes) as lab:
+    with Lab(quick, processes, rpc) as lab:
         written = [path for name in chosen for path in run(name, lab).save(name, folder)]
     print("\n".join(str(path) for path in written))

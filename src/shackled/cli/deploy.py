@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..chain.addresses import show_address
 from ..chain.connection import PATIENCE, Connection
 from ..errors import InputError
+from ..ethereum import checksum_address
 from .option import option
 from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee
 from .telling import say, tell
@@ -98,7 +98,7 @@ def deploy(
     if not receipts:
         tell("everything is there already: nothing was sent")
         for step in plan.steps:
-            tell(f"{step.name:10} {show_address(step.address)}")
+            tell(f"{step.name:10} {checksum_address(step.address)}")
     tell(f"addresses: {deployer.book.path}")
     tell(f"for the verification of the sources: {folder}")
 
@@ -107,7 +107,7 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from ..ether import GWEI, at_most, rounded
+    from ..ethereum import GWEI, at_most, rounded
 
     console = Console(file=sys.stderr if quiet else sys.stdout, width=None if sys.stdout.isatty() else 120)
     table = Table("contract", "address", "gas", "the node's", "ether", "at most", box=None, header_style="bold")
@@ -115,12 +115,12 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
         column.justify = "right"
     for step in plan.steps:
         if step.there:
-            table.add_row(step.name, show_address(step.address), "is there")
+            table.add_row(step.name, checksum_address(step.address), "is there")
             continue
         estimate = None if step.quote is None else step.quote.estimate
         told = "not told" if estimate is None else f"{estimate:,}"
         row = (f"{step.gas:,}", told, rounded(step.cost), at_most(step.ceiling))
-        table.add_row(step.name, show_address(step.address), *row)
+        table.add_row(step.name, checksum_address(step.address), *row)
     table.add_row("together", "", f"{plan.gas:,}", "", rounded(plan.cost), at_most(plan.ceiling))
     price = f"{plan.fees.likely / GWEI:.6g} gwei a gas"
     console.print(f"on chain {connection.chain_id}, by the {connection.name}, at {price}:", highlight=False)
@@ -129,7 +129,7 @@ def _show(plan: Plan, connection: Connection, quiet: bool) -> None:
 
 def _tell(step: Step, receipts: Sequence[Receipt]) -> None:
     gas = sum(receipt.gas for receipt in receipts)
-    tell(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
+    tell(f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
 
 def _object(plan: Plan, receipts: Sequence[Receipt], connection: Connection, book: str, folder: str) -> dict[str, Any]:
@@ -137,7 +137,7 @@ def _object(plan: Plan, receipts: Sequence[Receipt], connection: Connection, boo
         "chain_id": connection.chain_id,
         "node": connection.name,
         "contracts": [
-            {"name": step.name, "address": show_address(step.address), "deployed_now": not step.there}
+            {"name": step.name, "address": checksum_address(step.address), "deployed_now": not step.there}
             for step in plan.steps
         ],
         "transactions": [receipt.hash for receipt in receipts],

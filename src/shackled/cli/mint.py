@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..chain.addresses import show_address
 from ..errors import InputError
+from ..ethereum import checksum_address
 from ..image import FORMATS, one_of
 from .option import option
 from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
@@ -91,7 +91,7 @@ def mint(
 
         def report(step: Step, receipts: Sequence[Receipt]) -> None:
             gas = sum(each.gas for each in receipts)
-            say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
+            say(f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
         gas = sum(receipt.gas for receipt in store(storage, transactor, report))
     else:

@@ -12,7 +12,7 @@ import typer
 
 from ..checks import number
 from ..errors import InputError
-from ..ether import at_most, ether, roughly
+from ..ethereum import at_most, ether, roughly
 from ..plain import plain
 from .option import option
 

@@ -6,7 +6,7 @@ What stands on the page is in `web`; beneath it is what knows of no page:
   itself. `view`: cameras and lights between the two.
 - `controls`: label, unit, range and step of each value. `change`: one of them, by its path. `checking`: their ranges.
 - `presets`, `history`, `link`, `orbit`: looks, undo, links, what dragging does.
-- `pool`: pictures for many visitors. `lane`, `seat`: who waits, and the processes. `worker`, `tasks`: what they do.
+- `pool`: pictures for many visitors. `lane`: who waits. `worker`, `tasks`: what the processes do.
 - `upload`, `archive`, `gltf`, `guard`, `store`: files of strangers. `limits`: how much of everything.
 - `takeaway`, `film`, `cast_command`, `python_program`, `solidity_contract`: what is taken home. `fits`: where it fits.
 """

@@ -6,14 +6,16 @@ import asyncio
 import logging
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
-from ..errors import InputError, RenderError
+from ..errors import ChainError, InputError, ShackledError
+from ..workers import Worker, WorkerEndedError, WorkerLateError
 from .limits import Limits
-from .seat import GONE, LATE, Seat
 from .tasks import Desk
-from .worker import DONE, FAULT, INPUT, MEMORY, MISSING, RENDER, MakeDesk, Request
+from .worker import MakeDesk, MissingUploadError, perform, prepare
 
 log = logging.getLogger(__name__)
 
@@ -25,7 +27,7 @@ Progress = Callable[[int, int], None]
 BEHIND = 1.0
 
 
-class PoolError(RenderError):
+class PoolError(ShackledError):
     """The work could not be done here: it took too long, or too much, or too many are waiting. One line."""
 
 
@@ -34,17 +36,18 @@ class Job:
     """Something that a visitor waits for.
 
     newest: a later job of the same visitor and channel takes its place. supply: gives the files that a worker may lack.
-    seat: where it is worked at. stopped: whether nobody waits for it any more.
+    worker: that works at it. stopped: whether nobody waits for it any more.
     """
 
     visitor: str
     channel: str
-    request: Request
+    task: str
+    arguments: tuple[Any, ...]
     newest: bool
     supply: Supply | None
     progress: Progress | None
     answer: asyncio.Future[Any]
-    seat: Seat | None = None
+    worker: Worker | None = None
     stopped: bool = False
     timer: asyncio.TimerHandle | None = field(default=None)
 
@@ -77,8 +80,11 @@ class Lane:
         self._seconds = seconds
         self._most = waiting
         self._grace = grace
-        self._seats = [Seat(make_desk, limits, niceness, guarded) for _ in range(workers)]
-        self._idle = list(self._seats)
+        self._workers = [
+            Worker(prepare, make_desk, limits, guarded, memory=limits.memory, niceness=niceness) for _ in range(workers)
+        ]
+        self._threads = ThreadPoolExecutor(workers, "creator")
+        self._idle = list(self._workers)
         self._waiting: dict[str, list[Job]] = {}
         self._spent: dict[str, float] = {}
         self._served = 0.0
@@ -88,16 +94,10 @@ class Lane:
 
     async def warm(self) -> None:
         """Starts all workers. PoolError if one does not start."""
-        loop = asyncio.get_running_loop()
-        answers = await asyncio.gather(
-            *(
-                loop.run_in_executor(seat.thread, seat.ask, Request("hello", ()), self._seconds, _silent)
-                for seat in self._seats
-            )
-        )
-        for answer in answers:
-            if answer[0] != DONE:
-                raise self._error(answer)
+        try:
+            await asyncio.gather(*(self._call(worker, "hello", ()) for worker in self._workers))
+        except Exception as error:
+            raise self._error(error) from None
 
     async def ask(
         self,
@@ -115,7 +115,7 @@ class Lane:
         if sum(map(len, self._waiting.values())) >= self._most:
             raise PoolError("too many visitors are waiting; try again in a moment")
         loop = asyncio.get_running_loop()
-        job = Job(visitor, channel, Request(task, arguments), newest, supply, progress, loop.create_future())
+        job = Job(visitor, channel, task, arguments, newest, supply, progress, loop.create_future())
         if newest:
             self.supersede(visitor, channel)
         self._arrive(visitor)
@@ -152,14 +152,14 @@ class Lane:
                 job.timer.cancel()
             _settle(job, None)
         self._waiting.clear()
-        loop = asyncio.get_running_loop()
-        await asyncio.gather(*(loop.run_in_executor(None, seat.close) for seat in self._seats))
+        await asyncio.gather(*(asyncio.to_thread(worker.close) for worker in self._workers))
         await asyncio.gather(*self._tasks, return_exceptions=True)
+        self._threads.shutdown()
 
     @property
     def processes(self) -> list[int]:
         """The process ids of the workers that have been started."""
-        return [seat.pid for seat in self._seats if seat.pid is not None]
+        return [worker.pid for worker in self._workers if worker.pid is not None]
 
     # ---- the line ----
 
@@ -189,18 +189,18 @@ class Lane:
             job.timer = asyncio.get_running_loop().call_later(self._grace, self._end, job)
 
     def _end(self, job: Job) -> None:
-        if job in self._running and job.seat is not None:
+        if job in self._running and job.worker is not None:
             job.stopped = True
-            job.seat.kill()
+            job.worker.kill()
 
     def _dispatch(self) -> None:
         while self._idle and not self._closed:
             job = self._next()
             if job is None:
                 return
-            job.seat = self._idle.pop()
+            job.worker = self._idle.pop()
             self._running.add(job)
-            task = asyncio.get_running_loop().create_task(self._work(job, job.seat))
+            task = asyncio.get_running_loop().create_task(self._work(job, job.worker))
             self._tasks.add(task)
             task.add_done_callback(self._tasks.discard)
 
@@ -221,71 +221,77 @@ class Lane:
                 return job
         return None
 
-    async def _work(self, job: Job, seat: Seat) -> None:
-        loop = asyncio.get_running_loop()
-
-        def progress(done: int, total: int) -> None:
-            if job.progress is not None:
-                loop.call_soon_threadsafe(_tell, job, done, total)
-
+    async def _work(self, job: Job, worker: Worker) -> None:
         begun, seconds = time.monotonic(), None
         try:
-            answer = await self._call(job, seat, job.request, progress)
-            if answer[0] == MISSING and job.supply is not None:
-                request = Request(job.request.task, job.request.arguments, job.supply())
-                answer = await self._call(job, seat, request, progress)
-            if answer[0] == MEMORY:  # what it could not hold may still be in its way
-                await loop.run_in_executor(seat.thread, seat.end)
-            if answer[0] == DONE:
-                seconds = answer[2]
-                _settle(job, answer[1])
-            elif job.stopped:
+            try:
+                result, seconds = await self._call(worker, job.task, job.arguments, job)
+            except MissingUploadError:
+                if job.supply is None:
+                    raise
+                result, seconds = await self._call(worker, job.task, job.arguments, job, job.supply())
+            _settle(job, result)
+        except Exception as error:
+            if isinstance(error, MemoryError | RecursionError):  # what it could not hold may still be in its way
+                await asyncio.to_thread(worker.end)
+            if job.stopped:
                 _settle(job, None)
             else:
-                _fail(job, self._error(answer))
-        except InputError as error:  # the file that it needs has gone meanwhile
-            _fail(job, error)
-        except Exception:
-            log.exception("a worker could not be asked")
-            _fail(job, PoolError(f"the {self._what} could not be made"))
+                _fail(job, self._error(error))
         finally:
             if job.timer is not None:
                 job.timer.cancel()
             self._running.discard(job)
-            self._idle.append(seat)
+            self._idle.append(worker)
             if job.visitor in self._spent:
                 # what came to nothing took its time as well
                 spent = time.monotonic() - begun if seconds is None else seconds
                 self._spent[job.visitor] = min(self._spent[job.visitor] + spent, self._served + BEHIND)
             self._dispatch()
 
-    async def _call(self, job: Job, seat: Seat, request: Request, progress: Progress) -> tuple[Any, ...]:
+    async def _call(
+        self,
+        worker: Worker,
+        task: str,
+        arguments: tuple[Any, ...],
+        job: Job | None = None,
+        uploads: dict[str, Any] | None = None,
+    ) -> tuple[Any, float]:
+        """Have a worker do a task: its result, and the seconds that the processor took."""
         loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(
-            seat.thread, seat.ask, request, self._seconds, progress, lambda: job.stopped or self._closed
-        )
 
-    def _error(self, answer: tuple[Any, ...]) -> Exception:
-        kind = answer[0]
-        if kind == INPUT:
-            return InputError(answer[1])
-        if kind == RENDER:
-            return RenderError(answer[1])
-        if kind == LATE:
+        def told(done: int, total: int) -> None:
+            if job is not None and job.progress is not None:
+                loop.call_soon_threadsafe(_tell, job, done, total)
+
+        def unwanted() -> bool:
+            return self._closed or (job is not None and job.stopped)
+
+        call = partial(
+            worker.call, perform, task, arguments, uploads or {}, seconds=self._seconds, told=told, unwanted=unwanted
+        )
+        return await loop.run_in_executor(self._threads, call)
+
+    def _error(self, error: Exception) -> Exception:
+        """Say what went wrong in words for visitors."""
+        if isinstance(error, WorkerLateError):
             return PoolError(
                 f"the {self._what} took longer than the {self._seconds:g} seconds that there are; take a smaller size"
                 " or fewer triangles"
             )
-        if kind == MEMORY:
+        if isinstance(error, WorkerEndedError):
+            return PoolError(f"the process at work on the {self._what} ended, perhaps for want of memory; try again")
+        if isinstance(error, InputError | ChainError):
+            return error
+        if isinstance(error, MemoryError | RecursionError):
             return PoolError(
                 f"the {self._what} needs more memory than there is; take a smaller size or fewer triangles"
             )
-        if kind == GONE:
-            return PoolError(f"the process at work on the {self._what} ended, perhaps for want of memory; try again")
-        if kind == FAULT:
-            log.error("a fault in a worker:\n%s", answer[2])
-            return PoolError(f"the {self._what} failed by a fault of ours ({answer[1]}); it has been noted")
-        return PoolError(f"the {self._what} could not be made")
+        if isinstance(error, MissingUploadError):
+            return PoolError(f"the {self._what} could not be made")
+        # told without what might be private in it
+        log.error("a fault in a worker:\n%s", error.__cause__ or repr(error))
+        return PoolError(f"the {self._what} failed by a fault of ours ({type(error).__name__}); it has been noted")
 
 
 def _settle(job: Job, result: Any) -> None:
@@ -301,7 +307,3 @@ def _fail(job: Job, error: Exception) -> None:
 def _tell(job: Job, done: int, total: int) -> None:
     if job.progress is not None and not job.stopped:
         job.progress(done, total)
-
-
-def _silent(done: int, total: int) -> None:
-    """Nobody listens."""

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import hashlib
 import io
-import multiprocessing
 import os
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 from PIL import Image as PillowImage
@@ -22,6 +20,7 @@ from ..image import decode_bmp
 from ..scene.codec import encode
 from ..scene.look import resize
 from ..scene.scene import Scene
+from ..workers import each
 from . import require
 from .cache import cache_folder, keep
 from .piece import Piece
@@ -64,17 +63,12 @@ def draw_all(pieces: Iterable[Piece], size: int = SIZE, processes: int | None = 
     names = [piece.name for piece in pieces if piece.ready()]
     processes = min(len(names), processes or os.cpu_count() or 1)
     if processes <= 1:
-        yield from (_draw_named(name, size) for name in names)
-        return
-    with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
-        try:
-            for future in as_completed([pool.submit(_draw_named, name, size) for name in names]):
-                yield future.result()
-        finally:
-            pool.shutdown(cancel_futures=True)
+        yield from (_draw_named(size, name) for name in names)
+    else:
+        yield from (drawing for _, drawing in each(partial(_draw_named, size), names, processes))
 
 
-def _draw_named(name: str, size: int) -> Drawing:
+def _draw_named(size: int, name: str) -> Drawing:
     return draw(require(name), size)
 
 

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 
 def environment_account(name: str) -> LocalAccount:
-    """The account whose private key, 64 hexadecimal digits, is in an environment variable. InputError if none is."""
+    """Return the account whose private key, 64 hexadecimal digits, an environment variable has.
+
+    Raises InputError if it has none.
+    """
     from eth_account import Account
 
     value = os.environ.get(name, "").strip()
@@ -23,8 +26,8 @@ def environment_account(name: str) -> LocalAccount:
         # what is no name may be a key, or a mnemonic, typed wrong
         if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]{0,39}", name) or re.fullmatch("[0-9a-fA-F]{16,}", name):
             raise InputError(
-                "there is no private key in an environment variable of that name: --private-key-env takes the name of "
-                "a variable, not the key"
+                "there is no private key in an environment variable of that name: the name of a variable is wanted, "
+                "not the key"
             )
         raise InputError(f"there is no private key in the environment variable {name}: set it to one")
     if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
@@ -37,14 +40,14 @@ def environment_account(name: str) -> LocalAccount:
 
 
 def read_keystore(path: Path) -> str:
-    """The text of a keystore file. InputError if it is none."""
+    """Return the text of a keystore file. InputError if it is none."""
     try:
         text = path.read_text("utf-8")
     except (OSError, ValueError) as error:
         # a key, or a mnemonic, may stand where the name of a file should
         if re.search("[0-9A-Za-z]{41,}", path.name) or len(path.name.split()) >= 6:
             raise InputError(
-                "there is no keystore file of that name: --account takes the name of a file, not a key"
+                "there is no keystore file of that name: the name of a file is wanted, not a key"
             ) from None
         if isinstance(error, FileNotFoundError):
             raise InputError(f"there is no keystore file {path}") from None
@@ -60,7 +63,7 @@ def read_keystore(path: Path) -> str:
 
 
 def keystore_account(path: Path, password: str) -> LocalAccount:
-    """The account of a keystore file. InputError if it is none, or the password is wrong."""
+    """Return the account of a keystore file. InputError if it is none, or the password is wrong."""
     from eth_account import Account
 
     text = read_keystore(path)

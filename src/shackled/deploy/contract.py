@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ..artifacts import artifact
-from ..chain.addresses import PROXY, SALT, create2_address
-from ..chain.embedded import EmbeddedChain, intrinsic_gas
+from ..chain.embedded import EmbeddedChain
 from ..chain.opening import open_chain
-from ..errors import InputError, RenderError
+from ..errors import ChainError, InputError
+from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 
 #: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
 STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")
@@ -47,7 +47,19 @@ class Deployment:
 
 
 def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
-    """The contracts of these names, each after those that it calls, which are added. InputError for an unknown one."""
+    """Return the contracts of these names, each after those that it calls, which are added.
+
+    Raises InputError for a name that is not in `CONTRACTS`.
+    """
+    chosen = list(names)
+    for name in chosen:
+        if name not in CONTRACTS:
+            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(CONTRACTS)}")
+    return in_order(chosen)
+
+
+def in_order(names: Iterable[str]) -> list[Deployment]:
+    """Return any contracts whose constructors take nothing but other contracts, each after those that it calls."""
     chosen: list[str] = []
 
     def add(name: str) -> None:
@@ -57,17 +69,15 @@ def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
             chosen.append(name)
 
     for name in names:
-        if name not in CONTRACTS:
-            raise InputError(f"there is no contract {name!r} to deploy; the contracts are {', '.join(CONTRACTS)}")
         add(name)
     local = local_chain()
     return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]
 
 
 def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: EmbeddedChain | None = None) -> Deployment:
-    """A contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
+    """Return a contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
 
-    name: for people, and the address book. RenderError if the constructor refuses.
+    name: for people, and the address book. ChainError if the constructor refuses.
     """
     local = local_chain() if local is None else local
     for part in parts:
@@ -76,14 +86,14 @@ def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: Emb
     data = SALT + creation
     result = local.run(PROXY, data)
     if result.output != create2_address(creation):
-        raise RenderError(
+        raise ChainError(
             f"the contract {name} could not be deployed: the proxy gave {result.output.hex() or 'nothing'}"
         )
     return Deployment(name, creation, local.create(name, creation), result.gas + intrinsic_gas(data))
 
 
 def local_chain() -> EmbeddedChain:
-    """An EVM of its own in which contracts are tried."""
+    """Return an EVM of its own in which contracts are tried."""
     kind = type(open_chain(None))
     assert issubclass(kind, EmbeddedChain)
     return kind()

@@ -6,21 +6,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from ..chain.address_book import AddressBook
-from ..chain.addresses import PROXY, show_address
 from ..chain.connection import Connection
-from ..errors import (
-    NodeBusyError,
-    NodeTimeoutError,
-    NodeUnreachableError,
-    RenderError,
-    TransactionError,
-    WrongChainError,
-)
-from ..ether import rounded
+from ..errors import ChainError, NoAnswerError, TransactionError, WrongChainError
+from ..ethereum import PROXY, checksum_address, rounded, to_hex
 from .contract import PROXY_CODE, Deployment
 from .proxy import GAS, TRANSFER_GAS, check_gas, deploy_proxy, funding, missing_funds, proxy_stands
 from .quote import Call, Fees, Quote, current_fees, make_quotes
-from .transactor import Receipt, Transactor, block_gas
+from .transactor import Receipt, Transactor
 
 #: The newest instruction that the contracts use, in a program that does nothing: PUSH0 PUSH0 PUSH0 MCOPY STOP.
 NEWEST = bytes.fromhex("5f5f5f5e00")
@@ -98,7 +90,7 @@ class Deployer:
         self.book = AddressBook() if book is None else book
 
     def plan(self, wanted: Sequence[Deployment], fees: Fees | None = None) -> Plan:
-        """What of the contracts is there, and what the rest costs. fees: None asks for those of now.
+        """Return what of the contracts is there, and what the rest costs. fees: None asks for those of now.
 
         TransactionError if there is anything else, a block cannot hold a contract, or the node's prices are not to be
         believed (`current_fees`, `make_quote`); WrongChainError if the chain has older rules than the contracts need.
@@ -123,7 +115,7 @@ class Deployer:
         return Plan(tuple(steps), fees)
 
     def look_again(self, plan: Plan) -> Plan:
-        """The plan without what has come there meanwhile; its quotes stay what they were."""
+        """Return the plan without what has come there meanwhile; its quotes stay what they were."""
         return replace(plan, steps=tuple(self._look_again(step) for step in plan.steps))
 
     def _look_again(self, step: Step) -> Step:
@@ -133,11 +125,11 @@ class Deployer:
         return replace(step, there=True, gas=0, quote=None) if stands else step
 
     def stands(self, wanted: Deployment) -> bool:
-        """Whether a contract is where it belongs. TransactionError if anything else is there."""
-        code = self.connection.data("eth_getCode", "0x" + wanted.address.hex(), "latest")
+        """Return whether a contract is where it belongs. TransactionError if anything else is there."""
+        code = self.connection.code(wanted.address)
         if code and code != wanted.code:
             raise TransactionError(
-                f"the code at {show_address(wanted.address)} on chain {self.connection.chain_id} is not that of "
+                f"the code at {checksum_address(wanted.address)} on chain {self.connection.chain_id} is not that of "
                 f"{wanted.name}: the chain or the node is not to be trusted"
             )
         return bool(code)
@@ -180,14 +172,14 @@ class Deployer:
             self.book.write(self.connection.chain_id, {each.name: each.address for each in standing})
 
     def _check_chain(self, missing: Sequence[Deployment]) -> None:
-        """Whether contracts can be deployed, and used; else it would be found out when something was paid."""
+        """Check that contracts can be deployed and used, before anything is paid."""
         try:
-            self.connection.request("eth_call", {"data": "0x" + NEWEST.hex()}, "latest")
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError, WrongChainError):
+            self.connection.request("eth_call", {"data": to_hex(NEWEST)}, "latest")
+        except (NoAnswerError, WrongChainError):
             raise
-        except RenderError:
+        except ChainError:
             pass  # some nodes make no calls without a receiver
-        limit = block_gas(self.connection)
+        limit = self.connection.block_gas_limit()
         for each in missing:
             if each.gas > limit:
                 raise TransactionError(
@@ -219,14 +211,14 @@ def create(
     except TransactionError as error:
         try:
             there = stands()
-        except RenderError:
+        except ChainError:
             raise error from None
         if there:
             return None
         raise
     if not transactor.wait(lambda: stands() or None):
         raise TransactionError(
-            f"{name} is not at {show_address(address)}, though its transaction {receipt.hash} succeeded: is the node "
-            "in step?"
+            f"{name} is not at {checksum_address(address)}, though its transaction {receipt.hash} succeeded: is "
+            "the node in step?"
         )
     return receipt

@@ -6,17 +6,9 @@ signed it, which is used for this only; it has to be given what the transaction 
 
 from __future__ import annotations
 
-from ..chain.addresses import PROXY, keccak256, show_address
 from ..chain.connection import Connection
-from ..errors import (
-    NodeBusyError,
-    NodeTimeoutError,
-    NodeUnreachableError,
-    OutOfGasError,
-    RenderError,
-    TransactionError,
-)
-from ..ether import GWEI
+from ..errors import ChainError, NoAnswerError, OutOfGasError, TransactionError
+from ..ethereum import GWEI, PROXY, checksum_address, keccak256, to_hex
 from .contract import PROXY_CODE
 from .quote import Call, Quote, base_fee
 from .transactor import Receipt, Transactor
@@ -39,8 +31,8 @@ CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 
 def proxy_stands(connection: Connection) -> bool:
-    """Whether the proxy is on the chain. TransactionError if something else is at its address."""
-    code = connection.data("eth_getCode", "0x" + PROXY.hex(), "latest")
+    """Return whether the proxy is on the chain. TransactionError if something else is at its address."""
+    code = connection.code(PROXY)
     if code and code != PROXY_CODE:
         raise TransactionError(
             f"chain {connection.chain_id} has something else where the deployment proxy belongs, at 0x{PROXY.hex()}: "
@@ -50,33 +42,33 @@ def proxy_stands(connection: Connection) -> bool:
 
 
 def missing_funds(connection: Connection) -> int:
-    """The wei that the account that signed must be given."""
-    return max(0, COST - connection.number("eth_getBalance", "0x" + SIGNER.hex(), "latest"))
+    """Return the wei that the account that signed must be given."""
+    return max(0, COST - connection.balance(SIGNER))
 
 
 def check_gas(connection: Connection) -> None:
-    """TransactionError if the published transaction has too little gas for the chain, as the node estimates it."""
+    """Raise TransactionError if the node estimates more gas than the published transaction has."""
     try:
-        needed = connection.number("eth_estimateGas", {"data": "0x" + CREATION.hex()})
-    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+        needed = connection.number("eth_estimateGas", {"data": to_hex(CREATION)})
+    except NoAnswerError:
         raise
-    except RenderError:
+    except ChainError:
         return
     if needed > GAS:
         raise too_little_gas(connection, f"and {needed:,} are needed there")
 
 
 def too_little_gas(connection: Connection, why: str) -> TransactionError:
-    """The error of a chain whose gas is too dear for the published transaction."""
+    """Return the error of a chain whose gas is too dear for the published transaction."""
     return TransactionError(
         f"chain {connection.chain_id} has no deployment proxy, and the published transaction that deploys it has "
-        f"{GAS:,} gas, {why}: take a chain that has the proxy at {show_address(PROXY)}, or, on a development node, put "
-        "its code there (anvil_setCode, hardhat_setCode)"
+        f"{GAS:,} gas, {why}: take a chain that has the proxy at {checksum_address(PROXY)}, or, on a development node, "
+        "put its code there (anvil_setCode, hardhat_setCode)"
     )
 
 
 def funding(missing: int) -> Call:
-    """What gives the account that signed the wei that it misses."""
+    """Return the transfer of the wei that the account that signed misses."""
     return Call(SIGNER, b"", TRANSFER_GAS, missing)
 
 
@@ -95,7 +87,7 @@ def deploy_proxy(transactor: Transactor, quote: Quote | None) -> list[Receipt]:
             # a node that takes no such transaction shall say so before anything is paid
             transactor.offer(SIGNED)
             receipts.append(transactor.send(quote))
-        receipts.append(transactor.send_signed(SIGNED, "0x" + keccak256(SIGNED).hex(), COST))
+        receipts.append(transactor.send_signed(SIGNED, to_hex(keccak256(SIGNED)), COST))
     except OutOfGasError:
         raise too_little_gas(connection, "which the node finds too little") from None
     if not transactor.wait(lambda: proxy_stands(connection) or None):

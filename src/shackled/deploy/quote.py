@@ -7,23 +7,23 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..chain.connection import Connection, quantity
-from ..errors import NodeBusyError, NodeError, NodeTimeoutError, NodeUnreachableError, RenderError, TransactionError
-from ..ether import GWEI
+from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
+from ..ethereum import GWEI, to_hex
 
 #: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
 MARGIN = (21, 20)
 #: A tip for those who make blocks, where a node suggests none, in wei.
 TIP = GWEI
-#: The highest tip that is paid unless --max-fee says otherwise, in wei.
+#: The highest tip that is paid unless `max_fee` is given, in wei.
 MOST_TIP = 3 * GWEI
-#: How many times the gas that is counted here a node may estimate unless --max-fee says otherwise.
+#: How many times the gas that is counted here a node may estimate unless `max_fee` is given.
 MOST_TIMES = 10
 
 
 @dataclass(frozen=True)
 class Fees:
     """Prices of gas in wei. likely: what is probably paid. most: what is paid at most. tip: None on a chain without the
-    fees of EIP-1559, where `most` is the price. named: whether `most` is what somebody named (--max-fee).
+    fees of EIP-1559, where `most` is the price. named: whether `most` is what somebody named (`max_fee`).
     """
 
     likely: int
@@ -52,9 +52,9 @@ class Call:
     needs: Mapping[bytes, bytes] = field(default_factory=dict)
 
     def request(self, sender: bytes | None = None) -> dict[str, str]:
-        """As JSON-RPC has it."""
+        """Return the fields of the transaction as JSON-RPC has them."""
         parts = {"from": sender, "to": self.to, "data": self.data}
-        return {key: _hex(part) for key, part in parts.items() if part is not None} | {"value": hex(self.value)}
+        return {key: to_hex(part) for key, part in parts.items() if part is not None} | {"value": hex(self.value)}
 
 
 @dataclass(frozen=True)
@@ -82,11 +82,12 @@ class Quote:
 
 
 def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
-    """What gas costs on a chain now, with headroom for a base fee that doubles. max_fee: the most that somebody is
-    ready to pay for a gas, in wei.
+    """Return what gas costs on a chain now, with headroom for a base fee that doubles.
 
-    TransactionError if it costs more than that; without a `max_fee`, if the node suggests a tip above 3 gwei, or tells
-    no base fee, so that nothing would bound the price.
+    max_fee: the highest price of a gas that may be paid, in wei.
+
+    Raises TransactionError if it costs more than that; without a `max_fee`, if the node suggests a tip above 3 gwei, or
+    tells no base fee, so that nothing would bound the price.
     """
     base = base_fee(connection)
     if base is None:
@@ -94,22 +95,22 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
         if max_fee is None:
             raise TransactionError(
                 f"the {connection.name} tells no base fee, and asks {price / GWEI:,.12g} gwei for a gas, which nothing "
-                "bounds: if its chain is one without EIP-1559, say how much a gas may cost, --max-fee GWEI"
+                "bounds: if its chain is one without EIP-1559, say how much a gas may cost, `max_fee`"
             )
         _require(price, max_fee)
         return Fees(price, price, None, True)
     try:
         tip = connection.number("eth_maxPriorityFeePerGas")
-    except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+    except NoAnswerError:
         raise
-    except RenderError:
+    except ChainError:
         tip = TIP
     if max_fee is None:
         if tip > MOST_TIP:
             raise TransactionError(
                 f"the {connection.name} suggests a tip of {tip / GWEI:,.12g} gwei for a gas, and "
                 f"{MOST_TIP // GWEI} at most are paid unasked: if so much is right, say how much a gas may cost, "
-                "--max-fee GWEI"
+                "`max_fee`"
             )
         # the base may rise by an eighth each block
         return Fees(base + tip, 2 * base + tip, tip)
@@ -118,16 +119,16 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
 
 
 def base_fee(connection: Connection) -> int | None:
-    """The base fee of the last block, in wei; None on a chain without EIP-1559."""
-    block = connection.request("eth_getBlockByNumber", "latest", False)
+    """Return the base fee of the last block, in wei; None on a chain without EIP-1559."""
+    block = connection.block()
     try:
         return None if block.get("baseFeePerGas") is None else quantity(block["baseFeePerGas"])
-    except (AttributeError, ValueError):
+    except ValueError:
         raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
 
 
 def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: float = 1.0) -> Quote:
-    """A quote. name: of the node. rate: what to multiply our count by where the node gives no estimate.
+    """Return a quote. name: of the node. rate: what to multiply our count by where the node gives no estimate.
 
     TransactionError if the estimate is more than 10 times our count, and nobody named a price.
     """
@@ -135,7 +136,7 @@ def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: fl
         raise TransactionError(
             f"the {name} estimates {estimate:,} gas for a transaction that takes about {call.ours:,} as counted here, "
             f"more than {MOST_TIMES} times as much: if its chain counts like that, say how much a gas may cost, "
-            "--max-fee GWEI"
+            "`max_fee`"
         )
     expected = int(call.ours * rate) if estimate is None else estimate
     limit = max(call.ours, expected) * MARGIN[0] // MARGIN[1]
@@ -164,16 +165,16 @@ def make_quotes(
 
 
 def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
-    """The gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
+    """Return the gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
     plain: list[Any] = [call.request(sender)]
-    overrides = {_hex(place): {"code": _hex(code)} for place, code in call.needs.items()}
+    overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}
     # nodes that know no overrides refuse them
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
         try:
             estimate = connection.number("eth_estimateGas", *parameters)
-        except (NodeBusyError, NodeTimeoutError, NodeUnreachableError):
+        except NoAnswerError:
             raise
-        except RenderError:
+        except ChainError:
             continue
         # a call of what is not there does nothing, for almost nothing
         return estimate if 2 * estimate >= call.ours else None
@@ -183,10 +184,6 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
 def _require(price: int, max_fee: int) -> None:
     if price > max_fee:
         raise TransactionError(
-            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of --max-fee: wait until "
+            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of `max_fee`: wait until "
             "it is cheaper, or raise it"
         )
-
-
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()

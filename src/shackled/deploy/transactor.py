@@ -8,20 +8,19 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection, quantity
 from ..chain.refusal import refusal
 from ..errors import (
-    NodeBusyError,
+    ChainError,
+    NoAnswerError,
     NodeError,
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
-    RenderError,
     RevertError,
     TransactionError,
 )
-from ..ether import GWEI, rounded
+from ..ethereum import GWEI, checksum_address, rounded, to_hex
 from .quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 
 if TYPE_CHECKING:
@@ -68,22 +67,22 @@ class Transactor:
     @property
     def name(self) -> str:
         """The account, for people."""
-        return f"the account {show_address(self.address)}"
+        return f"the account {checksum_address(self.address)}"
 
     def balance(self) -> int:
-        """In wei."""
-        return self.connection.number("eth_getBalance", _hex(self.address), "latest")
+        """Return the balance of the account, in wei."""
+        return self.connection.balance(self.address)
 
     def fees(self) -> Fees:
-        """What gas costs now; TransactionError as `current_fees` has it."""
+        """Return what gas costs now; TransactionError as `current_fees` has it."""
         return current_fees(self.connection, self.max_fee)
 
     def quote(self, call: Call) -> Quote:
-        """A quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
+        """Return a quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
         return make_quote(self.connection.name, call, self.fees(), self.estimate(call))
 
     def estimate(self, call: Call) -> int:
-        """The gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
+        """Return the gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
         try:
             return self.connection.number("eth_estimateGas", call.request(self.address))
         except RevertError as error:
@@ -111,7 +110,7 @@ class Transactor:
                 f"gas has become more expensive meanwhile, {base / GWEI:,.12g} gwei, and at most "
                 f"{quote.fees.most / GWEI:,.12g} were told: the transaction was not sent; run the same again"
             )
-        nonce = self.connection.number("eth_getTransactionCount", _hex(self.address), "pending")
+        nonce = self.connection.number("eth_getTransactionCount", to_hex(self.address), "pending")
         if nonce >= 1 << 64:
             raise NodeError(f"the {self.connection.name} says that {self.name} has made {nonce:,} transactions")
         transaction: dict[str, Any] = {
@@ -119,13 +118,13 @@ class Transactor:
             "nonce": max(self._nonce, nonce),
             "gas": quote.gas,
             "value": call.value,
-            "data": _hex(call.data),
+            "data": to_hex(call.data),
             **quote.fees.fields,
         }
         if call.to is not None:
-            transaction["to"] = show_address(call.to)
+            transaction["to"] = checksum_address(call.to)
         signed = self._account.sign_transaction(transaction)
-        digest = "0x" + bytes(signed.hash).hex()
+        digest = to_hex(bytes(signed.hash))
         receipt = self.send_signed(bytes(signed.raw_transaction), digest, quote.ceiling, transaction)
         self._nonce = transaction["nonce"] + 1
         return receipt
@@ -133,7 +132,7 @@ class Transactor:
     def send_signed(self, raw: bytes, digest: str, cost: int = 0, transaction: dict[str, Any] | None = None) -> Receipt:
         """Sends what is signed, and waits for its receipt. cost: what the account must have, in wei, for messages."""
         try:
-            self.connection.request("eth_sendRawTransaction", _hex(raw))
+            self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except NodeError as error:
             said = str(error).lower()
             # it may have come through before; whether it did shows when it is asked for
@@ -146,7 +145,7 @@ class Transactor:
             return self._follow(digest, transaction)
         except TransactionError:
             raise
-        except RenderError as error:
+        except ChainError as error:
             error.args = (f"the transaction {digest} was sent, {LOOK_FIRST}: {error}",)
             raise
 
@@ -156,13 +155,13 @@ class Transactor:
         TransactionError if the node would not take it then, OutOfGasError if its gas would not do.
         """
         try:
-            self.connection.request("eth_sendRawTransaction", _hex(raw))
+            self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except OutOfGasError:
             raise
         except NodeError as error:
             if _unbound(error):
                 raise self._rejected(error, 0) from None
-        except RenderError:
+        except ChainError:
             pass
 
     def settle(self) -> None:
@@ -170,7 +169,7 @@ class Transactor:
 
         def waiting() -> int:
             count = [
-                self.connection.number("eth_getTransactionCount", _hex(self.address), block)
+                self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
                 for block in ("pending", "latest")
             ]
             return count[0] - count[1]
@@ -205,21 +204,21 @@ class Transactor:
         return Receipt(digest, block, gas, gas * price, tuple(logs))
 
     def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
-        """Why a transaction failed, by making it again as a call."""
+        """Return why a transaction failed, by making it again as a call."""
         if transaction is None:
             return ""
-        call = {"from": _hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
+        call = {"from": to_hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
         call |= {"gas": hex(transaction["gas"])} | ({"to": transaction["to"]} if "to" in transaction else {})
         try:
             self.connection.request("eth_call", call, hex(max(0, block - 1)))
         except RevertError as error:
             return f": {_why(error.data, transaction['gas'])}"
-        except RenderError as error:
+        except ChainError as error:
             return f": {error}"
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """What is answered as soon as it is not None; None if it takes too long. A node that fails is asked again.
+        """Ask until the answer is not None, and return it; None if it takes too long. A node that fails is asked again.
 
         what: is waited for, for people.
         """
@@ -231,7 +230,7 @@ class Transactor:
                 answer = ask()
                 if answer is not None:
                     return answer
-            except (NodeBusyError, NodeTimeoutError, NodeUnreachableError) as error:
+            except NoAnswerError as error:
                 failure = error
             if self.late is not None and not told and time.monotonic() - started > LATE:
                 told = True
@@ -243,8 +242,8 @@ class Transactor:
             time.sleep(pause)
             pause = min(2.0, pause * 1.5)
 
-    def _rejected(self, error: NodeError, cost: int) -> RenderError:
-        """What a node says against a transaction, with what to do."""
+    def _rejected(self, error: NodeError, cost: int) -> ChainError:
+        """Return what a node says against a transaction, with what to do."""
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
             return TransactionError(
@@ -265,22 +264,13 @@ class Transactor:
 
 
 def _unbound(error: NodeError) -> bool:
-    """Whether a node takes only transactions that are bound to a chain (EIP-155)."""
+    """Return whether a node takes only transactions that are bound to a chain (EIP-155)."""
     said = str(error).lower()
     return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
 
 
-def block_gas(connection: Connection) -> int:
-    """The gas that all transactions of a block may use."""
-    block = connection.request("eth_getBlockByNumber", "latest", False)
-    try:
-        return quantity(block["gasLimit"])
-    except (TypeError, LookupError, ValueError):
-        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
-
-
 def _are_logs(logs: Any) -> bool:
-    """Whether these are events as a receipt has them."""
+    """Return whether these are events as a receipt has them."""
     return isinstance(logs, list) and all(
         isinstance(log, dict)
         and _is_hex(log.get("address"), 20)
@@ -295,9 +285,5 @@ def _is_hex(value: Any, size: int) -> bool:
 
 
 def _why(data: bytes, gas: int = 0) -> str:
-    """What a contract that reverted a transaction said."""
+    """Return what a contract that reverted a transaction said."""
     return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"
-
-
-def _hex(data: bytes) -> str:
-    return "0x" + data.hex()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from ..chain.addresses import show_address
+from ..ethereum import checksum_address
 from ..whole_file import make_output_folder, write_output
 from .contract import Deployment
 
@@ -17,7 +17,7 @@ SUMMARY = "contracts.json"
 def write_verification(folder: Path, chain_id: int, standing: Sequence[Deployment]) -> list[Path]:
     """Writes the compiler's input in standard JSON, and a list of the contracts with all that is asked about them.
 
-    InputError if the folder cannot be written to.
+    Raises OutputError if the folder cannot be written to.
     """
     contracts, inputs = [], {}
     artifacts = files("shackled.artifacts")
@@ -29,7 +29,7 @@ def write_verification(folder: Path, chain_id: int, standing: Sequence[Deploymen
         contracts.append(
             {
                 "name": f"{built['source']}:{each.name}",
-                "address": show_address(each.address),
+                "address": checksum_address(each.address),
                 "compiler": built["compiler"],
                 "standardInput": name,
                 "constructorArguments": each.creation[len(built["bytecode"]) // 2 :].hex(),

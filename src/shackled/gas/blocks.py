@@ -63,7 +63,7 @@ class Block:
 
 
 def functions(root: Frame, contract: str) -> list[tuple[str, int]]:
-    """The functions of a contract that were called below a frame, with their own gas, the dearest first."""
+    """Return the functions of a contract that were called below a frame, with their own gas, the dearest first."""
     gas: Counter[str] = Counter()
     for frame in _frames(root, contract):
         gas[_name(frame)] += frame.gas()
@@ -71,7 +71,7 @@ def functions(root: Frame, contract: str) -> list[tuple[str, int]]:
 
 
 def blocks(root: Frame, contract: str, function: str) -> list[Block]:
-    """The blocks of a function that were passed, in the order of the code. Their gas is that of the function itself."""
+    """Return the blocks of a function that were run, in the order of the code, with the gas of each."""
     costs: Counter[int] = Counter()
     for frame in _frames(root, contract):
         if _name(frame) == function:

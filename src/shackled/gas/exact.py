@@ -36,19 +36,19 @@ class Exact:
         return max(self.intrinsic_gas + self.gas, self.floor_gas)
 
     def limit(self, searched: int) -> int:
-        """The gas limit that a request needs, if its execution needs `searched`."""
+        """Return the gas limit that a request needs, if its execution needs `searched`."""
         return max(self.intrinsic_gas + searched, self.floor_gas)
 
 
 def counting(chain: Chain) -> ContractChain:
-    """The chain, if it counts gas; otherwise InputError."""
+    """Return the chain, if it counts gas; otherwise InputError."""
     if not isinstance(chain, ContractChain):
-        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take --chain pyrevm or pyevm")
+        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take `chain` pyrevm or pyevm")
     return chain
 
 
 def render_call(scene: Scene) -> bytes:
-    """The data of the call `Renderer.render`."""
+    """Return the data of the call `Renderer.render`."""
     return encode(artifact("Renderer").selectors["render"], scene)
 
 
@@ -61,12 +61,12 @@ def measure(scene: Scene, chain: ContractChain) -> Exact:
 
 
 def floor_gas(data: bytes) -> int:
-    """What a transaction with this data costs at least, since Prague."""
+    """Return what a transaction with this data costs at least, since Prague."""
     return 21000 + 10 * (4 * len(data) - 3 * data.count(0))
 
 
 def needed_for(gas: int) -> int:
-    """The least gas of which all but a 64th is at least `gas`."""
+    """Return the least gas of which all but a 64th is at least `gas`."""
     return gas + (gas - 1) // (KEPT - 1) if gas else 0
 
 
@@ -89,6 +89,6 @@ class Margin:
 
 
 def margin(exact: Exact, searched: int) -> Margin:
-    """The account of the difference between what a call uses and the least limit that it needs."""
+    """Return the account of the difference between what a call uses and the least limit that it needs."""
     kept = needed_for(exact.dearest_call) - exact.dearest_call
     return Margin(kept, kept - (searched - exact.gas))

@@ -30,7 +30,7 @@ class _Box:
 
 
 def flame_graph(profile: Profile, name: str) -> str:
-    """The SVG document. A box is as wide as its gas; pointing at one says how much that is.
+    """Return the SVG document. A box is as wide as its gas; pointing at one says how much that is.
 
     Calls that are common to all of a stage, such as that of the Engine, are left out.
     """
@@ -64,7 +64,7 @@ def flame_graph(profile: Profile, name: str) -> str:
 
 
 def _common_calls(profile: Profile) -> dict[str, int]:
-    """How many of the first calls are the same for all of a stage: they would be rows of one box each."""
+    """Return how many of the first calls are the same for all of a stage: they would be rows of one box each."""
     first: dict[str, tuple[str, ...]] = {}
     for cost in profile.costs:
         # the function itself stays

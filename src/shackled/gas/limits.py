@@ -22,6 +22,6 @@ class Limit:
 
 @cache
 def limits() -> tuple[Limit, ...]:
-    """All that are known, the smallest first."""
+    """Return all that are known, the smallest first."""
     data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
     return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))

@@ -80,7 +80,7 @@ class Profile:
 
 
 def profile(scene: Scene, report: Callable[[int], None] | None = None) -> Profile:
-    """The profile of a render, made in py-evm: some two million gas a second.
+    """Return the profile of a render, made in py-evm: some two million gas a second.
 
     report: is told now and then how much gas has been used. InputError if py-evm is not installed.
     """
@@ -116,7 +116,7 @@ def _name(frame: Frame, mapped: SourceMap) -> str:
 
 
 def _is_own(frame: Frame, mapped: SourceMap, place: Place) -> bool:
-    """Whether a place belongs to the function of the frame: one within assembly lies in one of Solidity."""
+    """Return whether a place belongs to the function of the frame: one within assembly lies in one of Solidity."""
     entered = mapped.places.get(frame.entry)
     return entered is not None and frame.entry > 0 and entered.function == place.function
 

@@ -46,11 +46,11 @@ class Report:
         return self.exact.gas / count if count else None
 
     def ether(self, gas_price: float) -> float:
-        """The price of a transaction, at so many gwei a gas."""
+        """Return the price of a transaction, at so many gwei a gas."""
         return self.exact.transaction_gas * gas_price / GWEI_PER_ETHER
 
     def to_json(self, gas_price: float, eth_price: float | None) -> dict[str, Any]:
-        """As `shackled gas --json` prints it."""
+        """Return the object that `shackled gas --json` prints."""
         ether = self.ether(gas_price)
         return {
             "width": self.scene.width,

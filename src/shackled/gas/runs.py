@@ -11,22 +11,25 @@ from itertools import groupby
 from ..artifacts import artifact
 from ..chain import ContractChain
 from ..chain.chain import CallResult, returned_bytes
-from ..reference.layout import IS_BLENDED, IS_SMOOTH, IS_SPOT_LIT
+from ..reference.layout import (
+    DRAWN_BEFORE,
+    FRAME_BEGIN,
+    INVERT,
+    IS_BLENDED,
+    IS_SMOOTH,
+    IS_SPOT_LIT,
+    OBJECT_BYTES,
+    OBJECT_COUNT,
+    OBJECT_FIRST,
+    OBJECT_FLAGS,
+    OBJECT_MODE,
+    OBJECTS,
+    OBJECTS_BEGIN,
+    RETURNS_DEPTHS,
+)
 from ..scene.codec import WIREFRAME, Rectangle, encode
 from ..scene.scene import Scene
 
-#: Of Registers.sol.
-FRAME_BEGIN = 0x800
-INVERT = 0xA60
-OBJECT_COUNT = 0xAA0
-OBJECTS = 0xAC0
-OBJECT_FIRST = 0xAE0
-OBJECTS_BEGIN = 0xB20
-DRAWN_BEFORE = 0xB40
-RETURNS_DEPTHS = 0xB60
-OBJECT_BYTES = 0x11C0
-OBJECT_MODE = 0x11E0
-OBJECT_FLAGS = 0x1200
 #: Of Pipeline.sol.
 BAND_PIXELS = 16384
 #: Words of an answer before the pixels, in bytes.
@@ -51,7 +54,7 @@ class _Object:
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
-    """All that the Renderer makes to render a scene, made once more."""
+    """Return all that the Renderer makes to render a scene, made once more."""
     whole = Rectangle(0, 0, scene.width, scene.height)
     data = _uniforms(scene, whole, chain)
     if len(_runs(data)) == 1 or scene.width * scene.height <= BAND_PIXELS:

@@ -54,7 +54,7 @@ def search(
     report: Callable[[Step], None] | None = None,
     most: int = DEFAULT_GAS_LIMIT,
 ) -> Search:
-    """The least limit above `lower` that is enough.
+    """Return the least limit above `lower` that is enough.
 
     enough: makes the call with this limit; what is enough stays enough with more. lower: taken not to suffice.
     upper: a limit that should; None doubles until one does, up to `most`. report: is told every step.
@@ -91,7 +91,7 @@ def search(
 
 
 def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
-    """Whether a call of a contract succeeds with a gas limit; what it refuses for another reason is a RenderError."""
+    """Return whether a call succeeds with a gas limit. Raises ChainError if it fails for another reason."""
 
     def call(limit: int) -> bool:
         try:

@@ -34,11 +34,11 @@ class Source:
     line_begins: tuple[int, ...]
 
     def line(self, place: int) -> int:
-        """The line of a byte, from 1."""
+        """Return the line of a byte, from 1."""
         return bisect_right(self.line_begins, place)
 
     def function(self, begin: int, end: int) -> str | None:
-        """The function that holds these bytes."""
+        """Return the function that holds these bytes."""
         return next((f.name for f in self.functions if f.begin <= begin and end <= f.end), None)
 
 
@@ -70,7 +70,7 @@ class SourceMap:
 
 @cache
 def source_map(contract: str) -> SourceMap:
-    """The map of a contract, by the name of its artifact."""
+    """Return the map of a contract, by the name of its artifact."""
     data = _data()["contracts"][contract]
     places: dict[int, Place] = {}
     spans: dict[int, tuple[int, int, int]] = {}
@@ -113,7 +113,7 @@ def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
 
 
 def _instructions(code: bytes) -> list[int]:
-    """The positions of the instructions, without what is pushed."""
+    """Return the positions of the instructions, without what is pushed."""
     places, at = [], 0
     while at < len(code):
         places.append(at)
@@ -129,7 +129,7 @@ def _data() -> dict[str, Any]:
 
 @cache
 def _sources() -> dict[int, Source]:
-    """The sources that the compiler was given, by its numbers for them."""
+    """Return the sources that the compiler was given, by its numbers for them."""
     texts: dict[str, dict[str, str]] = {}
     for group in {artifact(contract).group for contract in _data()["contracts"]}:
         request = json.loads(files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8"))

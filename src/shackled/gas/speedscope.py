@@ -11,7 +11,7 @@ SCHEMA = "https://www.speedscope.app/file-format-schema.json"
 
 
 def speedscope(profile: Profile, name: str) -> dict[str, Any]:
-    """The content of the JSON file: stages hold functions, which hold lines; the weights are gas."""
+    """Return the content of the JSON file: stages hold functions, which hold lines; the weights are gas."""
     frames: dict[tuple[str, str, int], int] = {}
     costs = sorted(profile.costs, key=lambda cost: (cost.stage, cost.calls, cost.file, cost.line))
     samples = [[frames.setdefault(frame, len(frames)) for frame in _frames(cost)] for cost in costs]

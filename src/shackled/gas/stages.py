@@ -36,6 +36,8 @@ _SOURCES = {
     "uniforms/Materials.sol": UNIFORMS,
     "uniforms/Specular.sol": UNIFORMS,
     "pipeline/VertexShader.sol": "vertex shader",
+    "uniforms/TileCulling.sol": "primitive assembly",
+    "pipeline/Indices.sol": "primitive assembly",
     "pipeline/PrimitiveAssembly.sol": "primitive assembly",
     "pipeline/Clipper.sol": "primitive assembly",
     "pipeline/Shading.sol": SHADING,
@@ -66,7 +68,7 @@ _SOURCES = {
 
 
 def stages_of(source_map: SourceMap) -> dict[int, str]:
-    """The stage of each instruction, by its position; none for what serves all stages and for the compiler's own."""
+    """Return the stage of each instruction by its position; code that serves several stages has none."""
     stages = {}
     for at, place in source_map.places.items():
         if place.function is not None:

@@ -37,7 +37,7 @@ class Frame:
     calls: dict[tuple[str, int], Frame] = field(default_factory=dict)
 
     def call(self, contract: str, entry: int) -> Frame:
-        """The frame of a function that is called here."""
+        """Return the frame of a function that is called here."""
         key = contract, entry
         if key not in self.calls:
             self.calls[key] = Frame(contract, entry, self)
@@ -48,7 +48,7 @@ class Frame:
         return [self, *(frame for each in self.calls.values() for frame in each.frames())]
 
     def gas(self) -> int:
-        """The gas of this frame without what it calls."""
+        """Return the gas of this frame without what it calls."""
         return sum(sum(costs.values()) for costs in self.costs.values())
 
 
@@ -57,7 +57,7 @@ TRACER = "the package py-evm: pip install 'shackled[profile]'"
 
 
 def can_trace() -> bool:
-    """Whether there is an EVM that can be traced."""
+    """Return whether there is an EVM that can be traced."""
     return find_spec("eth") is not None
 
 
@@ -104,7 +104,7 @@ class _Tracer(PyEvmChain):
         return state
 
     def _run_code(self, computation: Any) -> None:
-        """The loop of py-evm with the books kept."""
+        """Run the loop of py-evm, and count the gas of each instruction."""
         from eth.exceptions import Halt
         from eth.vm.logic.invalid import InvalidOpcode
 

@@ -11,11 +11,10 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ..chain import Drawing, open_chain
-from ..errors import InputError, RenderError
+from ..errors import InputError, RenderError, ShackledError
 from ..scene.codec import Rectangle
 from ..scene.scene import Scene
-from .evm import limited
-from .part import draw_part
+from .evm import draw_limited, limited
 from .store import contracts_digest
 
 if TYPE_CHECKING:
@@ -75,7 +74,7 @@ class ClusterPlace:
             workers = self._check()
         except BaseException as error:
             self.close()
-            if isinstance(error, InputError | RenderError) or not isinstance(error, Exception):
+            if isinstance(error, ShackledError) or not isinstance(error, Exception):
                 raise
             raise RenderError(
                 f"no dask scheduler answers at {address or 'a port of this machine'}: {_line(error)}"
@@ -93,13 +92,13 @@ class ClusterPlace:
         from distributed import KilledWorker
 
         try:
-            future = self._client.submit(render_there, self._chain, self.gas, scene, tile, pure=False)
+            future = self._client.submit(draw_limited, self._chain, self.gas, scene, tile, pure=False)
             answer = future.result()
         except KilledWorker:
             raise RenderError(
                 "the workers of the cluster died over the same part of the picture, one after the other"
             ) from None
-        except (InputError, RenderError):
+        except ShackledError:
             raise
         except Exception as error:
             said = f"{type(error).__name__}: {error}"
@@ -158,11 +157,6 @@ class ClusterPlace:
             if found != contracts_digest().hex():
                 raise InputError(f"the worker {worker} has other contracts: install the same version of shackled there")
         return len(facts)
-
-
-def render_there(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
-    """Runs on a worker."""
-    return draw_part(limited(chain, gas), scene, tile)
 
 
 def _facts_function() -> Any:

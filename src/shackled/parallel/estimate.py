@@ -23,12 +23,13 @@ USED = 0.9
 
 @dataclass(frozen=True)
 class Estimate:
-    """fixed: gas of a picture beside its pixels. call: what of that each call costs, however small its tile: the
-    vertices and faces of the whole scene. pixel: gas of each pixel, on average.
+    """area: pixels of the picture. fixed: gas of the picture beside its pixels. call: what of that each call costs,
+    however small its tile: to find out which faces of the scene it shows. pixel: gas of each pixel, on average.
     density: how many times as much a pixel may cost in a strip of the picture where much is drawn.
     intrinsic: gas to send the scene.
     """
 
+    area: int
     fixed: float
     call: float
     pixel: float
@@ -43,10 +44,12 @@ class Estimate:
         """The pixels of a strip of the picture that fits into that much gas wherever it is, what is paid to send the
         scene included; 0 if none does.
         """
+        # vertices and faces are where pixels are covered
+        pixel = (self.pixel + max(0.0, self.fixed - self.call) / self.area) * self.density
         fitting, beyond = 0, 1 << 22
         while beyond - fitting > 1:
             middle = (fitting + beyond) // 2
-            need = self.intrinsic + self.call + memory_gas(middle) + middle * self.pixel * self.density
+            need = self.intrinsic + self.call + memory_gas(middle) + middle * pixel
             fitting, beyond = (middle, beyond) if need <= USED * gas else (fitting, middle)
         return fitting
 
@@ -61,6 +64,7 @@ def estimate(scene: Scene, chain: ContractChain) -> Estimate:
     corner = chain.draw(large, Rectangle(0, 0, 1, 1))
     empty = chain.draw(evolve(small, objects=[]))
     return Estimate(
+        area=scene.width * scene.height,
         fixed=max(0.0, gas[0] - slope * pixels[0]),
         call=float(corner.gas or 0),
         pixel=slope,

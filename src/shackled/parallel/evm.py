@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from functools import cache
 
-from ..chain import Chain, open_chain
+from ..chain import Chain, Drawing, open_chain
 from ..chain.embedded import EmbeddedChain
 from ..errors import InputError
+from ..scene.codec import Rectangle
+from ..scene.scene import Scene
+from .part import draw_part
 
 
 @cache
@@ -18,3 +21,8 @@ def limited(chain: str | None, gas: int | None) -> Chain:
     if not isinstance(place, EmbeddedChain):
         raise InputError(f"the chain {chain!r} counts no gas: leave out `gas_limit`")
     return type(place)(gas)
+
+
+def draw_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
+    """Draw a part of a frame in this process, by `limited`."""
+    return draw_part(limited(chain, gas), scene, tile)

@@ -28,6 +28,8 @@ from .where import Where
 #: Parts for each seat, so that all have something to do until the end, as long as they cost at most so much more gas.
 PARTS_PER_SEAT = 4
 MOST_EXTRA = 0.3
+#: Pixels of a part, or a row where that is more, at least: smaller ones mostly cost what each call costs.
+LEAST_PIXELS = 1024
 #: Pixels of a part at most: about 50 MB for its pixels and what is worked out about them.
 MOST_PIXELS = 1 << 22
 #: Pictures of nodes that take less gas are compared whole: here that takes a second or two. PIXELS: where no gas is
@@ -103,7 +105,7 @@ def plan(
         if place.gas is not None and expected is not None:
             pixels = min(pixels, expected.pixels_within(place.gas))
     # what does not fit by this reckoning is tried in the smallest tiles that make sense
-    pixels = max(pixels, width, 4096)
+    pixels = max(pixels, width, LEAST_PIXELS)
     seats = sum(place.seats for place in places)
     wanted = 1 if frames >= seats else -(-PARTS_PER_SEAT * seats // frames)
     if expected is not None and wanted > 1:

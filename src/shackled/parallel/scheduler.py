@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 
 from ..chain import Drawing
 from ..errors import (
+    ChainError,
     NodeBusyError,
     NodeError,
     NodeTimeoutError,
@@ -202,7 +203,7 @@ class Scheduler:
         scene = self._frames[part.frame]
         try:
             check_part(piece, part.tile)
-        except RenderError as error:
+        except ChainError as error:
             raise WrongAnswer(str(error)) from None
         with self._changed:
             first, bench.checked = not bench.checked, True
@@ -235,7 +236,7 @@ class Scheduler:
 
     def _judged(self, bench: Bench, part: Part, error: BaseException) -> BaseException:
         """What a place says, or WrongAnswer if it says of the contracts what they do not say here."""
-        genuine = isinstance(error, NodeError | OutOfGasError | WrongAnswer) or not isinstance(error, RenderError)
+        genuine = isinstance(error, NodeError | OutOfGasError | WrongAnswer) or not isinstance(error, ChainError)
         if genuine or self._referee is None or not bench.place.distant:
             return error
         try:

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from ..artifacts import RENDERER, artifact
 from ..chain import Drawing
-from ..errors import RenderError
+from ..errors import ChainError
 from ..scene.codec import Rectangle, encode_scene
 from ..scene.fit import fit
 from ..scene.scene import Scene
@@ -74,7 +74,7 @@ class Store:
         piece = Drawing(bmp, *numbers)
         try:
             check_part(piece, part.tile)
-        except RenderError:
+        except ChainError:
             return None
         return piece
 

@@ -1,7 +1,7 @@
 """How a canvas is cut into tiles.
 
-Tiles are strips as wide as the canvas wherever that is possible: a triangle is left out of a strip that it does not
-reach at once, but is walked through row by row in a tile that it misses to the left or right.
+Tiles are strips as wide as the canvas wherever that is possible: the rows of a triangle are then cut as little as they
+can be.
 """
 
 from __future__ import annotations

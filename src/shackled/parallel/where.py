@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..chain import Chain, open_node
 from ..chain.embedded import DEFAULT_GAS_LIMIT
 from ..checks import integer
-from ..errors import InputError, NodeError, OutOfGasError, RenderError
+from ..errors import ChainError, InputError, NodeError, OutOfGasError
 from .evm import limited
 from .listener import Listener
 from .place import ChainPlace, Place
@@ -96,7 +96,7 @@ class Where:
 
     def _open_nodes(self, listener: Listener) -> list[Place]:
         places: list[Place] = []
-        last: RenderError
+        last: ChainError
         urls = list(dict.fromkeys(self.rpc))
         for url in urls:
             try:
@@ -114,7 +114,7 @@ class Where:
         node = open_node(url, self.address, self.timeout)
         node.connection.attempts = ATTEMPTS
         most = node.gas_limit
-        node.place("Renderer")  # an --address with something else is told before anything is rendered
+        node.place("Renderer")  # an address with something else is refused before anything is rendered
         if not most:
             raise node.too_little()
         node.connection.attempts = 1

@@ -6,6 +6,7 @@ there, once. The last two bits of a depth say how far it is.
 
 from __future__ import annotations
 
+from .compositor import over
 from .fragment_shader import Span
 from .layout import IS_BLENDED
 from .patches import HALF_85, pack, sampled
@@ -13,9 +14,6 @@ from .registers import Registers
 from .words import MASK
 
 FOUND, DRAWN = 1, 2
-#: Just below 256, Q10.
-BRIGHTEST = 0x3FFFF
-LANE = (1 << 85) - 1
 
 
 def draw(spans: list[Span], r: Registers) -> None:
@@ -25,7 +23,7 @@ def draw(spans: list[Span], r: Registers) -> None:
         for column in range(first, end):
             place = line, column - r.column_begin
             if passes(attribute, place, r):
-                color = blended(sampled(attribute, column, row, r), r.image[place].tolist(), r.opacity)
+                color = over(sampled(attribute, column, row, r), place, r)
                 r.image[place] = pack(((color << 48) + HALF_85) & MASK)
             attribute += step
 
@@ -38,16 +36,3 @@ def passes(attribute: int, place: tuple[int, int], r: Registers) -> bool:
         return False
     r.depth[place] = depth | (DRAWN if second else FOUND)
     return second
-
-
-def blended(color: int, behind: list[int], opacity: int) -> int:
-    """A colour (signed lanes of 85 bits, Q10) over blue, green and red: color * opacity + behind * (1 - opacity)."""
-    mixed = 0
-    for lane, byte in enumerate(behind):
-        low = color & LANE
-        value = low - (low >> 84 << 85)
-        # without what the lane has borrowed
-        color = (color - value) >> 85
-        value = min(max(value, 0), BRIGHTEST)
-        mixed |= (value * opacity + (byte << 10) * ((1 << 24) - opacity)) >> 24 << (85 * lane)
-    return mixed

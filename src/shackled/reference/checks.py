@@ -1,10 +1,10 @@
-"""Every bound that the pipeline relies on, and the errors of the contract."""
+"""Every bound that the pipeline relies on."""
 
 from __future__ import annotations
 
-from ..errors import RenderError
-from .extensions import HEADER, OPAQUE, SIZES, SPOT, spot_numbers
+from .extensions import check_extensions
 from .mesh import NORMALS, WIDE
+from .scene_errors import Reverted
 from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
 
 MAX_CANVAS = 2048
@@ -21,15 +21,6 @@ SCENE_OBJECTS = 19
 SCENE_EXTENSIONS = 20
 LIGHT_WORDS = 5
 OBJECT_WORDS = 15
-
-
-class Reverted(RenderError):
-    """The call reverts with a custom error of the contract: its name and values."""
-
-    def __init__(self, error: str, **values: int) -> None:
-        """`error`: its name."""
-        described = ", ".join(f"{name}={value}" for name, value in values.items())
-        super().__init__(f"the contract refused: {error}({described})")
 
 
 def check_layout(data: bytes, base: int) -> None:
@@ -141,49 +132,6 @@ def check_object(obj: Object, index: int) -> None:
         raise Reverted("RotationOutOfRange", object=index, x=x, y=y, z=z, w=w)
     if not any(obj.rotation):
         raise Reverted("RotationIsZero", object=index)
-
-
-def check_extensions(scene: Scene) -> None:
-    """Every record, of which lights and objects are checked."""
-    data = scene.extensions
-    place, least = 0, 0
-    while place != len(data):
-        header, content = data[place : place + HEADER], data[place + HEADER :]
-        size = int.from_bytes(header[3:], "big")
-        if len(header) < HEADER or size > len(content):
-            raise Reverted("ExtensionCutOff", position=place)
-        key = int.from_bytes(header[:3], "big")
-        kind, index = key >> 16, key & 0xFFFF
-        if key < least:
-            raise Reverted("ExtensionOrder", kind=kind, index=index)
-        least = key + 1
-        if kind not in SIZES:
-            raise Reverted("UnknownExtension", kind=kind, index=index)
-        if size != SIZES[kind]:
-            raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
-        count = len(scene.lights if kind == SPOT else scene.objects)
-        if index >= count:
-            raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
-        if kind == SPOT:
-            if scene.lights[index].kind != POINT:
-                raise Reverted("SpotIsNoPoint", light=index)
-            check_spot(content[:size], index)
-        else:
-            opacity = int.from_bytes(content[:size], "big")
-            if opacity >= OPAQUE:
-                raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
-        place += HEADER + size
-
-
-def check_spot(content: bytes, index: int) -> None:
-    """All numbers of a spot light."""
-    x, y, z, inner, outer = spot_numbers(content)
-    if not all(map(in_range, (x, y, z))):
-        raise Reverted("SpotOutOfRange", light=index, x=x, y=y, z=z)
-    if not (x or y or z):
-        raise Reverted("SpotWithoutDirection", light=index)
-    if inner > 1 << 32 or outer < -(1 << 32) or inner < outer:
-        raise Reverted("SpotAngles", light=index, cosInner=inner, cosOuter=outer)
 
 
 def check_mesh(header: int, length: int, index: int) -> tuple[int, bool]:

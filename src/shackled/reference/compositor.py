@@ -1,13 +1,26 @@
-"""The background."""
+"""The background under the objects, and fragments that are mixed with what is behind them."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .layout import ONES
-from .structs import Rectangle
+from .layout import LANE_85, ONES
+from .registers import Registers
+from .structs import Rectangle, Scene
 from .words import MASK, color_lanes, divide_signed
+
+#: Just below 256, Q10.
+BRIGHTEST = 0x3FFFF
+
+
+def begin(blended: bool, scene: Scene, r: Registers) -> None:
+    """Sets what lies under the objects that are drawn next: the background under the opaque ones.
+
+    Under those that are not is the picture of the opaque ones, as it is.
+    """
+    if not blended:
+        r.image = background(scene.background_top, scene.background_bottom, scene.canvas.height, r.tile)
 
 
 def background(top: int, bottom: int, height: int, tile: Rectangle) -> NDArray[np.uint8]:
@@ -30,3 +43,19 @@ def lane_step(top: int, bottom: int, rows: int) -> int:
         difference = ((top >> (8 * i)) & 0xFF) - ((bottom >> (8 * i)) & 0xFF)
         step += divide_signed(difference << 24, rows) << (56 * i)
     return step
+
+
+def over(color: int, place: tuple[int, int], r: Registers) -> int:
+    """The colour of a fragment over what is there: color * opacity + behind * (1 - opacity).
+
+    color: signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
+    """
+    mixed = 0
+    for lane, byte in enumerate(r.image[place].tolist()):
+        low = color & LANE_85
+        value = low - (low >> 84 << 85)
+        # without what the lane has borrowed
+        color = (color - value) >> 85
+        value = min(max(value, 0), BRIGHTEST)
+        mixed |= (value * r.opacity + (byte << 10) * ((1 << 24) - r.opacity)) >> 24 << (85 * lane)
+    return mixed

@@ -22,7 +22,7 @@ def count(scene: Scene, tile: Rectangle) -> tuple[int, int]:
     registers, _, geometry, drawn = assemble(scene, tile)
     spans: list[Span] = []
     for index, part in enumerate(geometry):
-        if opacity_of(scene, index) == 0:
+        if opacity_of(index, registers) == 0:
             continue
         stage = wireframe if part.object.flags & WIREFRAME else rasterizer
         for triangle in part.triangles:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from .scene_errors import Reverted
+from .structs import POINT, Scene
+
 #: Kinds.
 SPOT, OPACITY = 1, 2
 #: Bytes of kind, index and size; and of what follows, by kind.
@@ -9,9 +12,59 @@ HEADER = 5
 SIZES = {SPOT: 40, OPACITY: 4}
 #: One, as Q24.
 OPAQUE = 1 << 24
+#: The bounds of coordinates, 2^26 units, and one, Q32.
+MAX_COORDINATE, ONE = 1 << 58, 1 << 32
 
 #: The contents by kind and index.
 Records = dict[tuple[int, int], bytes]
+
+
+def check_extensions(scene: Scene) -> None:
+    """Every record, of which lights and objects are checked."""
+    data = scene.extensions
+    place, least = 0, 0
+    while place != len(data):
+        header, content = data[place : place + HEADER], data[place + HEADER :]
+        size = int.from_bytes(header[3:], "big")
+        if len(header) < HEADER or size > len(content):
+            raise Reverted("ExtensionCutOff", position=place)
+        key = int.from_bytes(header[:3], "big")
+        kind, index = key >> 16, key & 0xFFFF
+        if key < least:
+            raise Reverted("ExtensionOrder", kind=kind, index=index)
+        least = key + 1
+        if kind == SPOT:
+            check_head(kind, index, size, len(scene.lights))
+            if scene.lights[index].kind != POINT:
+                raise Reverted("SpotIsNoPoint", light=index)
+            check_spot(content[:size], index)
+        elif kind == OPACITY:
+            check_head(kind, index, size, len(scene.objects))
+            opacity = int.from_bytes(content[:size], "big")
+            if opacity >= OPAQUE:
+                raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
+        else:
+            raise Reverted("UnknownExtension", kind=kind, index=index)
+        place += HEADER + size
+
+
+def check_head(kind: int, index: int, size: int, count: int) -> None:
+    """The size of a record, and its index; count: of the lights or objects that have records of that kind."""
+    if size != SIZES[kind]:
+        raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
+    if index >= count:
+        raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
+
+
+def check_spot(content: bytes, index: int) -> None:
+    """All numbers of a spot light."""
+    x, y, z, inner, outer = spot_numbers(content)
+    if not all(-MAX_COORDINATE <= value <= MAX_COORDINATE for value in (x, y, z)):
+        raise Reverted("SpotOutOfRange", light=index, x=x, y=y, z=z)
+    if not (x or y or z):
+        raise Reverted("SpotWithoutDirection", light=index)
+    if inner > ONE or outer < -ONE or inner < outer:
+        raise Reverted("SpotAngles", light=index, cosInner=inner, cosOuter=outer)
 
 
 def read_records(data: bytes) -> Records:

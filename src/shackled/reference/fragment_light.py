@@ -101,7 +101,7 @@ def cone(light: LightRecord, x: int, y: int, z: int, distance: int) -> int:
 def light_of(depth: int, x: int, y: int, r: Registers) -> int:
     """Adds up the diffuse light of lights of both kinds; returns the highlights, lanes of Q10."""
     length = ray_length(x, y, r)
-    r.fragment_light = r.face_light << 24
+    r.fragment_light = r.ambient << 24
     is_smooth = r.mode & IS_SMOOTH
     total = 0
     for light in r.lights:

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_LIT, IS_ORTHOGRAPHIC, LANES_32
+from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_LIT, IS_ORTHOGRAPHIC, LANES_32, MIDDLE_86_AT, UPPER_86_AT
 from .mesh import Mesh
 from .registers import LightRecord, Registers
-from .roots import sqrt
 from .words import divide_signed, signed
 
 
-def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
-    """Normal and light of a flat face, from its corners in the mesh; returns its mode."""
+def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
+    """Normal and light of a flat face, from its corners in the mesh.
+
+    Returns its mode, and the light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE,
+    where fragments add up the diffuse light of all lights.
+    """
     r = registers
-    length = sqrt(set_face_normal(mesh, face, r))
+    length = face_length(set_face_normal(mesh, face, r))
     mode = r.object_mode
     total = r.ambient
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
     for record in r.lights:
         if not record.is_point:
-            # normal * direction: the middle lane of a product with lanes the other way round; what is below takes one
-            # away at most, and bit 255 is of the lane above
-            lambert = signed(r.face_normal * record.mesh_lanes << 1) >> 171
+            # normal * direction: the middle coefficient of the product; what is below takes one away at most
+            lambert = signed(r.face_normal * record.mesh_lanes) >> UPPER_86_AT
             record.n_dot_l = divide_signed(lambert << 16, length)
             if record.n_dot_l > 0:
                 total += ((record.diffuse * record.n_dot_l) >> 24) & LANES_32
@@ -29,8 +31,6 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
                     mode |= IS_LIT
         else:
             mode |= face_point_light(record, length, r)
-    # where fragments add the diffuse light of all lights themselves, only the ambient light is left
-    r.face_light = total if mode & IS_DIFFUSE == 0 else r.ambient
     if mode & IS_ORTHOGRAPHIC == 0:
         # normal * (corner - eye)
         product = nx * (r.face_corner_x - r.eye_x) + ny * (r.face_corner_y - r.eye_y) + nz * (r.face_corner_z - r.eye_z)
@@ -41,7 +41,22 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> int:
         product = nx * r.eye_x + ny * r.eye_y + nz * r.eye_z
         r.face_n_dot_ray_slope = 0
         r.face_n_dot_ray = divide_signed(signed(product << 40), length)
-    return mode
+    return mode, total
+
+
+def face_length(square: int) -> int:
+    """The root of the square of a normal, within 2^-22 of it.
+
+    With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is within 0.231
+    of the root of m, relatively; then three steps of Newton's method. Where the normal is zero, all products are,
+    whatever they are divided by.
+    """
+    square = max(square, 1)
+    h = (square.bit_length() - 1) // 6 * 3
+    root = 140 * ((square >> h) + (8 << h)) >> 10
+    for _ in range(3):
+        root = (root + square // root) >> 1
+    return root
 
 
 def face_point_light(record: LightRecord, length: int, registers: Registers) -> int:
@@ -83,6 +98,6 @@ def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
     registers.face_normal_x = x = ay * bz - az * by
     registers.face_normal_y = y = az * bx - ax * bz
     registers.face_normal_z = z = ax * by - ay * bx
-    registers.face_normal = x + (y << 85) + (z << 170)
+    registers.face_normal = x + (y << MIDDLE_86_AT) + (z << UPPER_86_AT)
     registers.face_square = x * x + y * y + z * z
     return registers.face_square << 32

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .extensions import SPOT, Records, spot_numbers
+from .extensions import SPOT, spot_numbers
 from .registers import LightRecord, Registers
 from .structs import POINT, Light
 from .vector import normalize, subtract
@@ -13,7 +13,7 @@ from .words import color_lanes
 MIN_CONE = 1 << 14
 
 
-def set_lights(view: View, lights: tuple[Light, ...], records: Records, registers: Registers) -> None:
+def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> None:
     """Lights in camera space."""
     registers.lights = []
     for index, light in enumerate(lights):
@@ -21,8 +21,8 @@ def set_lights(view: View, lights: tuple[Light, ...], records: Records, register
         v = view.to_camera(subtract(light.vector, view.eye) if is_point else normalize(light.vector))
         x, y, z = (component >> (16 if is_point else 8) for component in v)
         registers.lights.append(LightRecord(is_point, x, y, z, color=color_lanes(light.color)))
-        if (SPOT, index) in records:
-            set_spot(view, records[SPOT, index], registers.lights[-1])
+        if (SPOT, index) in registers.records:
+            set_spot(view, registers.records[SPOT, index], registers.lights[-1])
 
 
 def set_spot(view: View, content: bytes, record: LightRecord) -> None:

@@ -30,7 +30,6 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
         registers.fragment_square = 1 << 48
         registers.fragment_normal_length = 1 << 24
     else:
-        registers.face_light = registers.ambient
         registers.face_light_40 = registers.ambient << 24
         focal = view.focal >> 32
         is_point = registers.lights[0].is_point

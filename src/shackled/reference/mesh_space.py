@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .layout import MIDDLE_86_AT, UPPER_86_AT
 from .registers import Registers
 from .structs import POINT, Object, Scene
 from .vector import Matrix, Vector, normalize, subtract, transposed_times
@@ -25,9 +26,9 @@ def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, regi
         return divide_signed(x << 32, scale), divide_signed(y << 32, scale), divide_signed(z << 32, scale)
 
     def lanes(v: Vector) -> int:
-        """A unit vector, Q24, in signed lanes of 85 bits, z lowest."""
+        """A unit vector, Q24, in signed lanes of 86 bits, z lowest."""
         x, y, z = transposed_times(rotation, v)
-        return (x >> 8 << 170) + (y >> 8 << 85) + (z >> 8)
+        return (x >> 8 << UPPER_86_AT) + (y >> 8 << MIDDLE_86_AT) + (z >> 8)
 
     registers.normal_x, registers.normal_y, registers.normal_z = map(lanes, (view.right, view.down, view.forward))
     if view.orthographic:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import primitive_assembly, rasterizer, uniforms, vertex_shader, wireframe
+from . import compositor, primitive_assembly, rasterizer, uniforms, vertex_shader, wireframe
 from .checks import check_scene
-from .compositor import background
+from .extensions import read_records
 from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
 from .mesh import Mesh, open_mesh
 from .primitive_assembly import Triangle
@@ -49,6 +49,7 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
     """Draws a part of the canvas. Raises Reverted where the contract refuses."""
     registers, view, geometry, triangles = assemble(scene, tile)
     for blended in (False, True):
+        compositor.begin(blended, scene, registers)
         for index, part in enumerate(geometry):
             uniforms.set_object(view, scene, index, registers)
             mode = registers.object_mode
@@ -71,7 +72,8 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
     registers = Registers(
         tile=tile,
         depth=np.zeros((tile.height, tile.width), np.uint64),
-        image=background(scene.background_top, scene.background_bottom, scene.canvas.height, tile),
+        image=np.zeros((tile.height, tile.width, 3), np.uint8),
+        records=read_records(scene.extensions),
         band_top=tile.y + PIXEL_BIAS,
         band_bottom=tile.y + tile.height + PIXEL_BIAS,
     )

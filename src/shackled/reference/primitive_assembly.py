@@ -7,10 +7,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from . import clipper
-from .checks import Reverted
 from .layout import SCREEN_PIXEL_ROW_AT
 from .mesh import Mesh
 from .registers import Registers
+from .scene_errors import Reverted
 from .vertex_shader import BESIDE, Vertex
 
 ALL_EDGES = 7

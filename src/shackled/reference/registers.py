@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from .extensions import Records
 from .layout import IS_BLENDED, IS_DEPTH_PASS
 from .quadratic import Differences
 from .structs import Rectangle
@@ -58,6 +59,8 @@ class Registers:
     tile: Rectangle
     depth: NDArray[np.uint64]
     image: NDArray[np.uint8]
+    #: what the contracts read from the call: the records of the scene's extensions
+    records: Records
 
     # frame
     frame_is_orthographic: bool = False
@@ -97,6 +100,7 @@ class Registers:
     ambient: int = 0
     specular_begin: int = 0
     specular_scale: int = 0
+    specular_offset: int = 0
     specular_root: int = 0
     specular_table: list[int] = field(default_factory=list)
     object_mode: int = 0
@@ -113,7 +117,6 @@ class Registers:
     depth_1: int = 0
     depth_2: int = 0
     nearest: int = 0
-    face_light: int = 0
     face_light_40: int = 0
     face_n_dot_ray: int = 0
     face_n_dot_ray_slope: int = 0

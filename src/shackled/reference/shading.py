@@ -22,6 +22,7 @@ from .layout import (
     LANES_24,
     ONES,
     OVERFLOW,
+    SCREEN_PIXEL_ROW_AT,
     WEIGHT_BIAS,
 )
 from .mesh import Mesh
@@ -125,9 +126,9 @@ def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int,
     attributes = [vertex.attributes for vertex in (triangle.a, triangle.b, triangle.c)]
     if registers.object_mode & IS_FLAT == 0:
         return registers.object_mode, attributes
-    mode = lighting.set_face(mesh, triangle.face, registers)
-    if mode & IS_DIFFUSE == 0 and registers.face_light != ONES << 16:
-        attributes = [lit(word, registers.face_light) for word in attributes]
+    mode, light = lighting.set_face(mesh, triangle.face, registers)
+    if mode & IS_DIFFUSE == 0:
+        attributes = [lit(word, light) for word in attributes]
     return mode, attributes
 
 
@@ -272,9 +273,11 @@ def is_affine(attributes: list[int], triangle: Triangle) -> bool:
 
 
 def is_large(triangle: Triangle) -> bool:
-    """Whether a triangle has more than 8 rows, of more than 3 pixels in the mean.
+    """Whether a triangle is higher than 8 pixels, and its rows have more than 3 pixels in the mean.
 
     To shade others in blocks would be dear, and change little.
     """
+    a, b, c = triangle.a, triangle.b, triangle.c
     rows = triangle.bottom - triangle.top
-    return rows > 8 and double_area(triangle.a, triangle.b, triangle.c) > rows * (3 << 17)
+    is_high = rows > 8 and max(b.word, c.word) > a.word + (8 << SCREEN_PIXEL_ROW_AT)
+    return is_high and double_area(a, b, c) > rows * (3 << 17)

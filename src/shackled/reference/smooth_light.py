@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from . import quadratic
 from .fragment_shader import ray_of
+from .layout import LANE_85, MIDDLE_LANE_85
 from .primitive_assembly import Triangle
 from .registers import Registers
 from .roots import sqrt
@@ -20,7 +21,6 @@ from .words import MASK, divide, divide_signed, signed
 
 #: Half the range of a lane of 85 bits, for vectors of Q20.
 VECTOR_BIAS = 0x100000000000000000000080000000000000000000040000000
-LANE_85 = (1 << 85) - 1
 
 UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
 
@@ -138,7 +138,7 @@ def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
     length = sqrt(square)
     hx, hy, hz = (divide_signed(component << 20, length) for component in (hx, hy, hz))
     lanes = (vertex.normal + VECTOR_BIAS) & MASK
-    reversed_normal = ((lanes & LANE_85) << 170 | lanes >> 170 | (lanes & (LANE_85 << 85))) - VECTOR_BIAS
+    reversed_normal = ((lanes & LANE_85) << 170 | lanes >> 170 | (lanes & MIDDLE_LANE_85)) - VECTOR_BIAS
     # the square of the normal, Q40, is from 15/16 to 17/16
     bounded = bounded and 0 <= product(vertex.normal, reversed_normal) - (15 << 36) < 1 << 37
     return SmoothVertex(

@@ -24,6 +24,7 @@ def set_table(coefficient: int, shininess: int, registers: Registers) -> None:
     begin = (1 << 24) - width
     registers.specular_begin = begin
     registers.specular_scale = (64 << 40) // width
+    registers.specular_offset = begin * registers.specular_scale >> 16
     last = (coefficient * power(1 << 24, shininess)) >> 48
     table = [0] * 64 + [last << 128]
     for i in reversed(range(64)):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import lights, materials, mesh_space, transform
-from .extensions import OPACITY, OPAQUE, read_records
+from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
 from .registers import Registers
 from .structs import UNLIT, WIREFRAME, Scene
@@ -17,14 +17,14 @@ def set_frame(scene: Scene, registers: Registers) -> View:
     registers.column_begin = tile.x + PIXEL_BIAS
     registers.column_end = tile.x + tile.width + PIXEL_BIAS
     view = look_at(scene.camera, scene.canvas.width, scene.canvas.height, registers)
-    lights.set_lights(view, scene.lights, read_records(scene.extensions), registers)
+    lights.set_lights(view, scene.lights, registers)
     return view
 
 
 def set_object(view: View, scene: Scene, index: int, registers: Registers) -> None:
     """The registers of an object."""
     obj = scene.objects[index]
-    registers.opacity = opacity_of(scene, index)
+    registers.opacity = opacity_of(index, registers)
     rotation = to_matrix(obj.rotation)
     transform.set_matrix(view, obj, rotation, registers)
     transform.set_rounding(registers.tile, bool(obj.flags & WIREFRAME), registers)
@@ -40,7 +40,7 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
     registers.object_mode = mode
 
 
-def opacity_of(scene: Scene, index: int) -> int:
+def opacity_of(index: int, registers: Registers) -> int:
     """How much of what is behind it an object hides, Q24."""
-    content = read_records(scene.extensions).get((OPACITY, index))
+    content = registers.records.get((OPACITY, index))
     return OPAQUE if content is None else int.from_bytes(content, "big")

@@ -13,6 +13,7 @@ from .layout import (
     CLIP_Y_MASK,
     GUARD_BITS,
     IS_BESIDE,
+    IS_LEFT,
     IS_SMOOTH,
     MUST_CLIP,
     SCREEN_COLUMN_AT,
@@ -22,9 +23,8 @@ from .mesh import Mesh
 from .registers import Registers
 from .words import MASK, divide, signed
 
-#: Bit of a screen word: the triangle must be clipped. The next ones: the vertex lies left of the tile, right of it,
-#: above it, below it.
-OUTSIDE_SHIFT = 41
+#: Bits of a screen word: the vertex lies left of the tile, right of it, above it, below it.
+OUTSIDE_SHIFT = IS_LEFT.bit_length() - 1
 #: Of those, shifted down: left or right.
 BESIDE = IS_BESIDE >> OUTSIDE_SHIFT
 

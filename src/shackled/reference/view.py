@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .checks import Reverted
 from .layout import PIXEL_BIAS
 from .registers import Registers
 from .roots import sqrt
+from .scene_errors import Reverted
 from .structs import ORTHOGRAPHIC, Camera
 from .vector import Vector, cross, dot, normalize, subtract
 from .words import divide_signed

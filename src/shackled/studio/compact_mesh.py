@@ -48,7 +48,7 @@ class Parts:
 
 
 def compact(packed: bytes, normal_bits: int = 10) -> bytes:
-    """The bytes that are stored for a packed mesh.
+    """Return the bytes that are stored for a packed mesh.
 
     normal_bits: of each coordinate of a normal, 4 to 10; with 10 nothing is lost.
     """
@@ -93,7 +93,7 @@ def compact(packed: bytes, normal_bits: int = 10) -> bytes:
 
 
 def expand(stored: bytes) -> bytes:
-    """The packed mesh of what `compact` gave."""
+    """Return the packed mesh of what `compact` gave."""
     if len(stored) < HEADER_SIZE or stored[0] != COMPACT:
         raise InputError("these bytes are no compact mesh")
     form = stored[1]
@@ -135,7 +135,7 @@ def expand(stored: bytes) -> bytes:
 
 
 def take_apart(packed: bytes) -> Parts:
-    """The parts of a packed mesh. InputError if it is not complete."""
+    """Return the parts of a packed mesh. InputError if it is not complete."""
     if len(packed) < 5 or packed[0] > NORMALS + WIDE:
         raise InputError("these bytes are no packed mesh")
     form, n, m = packed[0], int.from_bytes(packed[1:3], "big"), int.from_bytes(packed[3:5], "big")
@@ -159,7 +159,7 @@ def take_apart(packed: bytes) -> Parts:
 
 
 def _packed_fields(fields: list[tuple[int, tuple[int, ...]]], count: int) -> bytes:
-    """The numbers of each vertex in so many bits each, one after the other."""
+    """Return the numbers of each vertex in so many bits each, one after the other."""
     texts = ["".join(f"{values[k]:0{size}b}" for size, values in fields if size) for k in range(count)]
     bits = "".join(texts)
     bits += "0" * (-len(bits) % 8)
@@ -182,19 +182,19 @@ class _Recent:
         self.edges.appendleft((c, b))
 
     def meet(self) -> int:
-        """The next new vertex."""
+        """Return the next new vertex."""
         self.met += 1
         self.vertices.appendleft(self.met - 1)
         return self.met - 1
 
     def tell(self, vertex: int) -> int:
-        """A vertex that was told."""
+        """Return a vertex that was told."""
         self.vertices.appendleft(vertex)
         return vertex
 
 
 def _order(faces: list[Face], count: int) -> tuple[list[int], list[int], list[int]]:
-    """The bytes of the faces, those of the vertices that are told, and the old numbers of the vertices in their new
+    """Return the bytes of the faces, those of the vertices that are told, and the old numbers of vertices in the new
     order.
     """
     beyond: defaultdict[Edge, list[tuple[int, int]]] = defaultdict(list)
@@ -264,7 +264,7 @@ def _order(faces: list[Face], count: int) -> tuple[list[int], list[int], list[in
 
 
 def _faces(codes: bytes, told: bytes) -> list[Face]:
-    """The faces of their bytes."""
+    """Return the faces of their bytes."""
     recent = _Recent()
     at = 0
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 from attrs import evolve
-from Crypto.Hash import keccak
 
 from ..artifacts import artifact
 from ..chain import ContractChain, open_chain
 from ..errors import InputError
+from ..ethereum import create2_address, intrinsic_gas, word
 from ..scene.codec import encode_scene
 from ..scene.fit import fit
 from ..scene.object import Object
@@ -29,15 +29,6 @@ MAX_PART = 24575
 PARTS = 0x13
 POINTED = 0x12
 SCENE = 0x20
-
-#: The struct Scene of contracts/src/scene/Scene.sol.
-VECTOR = "(int256,int256,int256)"
-MATERIAL = "(uint256,int256,int256,int256,uint256)"
-OBJECT = f"(bytes,{VECTOR},(int256,int256,int256,int256),int256,{MATERIAL},uint256)"
-SCENE_STRUCT = (
-    f"((uint256,uint256),({VECTOR},{VECTOR},{VECTOR},uint256,int256,int256),(uint256,uint256),uint256,uint256,"
-    f"(uint256,{VECTOR},uint256)[],{OBJECT}[],bytes)"
-)
 
 
 @dataclass(frozen=True)
@@ -77,8 +68,7 @@ def store_scene(
     normal_bits: int = 10,
     chain: ContractChain | None = None,
 ) -> list[Storing]:
-    """The transactions that store a scene: first its meshes, each once, last the scene itself, whose pointer is that of
-    the picture.
+    """Return the transactions that store a scene: its meshes, each once, then the scene with the last pointer.
 
     studio: the address of the Studio, 20 bytes. position_bits: if given, meshes are laid on a grid of 2^position_bits
     steps across their largest side, 4 to 16; else nothing is lost. normal_bits: see `compact`.
@@ -91,53 +81,42 @@ def store_scene(
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[Storing] = []
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
-        result += _storings(f"mesh {number}", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+        result += _storings(f"mesh {number}", mesh, _call("storeMesh", mesh), studio, chain)
     struct = pointing(fitted, [kept_at(mesh, studio) for mesh in meshes])
-    data = artifact(STUDIO).selectors["storeScene"] + (32).to_bytes(32, "big") + struct
+    data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
     # as the ABI says, a struct is encoded behind the offset of itself
-    kept = bytes([SCENE]) + compress_zeros((32).to_bytes(32, "big") + struct)
+    kept = bytes([SCENE]) + compress_zeros(word(32) + struct)
     return result + _storings("scene", kept, data, studio, chain)
 
 
 def store_mesh(
     packed: bytes, studio: bytes, normal_bits: int = 10, chain: ContractChain | None = None
 ) -> list[Storing]:
-    """The transactions that store a packed mesh; mostly one. The last has its pointer."""
+    """Return the transactions that store a packed mesh; mostly one. The last has its pointer."""
     check_address(studio)
     mesh = compact(packed, normal_bits)
-    return _storings("mesh", mesh, _call("storeMesh(bytes)", ["bytes"], [mesh]), studio, chain)
+    return _storings("mesh", mesh, _call("storeMesh", mesh), studio, chain)
 
 
 def read_mesh(pointer: bytes, chain: ContractChain) -> bytes:
-    """The packed mesh that the Studio of a chain keeps there."""
-    from eth_abi.abi import decode
-
-    output = chain.call(STUDIO, artifact(STUDIO).selectors["mesh"] + check_address(pointer).rjust(32, b"\0")).output
-    return bytes(decode(["bytes"], output)[0])
-
-
-def read_picture(pointer: bytes, scale: int, chain: ContractChain) -> bytes:
-    """The PNG file of a scene that the Studio of a chain keeps there."""
-    from eth_abi.abi import decode
-
-    data = _call("renderPNG(address,uint256)", ["address", "uint256"], [check_address(pointer), scale])
-    return bytes(decode(["bytes"], chain.call(STUDIO, data).output)[0])
+    """Return the packed mesh that the Studio of a chain keeps there."""
+    return bytes(chain.ask(STUDIO, "mesh", check_address(pointer)))
 
 
 def kept_at(data: bytes, studio: bytes) -> bytes:
-    """The address at which a Studio keeps these bytes."""
+    """Return the address at which a Studio keeps these bytes."""
     if len(data) <= MAX_PART:
         return _created(data, studio)
     return _created(_list(parts_of(data), studio), studio)
 
 
 def parts_of(data: bytes) -> list[bytes]:
-    """The bytes in parts that a contract can hold."""
+    """Return the bytes in parts that a contract can hold."""
     return [data[at : at + MAX_PART] for at in range(0, len(data), MAX_PART)]
 
 
 def on_grid(o: Object, bits: int) -> Object:
-    """The object with its mesh on a grid of 2^bits steps across its largest side, in whole numbers; it stays in place.
+    """Put the mesh of an object on a grid of 2^bits steps across its largest side, in whole numbers; it stays in place.
 
     This loses precision: half a step each way. Normals are those of the mesh as it was.
     """
@@ -153,17 +132,23 @@ def on_grid(o: Object, bits: int) -> Object:
 
 
 def pointing(scene: Scene, pointers: Sequence[bytes]) -> bytes:
-    """The struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
+    """Return the struct Scene of a scene as `fit` makes it, with the pointers in place of its meshes."""
     from eth_abi.abi import decode, encode
 
-    (struct,) = decode([SCENE_STRUCT], (32).to_bytes(32, "big") + encode_scene(scene))
+    kind = scene_struct()
+    (struct,) = decode([kind], word(32) + encode_scene(scene))
     *others, objects, extensions = struct
     pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
-    return encode([SCENE_STRUCT], [(*others, pointed, extensions)])[32:]
+    return encode([kind], [(*others, pointed, extensions)])[32:]
+
+
+def scene_struct() -> str:
+    """Return the type of the struct Scene of the contracts, as eth_abi takes it."""
+    return artifact(STUDIO).interface.parameter_type("storeScene")
 
 
 def compress_zeros(data: bytes) -> bytes:
-    """As LibZip.cdCompress of solady: runs of zeros and of ones in two bytes, and the first four bytes negated."""
+    """Compress as LibZip.cdCompress of solady: runs of 0x00 and 0xff in two bytes, the first four bytes negated."""
     result = bytearray()
     at = 0
     while at < len(data):
@@ -177,7 +162,7 @@ def compress_zeros(data: bytes) -> bytes:
 
 
 def check_address(address: bytes) -> bytes:
-    """The address, if it has 20 bytes."""
+    """Return the address, if it has 20 bytes."""
     if len(address) != 20:
         raise InputError(f"an address has 20 bytes, not {len(address)}")
     return address
@@ -190,7 +175,7 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     result = [
         _storing(
             f"{what}, part {number} of {len(parts)}",
-            _call("storePart(bytes)", ["bytes"], [part]),
+            _call("storePart", part),
             _created(part, studio),
             part,
             chain,
@@ -199,9 +184,11 @@ def _storings(what: str, kept: bytes, whole: bytes, studio: bytes, chain: Contra
     ]
     addresses = [storing.pointer for storing in result]
     listed = _list(parts, studio)
-    joining = _call("join(address[])", ["address[]"], [addresses])
+    joining = _call("join", addresses)
     # it can only be counted where the parts are: a contract of so many bytes, what finds out whether they are there
-    gas = _intrinsic(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
+    gas = (
+        intrinsic_gas(joining) + 32_000 + 200 * (len(listed) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
+    )
     return [*result, Storing(f"{what}, joined", joining, _created(listed, studio), listed, gas)]
 
 
@@ -221,21 +208,10 @@ def _list(parts: Sequence[bytes], studio: bytes) -> bytes:
 
 
 def _created(data: bytes, studio: bytes) -> bytes:
-    """Where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
+    """Return where CREATE2 puts the contract that holds the data (solady's SSTORE2)."""
     code = bytes.fromhex("61") + (len(data) + 1).to_bytes(2, "big") + bytes.fromhex("80600a3d393df300") + data
-    return _hash(b"\xff" + studio + bytes(32) + _hash(code))[12:]
+    return create2_address(code, creator=studio)
 
 
-def _hash(data: bytes) -> bytes:
-    return keccak.new(digest_bits=256, data=data).digest()
-
-
-def _call(signature: str, kinds: list[str], values: list[Any]) -> bytes:
-    from eth_abi.abi import encode
-
-    return _hash(signature.encode())[:4] + encode(kinds, values)
-
-
-def _intrinsic(data: bytes) -> int:
-    zeros = data.count(0)
-    return 21_000 + 4 * zeros + 16 * (len(data) - zeros)
+def _call(function: str, *arguments: Any) -> bytes:
+    return artifact(STUDIO).interface.encode(function, *arguments)

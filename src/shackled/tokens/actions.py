@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..chain.embedded import intrinsic_gas
 from ..deploy import Call, Quote, Receipt, Transactor
 from ..errors import NodeError, RevertError
-from .contract import Contract, Interface
+from ..ethereum import intrinsic_gas, to_hex
+from ..ethereum.abi import Interface
+from .contract import Contract
 
 #: About the gas that each function takes, without what is paid for the call and its data.
 USUAL = {
@@ -31,7 +32,7 @@ USUAL = {
 def call_of(
     interface: Interface, address: str, function: str, *arguments: Any, value: int = 0, ours: int | None = None
 ) -> Call:
-    """The call of a function as a transaction. ours: its gas as counted here; None takes what is usual."""
+    """Return the call of a function as a transaction. ours: its gas as counted here; None takes what is usual."""
     data = interface.encode(function, *arguments)
     usual = USUAL[function.partition("(")[0]] + intrinsic_gas(data) if ours is None else ours
     return Call(bytes.fromhex(address.removeprefix("0x")), data, usual, value)
@@ -45,18 +46,18 @@ def plan(
     value: int = 0,
     ours: int | None = None,
 ) -> Quote:
-    """The price of a call that would succeed now.
+    """Return the price of a call that would succeed now.
 
     RevertError, in words, if the contract would refuse it; TransactionError if it would fail otherwise, or if the
     prices of the node are not to be believed.
     """
     try:
-        contract.call(function, *arguments, sender="0x" + transactor.address.hex(), value=value)
+        contract.call(function, *arguments, sender=to_hex(transactor.address), value=value)
     except RevertError:
         raise
     except NodeError:
         pass  # what the estimate says in better words, such as an account without ether
-    return transactor.quote(call_of(contract, contract.address, function, *arguments, value=value, ours=ours))
+    return transactor.quote(call_of(contract.interface, contract.address, function, *arguments, value=value, ours=ours))
 
 
 def perform(

@@ -15,8 +15,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ..chain.addresses import keccak256, parse_address, show_address
 from ..errors import InputError
+from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..json_text import read_json
 
 FORMAT = "standard-v1"
@@ -36,14 +36,14 @@ class AllowList:
         return self._tree[0]
 
     def allowance(self, account: str) -> int:
-        """How many tokens an account may mint in all. InputError if it is not on the list."""
-        address = show_address(parse_address(account, "the account"))
+        """Return how many tokens an account may mint in all. InputError if it is not on the list."""
+        address = checksum_address(parse_address(account, "the account"))
         if address not in self.allowances:
             raise InputError(f"the account {address} is not among the {len(self.allowances):,} of the allow-list")
         return self.allowances[address]
 
     def proof(self, account: str) -> list[bytes]:
-        """The hashes that lead from an account to the root. InputError if the account is not on the list."""
+        """Return the hashes that lead from an account to the root. InputError if the account is not on the list."""
         place = self._place(leaf_of(account, self.allowance(account)))
         proof = []
         while place > 0:
@@ -52,12 +52,12 @@ class AllowList:
         return proof
 
     def document(self) -> dict[str, Any]:
-        """The list as OpenZeppelin's package keeps it in JSON; quantities in decimal digits."""
+        """Return the list as OpenZeppelin's package keeps it in JSON; quantities in decimal digits."""
         values = [
             {"value": [account, str(quantity)], "treeIndex": self._place(leaf_of(account, quantity))}
             for account, quantity in self.allowances.items()
         ]
-        tree = ["0x" + node.hex() for node in self._tree]
+        tree = [to_hex(node) for node in self._tree]
         return {"format": FORMAT, "leafEncoding": ENCODING, "tree": tree, "values": values}
 
     @cached_property
@@ -78,17 +78,17 @@ class AllowList:
 
 
 def leaf_of(account: str, quantity: int) -> bytes:
-    """The hash of an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
-    return keccak256(keccak256(bytes(12) + bytes.fromhex(account.removeprefix("0x")) + quantity.to_bytes(32, "big")))
+    """Return the hash of an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
+    return keccak256(keccak256(word(bytes.fromhex(account.removeprefix("0x"))) + word(quantity)))
 
 
 def hash_pair(one: bytes, other: bytes) -> bytes:
-    """The node above two others, in whichever order."""
+    """Return the node above two others, in whichever order."""
     return keccak256(min(one, other) + max(one, other))
 
 
 def verify(root: bytes, account: str, quantity: int, proof: Sequence[bytes]) -> bool:
-    """Whether a proof leads from an entry to the root."""
+    """Return whether a proof leads from an entry to the root."""
     node = leaf_of(account, quantity)
     for sibling in proof:
         node = hash_pair(node, sibling)
@@ -96,10 +96,10 @@ def verify(root: bytes, account: str, quantity: int, proof: Sequence[bytes]) -> 
 
 
 def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow-list") -> AllowList:
-    """The list of (account, quantity) entries. InputError where one is wrong, or an account stands there twice."""
+    """Build the list of (account, quantity) entries. InputError if one is wrong, or an account is there twice."""
     allowances: dict[str, int] = {}
     for number, (account, quantity) in enumerate(entries, 1):
-        address = show_address(parse_address(str(account), f"{where}, entry {number}: the account"))
+        address = checksum_address(parse_address(str(account), f"{where}, entry {number}: the account"))
         text = str(quantity).strip()
         if not re.fullmatch("[0-9]{1,78}", text) or not 0 < int(text) <= MAX_QUANTITY:
             raise InputError(f"{where}, entry {number}: the quantity must be a whole number from 1, not {text!r:.60}")
@@ -112,7 +112,7 @@ def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the all
 
 
 def read_allow_list(path: str | Path) -> AllowList:
-    """The list of a file: .json as OpenZeppelin's StandardMerkleTree dumps it, else lines of `account,quantity`.
+    """Return the list of a file: .json as OpenZeppelin's StandardMerkleTree dumps it, else lines of `account,quantity`.
 
     Empty lines, those that begin with #, and a first line of headings are passed over. InputError if anything is wrong.
     """
@@ -147,6 +147,6 @@ def _from_json(text: str, where: str) -> AllowList:
     if kind != FORMAT or encoding != ENCODING or any(len(entry) != 2 for entry in entries):
         raise InputError(f"{where} must be a tree of the format {FORMAT} over {ENCODING}")
     found = make_allow_list(entries, where)
-    if not isinstance(tree, list) or not tree or tree[0] != "0x" + found.root.hex():
+    if not isinstance(tree, list) or not tree or tree[0] != to_hex(found.root):
         raise InputError(f"{where}: the root of its tree is not that of its entries, which is 0x{found.root.hex()}")
     return found

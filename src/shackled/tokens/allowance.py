@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..chain.addresses import parse_address, show_address
 from ..errors import InputError
+from ..ethereum import checksum_address, parse_address, to_hex
 from ..json_text import read_json
 
 if TYPE_CHECKING:
@@ -40,19 +40,19 @@ class Allowance:
         return self.account, self.quantity, self.deadline
 
     def document(self) -> dict[str, Any]:
-        """As a file keeps it."""
+        """Return the permission as a file keeps it."""
         return {
             "account": self.account,
             "quantity": str(self.quantity),
             "deadline": str(self.deadline),
-            "signature": "0x" + self.signature.hex(),
+            "signature": to_hex(self.signature),
         }
 
 
 def sign_allowance(
     collection: Collection, signer: LocalAccount, account: str, quantity: int, deadline: int
 ) -> Allowance:
-    """A permission for one account, that holds for this collection on this chain only."""
+    """Return a permission for one account, that holds for this collection on this chain only."""
     from eth_account.messages import encode_typed_data
 
     domain = {
@@ -67,7 +67,7 @@ def sign_allowance(
 
 
 def read_allowance(path: Path) -> Allowance:
-    """The permission of a file. InputError if it holds none."""
+    """Return the permission of a file. InputError if it holds none."""
     try:
         document = read_json(path.read_text("utf-8"))
         account, quantity, deadline, signature = (
@@ -84,5 +84,5 @@ def read_allowance(path: Path) -> Allowance:
         and re.fullmatch("0x([0-9a-fA-F]{2}){1,1024}", signature)
     ):
         raise InputError(f"{path} holds no permission: its quantity, deadline or signature is damaged")
-    address = show_address(parse_address(account, f"the account of {path}"))
+    address = checksum_address(parse_address(account, f"the account of {path}"))
     return Allowance(address, int(quantity), int(deadline), bytes.fromhex(signature[2:]))

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..artifacts import artifact
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..chain.node import GAS_LEFT
-from ..errors import InputError, NodeError, OutOfGasError, RenderError, RevertError
+from ..chain.refusal import describe
+from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
+from ..ethereum import checksum_address, to_hex
 from .contract import Contract
 from .kinds import KINDS, Kind
-from .metadata import Metadata, read_contract_uri, read_token_uri
+from .metadata import Metadata, read_token_uri
 from .refusals import PHASES
 
 #: Requests under way at once.
@@ -60,7 +60,7 @@ class Collection:
     """A collection at an address."""
 
     def __init__(self, connection: Connection, kind: Kind, address: str) -> None:
-        """Nothing is asked yet; `open_collection` asks what it is."""
+        """Take a collection of a known kind; `open_collection` asks what kind it is."""
         self.connection, self.kind, self.address = connection, kind, address
         self.contract = Contract(connection, kind.contract, address)
 
@@ -70,7 +70,7 @@ class Collection:
         return str(self.contract.call("name"))
 
     def minted(self) -> int:
-        """How many tokens there are; they are numbered from 0."""
+        """Return how many tokens there are; they are numbered from 0."""
         return int(self.contract.call("totalSupply"))
 
     def owner_of(self, token: int) -> str:
@@ -78,7 +78,7 @@ class Collection:
         return self._address(self._of_token("ownerOf", token))
 
     def token(self, number: int) -> Token:
-        """A token. InputError if there is none of that number."""
+        """Return a token. InputError if there is none of that number."""
         return Token(number, self.owner_of(number), self.is_revealed(number))
 
     def tokens(self, numbers: Iterable[int] | None = None) -> Iterator[Token]:
@@ -88,19 +88,19 @@ class Collection:
             yield from pool.map(self.token, wanted)
 
     def is_revealed(self, token: int) -> bool:
-        """Whether a token has its picture."""
+        """Return whether a token has its picture."""
         return not self.kind.hidden or any(self.contract.call("randomnessOf", self.round_of(token)))
 
     def round_of(self, token: int) -> int:
-        """The round in which a token was minted."""
+        """Return the round in which a token was minted."""
         return int(self._of_token("roundOf", token))
 
     def token_uri(self, token: int) -> str:
-        """The whole `tokenURI`, in one call that names no gas: the node's limit holds, OutOfGasError if it is low."""
+        """Return the whole `tokenURI`, in one call with the node's limit of gas. OutOfGasError if that is too low."""
         try:
             return str(self._of_token("tokenURI", token))
         except RevertError as error:
-            if error.data and artifact("Renderer").errors.get(error.data[:4], ("",))[0] != "OutOfGas":
+            if error.data and describe(error.data) != "OutOfGas()":
                 raise
             # a call within a call that runs out of gas says nothing, unless it is the renderer's to the engine
             raise OutOfGasError(
@@ -109,23 +109,19 @@ class Collection:
             ) from None
 
     def _given(self) -> str:
-        """How much gas the node gives a call, for people; nothing if it does not tell."""
+        """Return how much gas the node gives a call, for people; nothing if it does not tell."""
         try:
-            left = int.from_bytes(self.connection.data("eth_call", {"data": "0x" + GAS_LEFT.hex()}, "latest"), "big")
-        except RenderError:
+            left = int.from_bytes(self.connection.data("eth_call", {"data": to_hex(GAS_LEFT)}, "latest"), "big")
+        except ChainError:
             return ""
         return f", about {left:,}" if 0 < left < 1 << 64 else ""
 
     def metadata(self, token: int) -> Metadata:
-        """What a token says of itself."""
+        """Return what a token says of itself."""
         return read_token_uri(self.token_uri(token))
 
-    def contract_metadata(self) -> dict[str, Any]:
-        """What the collection says of itself."""
-        return read_contract_uri(str(self.contract.call("contractURI")))
-
     def terms(self) -> Terms:
-        """How the collection stands now."""
+        """Return how the collection stands now."""
         call = self.contract.call
         receiver, royalty = call("royaltyInfo", 0, 10_000)
         return Terms(
@@ -139,7 +135,7 @@ class Collection:
             allow_list_signer=self._address(call("allowListSigner")),
             royalty_receiver=self._address(receiver),
             royalty=royalty,
-            balance=self.connection.number("eth_getBalance", self.address, "latest"),
+            balance=self.connection.balance(bytes.fromhex(self.address[2:])),
         )
 
     def _phase(self) -> int:
@@ -165,11 +161,11 @@ class Collection:
 
     @staticmethod
     def _address(value: Any) -> str:
-        return show_address(bytes.fromhex(value[2:]))
+        return checksum_address(bytes.fromhex(value[2:]))
 
 
 def open_collection(connection: Connection, address: str) -> Collection:
-    """The collection at an address, of whichever kind it is. InputError if there is none."""
+    """Return the collection at an address, of whichever kind it is. InputError if there is none."""
     for kind in KINDS.values():
         try:
             if Contract(connection, kind.contract, address).call("name") == kind.title:

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Receipt, Transactor
 from ..deploy.contract import local_chain
-from ..errors import RenderError
+from ..errors import VerificationError
+from ..ethereum import checksum_address
 from ..whole_file import make_output_folder, write_output
 from .actions import perform
 from .allow_list import make_allow_list
@@ -53,7 +53,7 @@ class Demo:
 def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_fee: int | None = None) -> Demo:
     """Plays both collections through and writes the files. tell: is told what happens. max_fee: see `current_fees`.
 
-    InputError if the node is not a fresh development node; RenderError if anything is not as it should be.
+    InputError if the node is not a fresh development node; VerificationError if anything is not as it should be.
     """
     users = development_transactors(connection, max_fee)
     make_output_folder(folder)
@@ -62,11 +62,10 @@ def run(connection: Connection, folder: Path, tell: Callable[[str], None], max_f
         collection = play(connection, users, demo, tell)
         _read_back(collection, demo, tell)
     gas = [token.gas for token in demo.tokens if token.gas is not None]
-    block = connection.request("eth_getBlockByNumber", "latest", False)
     facts = [
         ("tokens", f"{len(demo.tokens)}"),
         ("chain", f"{connection.chain_id} (a development node)"),
-        ("the node's limit on gas", f"{int(block['gasLimit'], 16):,}"),
+        ("the node's limit on gas", f"{connection.block_gas_limit():,}"),
         ("tokenURI, gas", f"{min(gas) / 1e6:.1f} to {max(gas) / 1e6:.1f} million"),
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]
@@ -106,7 +105,7 @@ def _genesis(
 
     rounds = hidden_rounds(collection)
     if collection.metadata(0).traits != {"Revealed": "No"}:
-        raise RenderError("a token shows traits before it is revealed")
+        raise VerificationError("a token shows traits before it is revealed")
     blocks = rounds[-1].block - latest_block(collection) + 1
     tell(f"{blocks} blocks pass, and a passer-by reveals all tokens")
     connection.request("anvil_mine", hex(blocks))
@@ -134,7 +133,7 @@ def _icons(connection: Connection, users: Sequence[Transactor], demo: Demo, tell
     added = []
     for piece, pointer in zip(chosen, storage.pointers, strict=True):
         terms = (piece.title, pointer, SCALE, ICON_PRICE, 100, 1)
-        ours = add_call(contract, contract.address, terms, storage.codes).ours
+        ours = add_call(contract.interface, contract.address, terms, storage.codes).ours
         added.append(perform(owner, contract, "add", *terms, ours=ours).gas)
     demo.costs.append(Cost("Icons: add an icon, mean", sum(added) // len(added)))
     _pay(demo, "Icons: seal the set", perform(owner, contract, "seal"))
@@ -156,7 +155,7 @@ def _icons(connection: Connection, users: Sequence[Transactor], demo: Demo, tell
 def _deploy(
     connection: Connection, owner: Transactor, name: str, demo: Demo, tell: Callable[[str], None]
 ) -> Collection:
-    """A collection, and what it needs; the cost of each contract is noted."""
+    """Deploy a collection and what it needs, and note the cost of each contract."""
     kind = KINDS[name]
     tell(f"{kind.title} is deployed")
     # so that it can be played again on the same node
@@ -178,7 +177,7 @@ def _after_sale(
     demo: Demo,
     tell: Callable[[str], None],
 ) -> None:
-    """A token changes hands and keeps its picture; the owner fetches the ether."""
+    """Transfer a token, which keeps its picture, and withdraw the ether."""
     title = collection.kind.title.removeprefix("Shackled ")
     tell("a token is given away, and the ether of the sale withdrawn")
     token = next(each.number for each in collection.tokens() if each.owner == _name(giver))
@@ -186,12 +185,12 @@ def _after_sale(
     arguments = (_name(giver), _name(receiver), token)
     _pay(demo, f"{title}: transfer", perform(giver, collection.contract, "transferFrom", *arguments))
     if collection.owner_of(token) != _name(receiver) or collection.token_uri(token) != before:
-        raise RenderError(f"token {token} did not change hands as it should")
+        raise VerificationError(f"token {token} did not change hands as it should")
     sold, balance = collection.terms().balance, owner.balance()
     receipt = perform(owner, collection.contract, "withdraw", _name(owner))
     _pay(demo, f"{title}: withdraw", receipt)
     if not sold or collection.terms().balance or owner.balance() != balance + sold - receipt.fee:
-        raise RenderError("the ether of the sale did not arrive")
+        raise VerificationError("the ether of the sale did not arrive")
 
 
 def _read_back(collection: Collection, demo: Demo, tell: Callable[[str], None]) -> None:
@@ -228,9 +227,9 @@ def _pay(demo: Demo, name: str, receipt: Receipt, original: tuple[int, int] | No
 
 
 def _name(user: Transactor) -> str:
-    return show_address(user.address)
+    return checksum_address(user.address)
 
 
 def _require(failure: str, what: str) -> Any:
     if failure:
-        raise RenderError(f"{what}: {failure}")
+        raise VerificationError(f"{what}: {failure}")

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain.addresses import PROXY, create2_address, show_address
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Deployment, Fees, Plan, Quote, Receipt, Step, Transactor
-from ..deploy.contract import deployment, local_chain
+from ..deploy.contract import deployment, in_order
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
 from ..errors import InputError
-from ..ether import ether
+from ..ethereum import PROXY, checksum_address, create2_address, ether, word
 from .collection import Collection
-from .contract import constructor_arguments
 from .immutables import immutable_values
 from .kinds import Kind
 
@@ -43,7 +41,7 @@ class Offer:
     salt: int = 0
 
     def __post_init__(self) -> None:
-        """InputError where the contract would refuse."""
+        """Raise InputError where the contract would refuse."""
         checks = (
             (0 <= self.reserve <= GENESIS_SUPPLY, f"the reserve must be 0 to {GENESIS_SUPPLY:,}, not {self.reserve}"),
             (
@@ -70,28 +68,16 @@ class Offer:
 
 
 def parts_of(contract: str, itself: bool = False) -> list[Deployment]:
-    """The contracts that one needs, in the order in which they are deployed; the same on every chain.
+    """Return the contracts that one needs, in the order in which they are deployed; the same on every chain.
 
-    itself: that one too, which needs nothing but these.
+    itself: whether to add that one, which needs nothing but these.
     """
-    chosen: list[str] = []
-
-    def add(name: str) -> None:
-        for part in artifact(name).parts:
-            add(part)
-            if part not in chosen:
-                chosen.append(part)
-
-    add(contract)
-    if itself:
-        chosen.append(contract)
-    local = local_chain()
-    return [deployment(name, local.creation(name), chosen[:number], local) for number, name in enumerate(chosen)]
+    return in_order([contract] if itself else artifact(contract).parts)
 
 
 def address_of(deployments: Sequence[Deployment], name: str) -> str:
-    """Where one of some contracts stands."""
-    return show_address(next(each.address for each in deployments if each.name == name))
+    """Return where one of some contracts stands."""
+    return checksum_address(next(each.address for each in deployments if each.name == name))
 
 
 @dataclass(frozen=True)
@@ -109,7 +95,7 @@ class Launch:
     @property
     def address(self) -> str:
         """Where it will stand."""
-        return show_address(create2_address(self.creation, self.salt))
+        return checksum_address(create2_address(self.creation, self.salt))
 
     @property
     def quotes(self) -> list[Quote]:
@@ -123,18 +109,19 @@ class Launch:
 
 
 def creation_code(kind: Kind, parts: Sequence[Deployment], offer: Offer) -> bytes:
-    """What deploys a collection, its terms included."""
+    """Return what deploys a collection, its terms included."""
     arguments: list[Any] = [address_of(parts, part) for part in artifact(kind.contract).parts]
     arguments += [getattr(offer, term) for term in kind.terms]
-    return artifact(kind.contract).creation + constructor_arguments(kind.contract, *arguments, offer.struct)
+    built = artifact(kind.contract)
+    return built.creation + built.interface.construct(*arguments, offer.struct)
 
 
 def plan_launch(connection: Connection, kind: Kind, offer: Offer, fees: Fees | None = None) -> Launch:
-    """What is to be deployed. fees: None asks for those of now. RenderError if something else is at its address."""
+    """Return what is to be deployed. fees: None asks for those of now. VerificationError if other code is there."""
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(kind.contract)
     creation = creation_code(kind, parts, offer)
-    salt = offer.salt.to_bytes(32, "big")
+    salt = word(offer.salt)
     plan = Deployer(connection).plan(parts, fees)
     if _stands(connection, kind, create2_address(creation, salt)):
         return Launch(kind, plan, creation, salt, None)
@@ -168,8 +155,8 @@ def launch(
 
 
 def _stands(connection: Connection, kind: Kind, place: bytes) -> bool:
-    """Whether a collection is at its address. RenderError if anything else is there."""
-    code = connection.data("eth_getCode", "0x" + place.hex(), "latest")
+    """Return whether a collection is at its address. VerificationError if anything else is there."""
+    code = connection.code(place)
     if code:
         immutable_values(code, artifact(kind.contract).runtime)
     return bool(code)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..chain.connection import Connection
 from ..deploy import Transactor
 from ..errors import InputError
-from ..ether import ETHER, ether
+from ..ethereum import ETHER, ether
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
@@ -21,7 +21,7 @@ FUNDS = 9_000 * ETHER
 
 
 def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
-    """The first accounts, 1 to 10."""
+    """Return the first accounts, 1 to 10."""
     from eth_account import Account
 
     Account.enable_unaudited_hdwallet_features()
@@ -29,7 +29,7 @@ def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
 
 
 def development_transactors(connection: Connection, max_fee: int | None = None) -> list[Transactor]:
-    """Whoever may sign for the accounts of a development node. InputError if the node is anything else.
+    """Return transactors of the accounts of a development node. InputError if the node is anything else.
 
     max_fee: see `current_fees`.
     """

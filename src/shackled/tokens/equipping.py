@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..artifacts import artifact
 from ..chain.connection import Connection
 from ..deploy import Call, Fees, Quote
 from ..deploy.quote import make_quotes
 from ..errors import InputError
 from .actions import call_of
 from .collection import Collection
-from .contract import Interface
 from .deploying import Launch
 from .icons import add_call, icons_of
 
@@ -36,7 +36,7 @@ def plan_equipment(
     codes: Mapping[bytes, bytes],
     known: Sequence[Quote],
 ) -> list[Equipment]:
-    """What is missing of it, which is all where the collection is not there yet.
+    """Return what is missing of it, which is all where the collection is not there yet.
 
     listing: root of the allow-list and who signs permissions; None sets none. icons: the arguments of `add` of each.
     codes: by address, what the chain keeps of their scenes. known: quotes for what is done before.
@@ -44,7 +44,7 @@ def plan_equipment(
     InputError if icons are missing in a collection that is sealed.
     """
     made = None if launch.quote is not None else Collection(connection, launch.kind, launch.address)
-    interface = Interface(launch.kind.contract)
+    interface = artifact(launch.kind.contract).interface
     wanted: list[tuple[str, Call]] = []
     if listing is not None:
         root, signer = listing[0], listing[1] or NOBODY
@@ -55,7 +55,7 @@ def plan_equipment(
     there = {} if made is None or not icons else {icon.name: icon.scene for icon in icons_of(made)}
     missing = [each for each in icons if there.get(each[0]) != each[1]]
     if made is not None and missing and made.contract.call("isSealed"):
-        raise InputError(f"{made.name} at {made.address} is sealed, and has no {missing[0][0]}: take another --salt")
+        raise InputError(f"{made.name} at {made.address} is sealed, and has no {missing[0][0]}: take another `salt`")
     wanted += [(f"{each[0]}: added", add_call(interface, launch.address, each, codes)) for each in missing]
     quotes = make_quotes(connection, [call for _, call in wanted], fees, known)
     return [Equipment(what, quote) for (what, _), quote in zip(wanted, quotes, strict=True)]

@@ -32,7 +32,7 @@ class Shown:
     gas: int | None = None
 
     def document(self) -> dict[str, Any]:
-        """The token as JSON has it."""
+        """Return the token as JSON has it."""
         picture = self.metadata.picture or b""
         height, width = self.metadata.pixels.shape[:2]
         return {
@@ -56,14 +56,14 @@ class Shown:
 
 
 def tokens_json(tokens: Sequence[Shown]) -> str:
-    """The tokens as a list of objects, one a line."""
+    """Return the tokens as a list of objects, one a line."""
     return "[\n" + ",\n".join(json.dumps(token.document(), ensure_ascii=False) for token in tokens) + "\n]\n"
 
 
 def page(
     title: str, introduction: str, tokens: Sequence[Shown], facts: Sequence[tuple[str, str]], costs: Sequence[Cost]
 ) -> str:
-    """An HTML page with the tokens, collection by collection, and a table of what was paid."""
+    """Return an HTML page with the tokens, collection by collection, and a table of what was paid."""
     collections = list(dict.fromkeys(token.collection for token in tokens))
     links = [(f"c{number}", name) for number, name in enumerate(collections)]
     sections = [_section(place, name, [token for token in tokens if token.collection == name]) for place, name in links]
@@ -121,5 +121,5 @@ def _table(costs: Sequence[Cost]) -> str:
 
 
 def short(address: str) -> str:
-    """An address for people: its first and its last digits."""
+    """Return an address for people: its first and its last digits."""
     return f"{address[:6]}…{address[-4:]}"

@@ -6,16 +6,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..chain.addresses import show_address
+from ..artifacts import artifact
 from ..datasets import Piece, find, pieces
 from ..deploy import Call
 from ..deploy.contract import local_chain
 from ..errors import InputError
-from ..ether import amount
+from ..ethereum import amount, checksum_address
+from ..ethereum.abi import Interface
 from ..studio.keeping import STUDIO
 from .actions import call_of
 from .collection import Collection
-from .contract import Interface
 from .licence import licence_of
 
 #: Pixels that each pixel becomes in the picture of a token: 128 become 512.
@@ -44,7 +44,7 @@ class Icon:
         return self.supply - self.reserve - self.sold
 
     def document(self) -> dict[str, Any]:
-        """As JSON has it; the price in ether."""
+        """Return the icon as JSON has it, with the price in ether."""
         return {
             "icon": self.number,
             "name": self.name,
@@ -57,18 +57,18 @@ class Icon:
 
 
 def icon_at(collection: Collection, number: int) -> Icon:
-    """An icon of a collection. RevertError if there is none of that number."""
+    """Return an icon of a collection. RevertError if there is none of that number."""
     name, scene, *numbers = collection.contract.call("iconAt", number)
-    return Icon(number, name, show_address(bytes.fromhex(scene[2:])), *numbers)
+    return Icon(number, name, checksum_address(bytes.fromhex(scene[2:])), *numbers)
 
 
 def icons_of(collection: Collection) -> list[Icon]:
-    """All icons of a collection."""
+    """Return all icons of a collection."""
     return [icon_at(collection, number) for number in range(collection.contract.call("iconCount"))]
 
 
 def find_icon(collection: Collection, text: str) -> Icon:
-    """The icon of that number, or of that name, as "heart" or "icons/heart". InputError if there is none."""
+    """Return the icon of that number, or of that name, as "heart" or "icons/heart". InputError if there is none."""
     icons = icons_of(collection)
     if text.isdecimal() and int(text) < len(icons):
         return icons[int(text)]
@@ -82,7 +82,7 @@ def find_icon(collection: Collection, text: str) -> Icon:
 
 
 def chosen_pieces(names: str | None) -> list[Piece]:
-    """The pieces, named with commas, that may be icons; None takes the whole dataset of icons.
+    """Return the pieces, named with commas, that may be icons; None takes the whole dataset of icons.
 
     InputError for one that is unknown, or whose licence forbids it.
     """
@@ -103,8 +103,9 @@ def chosen_pieces(names: str | None) -> list[Piece]:
 
 
 def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
-    """The transaction that adds an icon. Its gas is that of what it writes, and of a look at the scene, of which one
-    pixel is drawn. RenderError if it cannot be drawn.
+    """Return the transaction that adds an icon, with the gas of writing it and of drawing one pixel of its scene.
+
+    Raises RenderError if the scene cannot be drawn.
 
     icon: the arguments of `add`. codes: by address, what the Studio keeps of the scene.
     """
@@ -117,15 +118,15 @@ def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
     local.address(STUDIO)
     for place, code in codes.items():
         local.put(place, code)
-    studio, renderer = Interface(STUDIO), Interface("Renderer")
+    studio, renderer = artifact(STUDIO).interface, artifact("Renderer").interface
     reading = local.call(STUDIO, studio.encode("scene(address)", pointer))
     scene = studio.decode("scene(address)", reading.output)
     drawing = local.call("Renderer", renderer.encode("renderTile", scene, (0, 0, 1, 1)))
-    return (reading.gas or 0) + (drawing.gas or 0)
+    return reading.gas + drawing.gas
 
 
 def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:
-    """InputError where the collection would not take the icons."""
+    """Raise InputError where the collection would not take the icons."""
     if not 0 <= price < 1 << 96:
         raise InputError(f"the price of an icon must be below {1 << 96} wei, not {price}")
     if not (1 <= supply < 1 << 32 and 0 <= reserve <= supply):

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
-from ..errors import RenderError
-from ..studio.keeping import PARTS, POINTED, SCENE, SCENE_STRUCT, kept_at
+from ..errors import VerificationError
+from ..ethereum import checksum_address
+from ..studio.keeping import PARTS, POINTED, SCENE, kept_at, scene_struct
 
 
 def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """Address and code of all that is kept of a scene: itself, its meshes, and their parts where they have any.
+    """Yield address and code of all that is kept of a scene: itself, its meshes, and their parts where they have any.
 
-    RenderError if anything is missing, or is not what belongs there.
+    VerificationError if anything is missing, or is not what belongs there.
     """
     kept: dict[bytes, bytes] = {}
 
     def read(place: bytes) -> bytes:
-        """The bytes that are kept at a place, parts and all."""
-        code = connection.data("eth_getCode", "0x" + place.hex(), "latest")
+        """Return the bytes that are kept at a place, parts and all."""
+        code = connection.code(place)
         if not code:
-            raise RenderError(f"nothing is kept at {show_address(place)}")
+            raise VerificationError(f"nothing is kept at {checksum_address(place)}")
         # it starts with an instruction that stops all calls; the bytes after it make the address
         if code[:1] != b"\0" or kept_at(code[1:], studio) != place:
-            raise RenderError(f"the bytes at {show_address(place)} are not those that belong there")
+            raise VerificationError(f"the bytes at {checksum_address(place)} are not those that belong there")
         kept[place] = code
         data = code[1:]
         if data[:1] != bytes([PARTS]):
@@ -38,22 +38,22 @@ def kept_codes(connection: Connection, studio: bytes, pointer: bytes) -> Iterato
 
 
 def meshes_of(data: bytes) -> list[bytes]:
-    """The field `mesh` of each object of a scene as it is kept. RenderError if it is none."""
+    """Return the field `mesh` of each object of a scene as it is kept. VerificationError if it is none."""
     from eth_abi.abi import decode
     from eth_abi.exceptions import DecodingError
 
     if data[:1] != bytes([SCENE]):
-        raise RenderError("what is kept there is no scene")
+        raise VerificationError("what is kept there is no scene")
     try:
-        (struct,) = decode([SCENE_STRUCT], expand_zeros(data[1:]))
+        (struct,) = decode([scene_struct()], expand_zeros(data[1:]))
     except (DecodingError, IndexError, OverflowError) as error:
-        raise RenderError(f"what is kept there is no whole scene: {error}") from None
+        raise VerificationError(f"what is kept there is no whole scene: {error}") from None
     *_, objects, _ = struct
     return [thing[0] for thing in objects]
 
 
 def expand_zeros(data: bytes) -> bytes:
-    """The bytes of which `compress_zeros` made these."""
+    """Return the bytes of which `compress_zeros` made these."""
     result = bytearray()
     whole = iter(bytes(value ^ 255 for value in data[:4]) + data[4:])
     for value in whole:

@@ -18,13 +18,13 @@ EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, 
 
 
 def licence_of(source: Path | Piece, stated: str | None) -> str:
-    """The licence under which an object is minted; nobody can take it back from a chain.
+    """Return the licence under which an object is minted; nobody can take it back from a chain.
 
     Pieces of datasets bring theirs along; of a file its user states it. InputError where it may forbid minting.
     """
     if isinstance(source, Piece):
         if stated is not None:
-            raise InputError(f"--licence is for files: that of {source.name} is known, {source.licence}")
+            raise InputError(f"`licence` is for files: that of {source.name} is known, {source.licence}")
         if not (source.commercial and allows(source.licence)):
             raise InputError(
                 f"{source.name} must not be minted: its licence ({source.licence}) is not known to allow commercial "
@@ -33,12 +33,12 @@ def licence_of(source: Path | Piece, stated: str | None) -> str:
         return source.licence
     if stated is None:
         raise InputError(
-            f"the licence of {source} is for you to know: state it, for instance --licence CC0-1.0, "
-            "or --licence 'my own work'"
+            f"check the licence of {source} yourself, and state it with `licence`, for instance CC0-1.0 or "
+            "'my own work'"
         )
     words = " ".join(stated.split())
     if not words:
-        raise InputError("--licence is empty: state the licence, for instance CC0-1.0, or 'my own work'")
+        raise InputError("`licence` is empty: state it, for instance CC0-1.0 or 'my own work'")
     if not allows(words):
         raise InputError(
             f"{source} must not be minted under the licence {words!r}: it is not known to allow commercial use of "
@@ -48,5 +48,5 @@ def licence_of(source: Path | Piece, stated: str | None) -> str:
 
 
 def allows(licence: str) -> bool:
-    """Whether a licence is one of those that surely allow it."""
+    """Return whether a licence is one of those that surely allow it."""
     return ALLOWED.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

@@ -21,7 +21,7 @@ class Listed:
     traits: dict[str, Trait]
 
     def document(self) -> dict[str, Any]:
-        """As JSON has it."""
+        """Return the token as JSON has it."""
         return {
             "token": self.token.number,
             "name": self.title,
@@ -31,13 +31,13 @@ class Listed:
         }
 
     def row(self, columns: Sequence[str]) -> tuple[str, ...]:
-        """The cells of a table with these columns after the first three."""
+        """Return the cells of a table with these columns after the first three."""
         cells = (str(self.traits.get(column, "")) for column in columns)
         return str(self.token.number), short(self.token.owner), "yes" if self.token.revealed else "no", *cells
 
 
 def read_all(collection: Collection) -> Iterator[Listed]:
-    """The tokens in the order of their numbers; each `tokenURI` is read, several at once."""
+    """Yield the tokens in the order of their numbers; each `tokenURI` is read, several at once."""
 
     def read(number: int) -> Listed:
         metadata = collection.metadata(number)
@@ -48,5 +48,5 @@ def read_all(collection: Collection) -> Iterator[Listed]:
 
 
 def trait_columns(tokens: Sequence[Listed]) -> list[str]:
-    """The traits that tokens with a picture have, in their order."""
+    """Return the traits that tokens with a picture have, in their order."""
     return list(dict.fromkeys(key for each in tokens if each.token.revealed for key in each.traits))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from ..errors import RenderError
+from ..errors import VerificationError
 from ..json_text import read_json
 from ..plain import plain
 
@@ -50,9 +50,9 @@ class Metadata:
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
-        """The picture, (H, W, 3), rows from the top. RenderError if there is none, or it is not a whole picture."""
+        """The picture, (H, W, 3), rows from the top. VerificationError if there is none, or it is not whole."""
         if self.picture is None or self.media_type is None:
-            raise RenderError(f"{self.name} shows no picture")
+            raise VerificationError(f"{self.name} shows no picture")
         return decode_picture(self.picture, self.media_type)
 
     @property
@@ -62,13 +62,13 @@ class Metadata:
 
 
 def read_token_uri(uri: str) -> Metadata:
-    """The metadata of a token. RenderError, one line, where marketplaces would not understand it."""
+    """Return the metadata of a token. VerificationError, one line, where marketplaces would not understand it."""
     document = _document(uri)
     name, description = _text(document, "name"), _text(document, "description")
     image, shown = _text(document, "image"), plain(name)[:60]
     media_type, picture = read_data_uri(image, f"the image of {shown}")
     if media_type not in PICTURES:
-        raise RenderError(f"the image of {shown} is of the type {media_type}, not one of {', '.join(PICTURES)}")
+        raise VerificationError(f"the image of {shown} is of the type {media_type}, not one of {', '.join(PICTURES)}")
     metadata = Metadata(
         name=name,
         description=description,
@@ -82,48 +82,41 @@ def read_token_uri(uri: str) -> Metadata:
     return metadata
 
 
-def read_contract_uri(uri: str) -> dict[str, Any]:
-    """What a collection says of itself (ERC-7572): at least a name. RenderError where it is not that."""
-    document = _document(uri, "the contractURI")
-    _text(document, "name", "the contractURI")
-    return document
-
-
 def read_data_uri(uri: str, what: str) -> tuple[str, bytes]:
-    """The media type, without parameters, and the content of a `data:` URI. RenderError if it is not one."""
+    """Return the media type, without parameters, and the content of a `data:` URI. VerificationError if it is none."""
     match = re.match(r"data:([\w.+-]+/[\w.+-]+)((?:;[^;,]*)*),", uri, re.ASCII)
     if not match:
-        raise RenderError(f"{what} is not kept on the chain: it begins with {uri[:40]!r}, not with data:TYPE,")
+        raise VerificationError(f"{what} is not kept on the chain: it begins with {uri[:40]!r}, not with data:TYPE,")
     content = uri[match.end() :]
     if not match[2].endswith(";base64"):
         return match[1], unquote_to_bytes(content)
     try:
         return match[1], base64.b64decode(content, validate=True)
     except (binascii.Error, ValueError):
-        raise RenderError(f"{what} is said to be Base64, and is not") from None
+        raise VerificationError(f"{what} is said to be Base64, and is not") from None
 
 
 def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
-    """The pixels, (H, W, 3), of a PNG or a BMP; RenderError if it is broken, not opaque, or larger than any of ours."""
+    """Return the pixels, (H, W, 3), of a PNG or a BMP. VerificationError if it is broken, not opaque, or too large."""
     whole = (
         picture.endswith(PNG_END) if media_type == "image/png" else picture[2:6] == len(picture).to_bytes(4, "little")
     )
     if not whole:
-        raise RenderError(f"the picture of the token is no whole {media_type}: its end is not where it should be")
+        raise VerificationError(f"the picture of the token is no whole {media_type}: its end is not where it should be")
     try:
         with PillowImage.open(io.BytesIO(picture), formats=[PICTURES[media_type]]) as opened:
             if max(opened.size) > MAX_SIDE:
-                raise RenderError(f"the picture of the token has {opened.size[0]} x {opened.size[1]} pixels")
+                raise VerificationError(f"the picture of the token has {opened.size[0]} x {opened.size[1]} pixels")
             opened.load()
             if opened.has_transparency_data:
-                raise RenderError("the picture of the token has transparent pixels")
+                raise VerificationError("the picture of the token has transparent pixels")
             return np.array(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError) as error:
-        raise RenderError(f"the picture of the token is no whole {media_type}: {error}") from None
+        raise VerificationError(f"the picture of the token is no whole {media_type}: {error}") from None
 
 
 def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uint8] | None:
-    """The picture of `width` x `height` pixels of which each became a square; None if that is not how it was made."""
+    """Return the picture of `width` x `height` pixels, each of which became a square; None if they did not."""
     factor = pixels.shape[1] // width
     if factor == 0 or pixels.shape[:2] != (height * factor, width * factor):
         return None
@@ -132,21 +125,23 @@ def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uin
     return small if np.array_equal(whole, pixels) else None
 
 
-def _document(uri: str, what: str = "the tokenURI") -> dict[str, Any]:
+def _document(uri: str) -> dict[str, Any]:
     length = len(uri.encode())
     if length > MAX_LENGTH:
-        raise RenderError(f"{what} has {length:,} bytes; wallets and marketplaces show no more than {MAX_LENGTH:,}")
-    media_type, content = read_data_uri(uri, what)
+        raise VerificationError(
+            f"the tokenURI has {length:,} bytes; wallets and marketplaces show no more than {MAX_LENGTH:,}"
+        )
+    media_type, content = read_data_uri(uri, "the tokenURI")
     if media_type != "application/json":
-        raise RenderError(f"{what} is of the type {media_type}, not application/json")
+        raise VerificationError(f"the tokenURI is of the type {media_type}, not application/json")
     try:
         document = read_json(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
         # half of a character, and numbers beyond all, are taken by this reader and by few others
         json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
-        raise RenderError(f"{what} holds no JSON: {' '.join(str(error).split())[:100]}") from None
+        raise VerificationError(f"the tokenURI holds no JSON: {' '.join(str(error).split())[:100]}") from None
     if not isinstance(document, dict):
-        raise RenderError(f"{what} holds JSON that is no object")
+        raise VerificationError("the tokenURI holds JSON that is no object")
     return document
 
 
@@ -161,26 +156,26 @@ def _no_number(text: str) -> Any:
     raise ValueError(f"{text} is no number")
 
 
-def _text(document: dict[str, Any], key: str, what: str = "the tokenURI") -> str:
+def _text(document: dict[str, Any], key: str) -> str:
     value = document.get(key)
     if not isinstance(value, str) or not value:
-        raise RenderError(f"{what} has no {key}")
+        raise VerificationError(f"the tokenURI has no {key}")
     return value
 
 
 def _traits(document: dict[str, Any], name: str) -> dict[str, Trait]:
-    """The marketplaces' list of {"trait_type": ..., "value": ...} as a mapping."""
+    """Return the marketplaces' list of {"trait_type": ..., "value": ...} as a mapping."""
     attributes = document.get("attributes", [])
     if not isinstance(attributes, list):
-        raise RenderError(f"the attributes of {name} are no list: marketplaces show none of them")
+        raise VerificationError(f"the attributes of {name} are no list: marketplaces show none of them")
     traits: dict[str, Trait] = {}
     for attribute in attributes:
         kind, value = (
             (attribute.get("trait_type"), attribute.get("value")) if isinstance(attribute, dict) else (None, None)
         )
         if not isinstance(kind, str) or not isinstance(value, str | int | float | bool):
-            raise RenderError(f"an attribute of {name} has no trait_type and value: {plain(str(attribute))[:80]}")
+            raise VerificationError(f"an attribute of {name} has no trait_type and value: {plain(str(attribute))[:80]}")
         if kind in traits:
-            raise RenderError(f"{name} has the attribute {plain(kind)[:60]} twice")
+            raise VerificationError(f"{name} has the attribute {plain(kind)[:60]} twice")
         traits[kind] = value
     return traits

@@ -31,7 +31,7 @@ def mint_call(
     reserve_to: str | None = None,
     icon: int | None = None,
 ) -> MintCall:
-    """How an account mints: as everybody, by its place on an allow-list, by a permission, or from the reserve.
+    """Return how an account mints: as everybody, by its place on an allow-list, by a permission, or from the reserve.
 
     icon: the number of the icon, of a collection that has them.
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from ..chain.connection import Connection, quantity
-from ..errors import InputError, NodeError, RenderError, RevertError, TransactionError
-from .header import encode_header
+from ..errors import ChainError, InputError, NodeError, RevertError, TransactionError
+from ..ethereum import to_hex
+from ..ethereum.header import encode_header
 
 #: Ethereum, its test networks Sepolia and Hoodi, and development nodes.
 CHAINS = (1, 11155111, 560048, 31337, 1337)
@@ -17,7 +18,7 @@ HASH = ("67", "405f5260205ff3")
 
 
 def check_randomness(connection: Connection, any_chain: bool = False) -> None:
-    """Whether seeds can be drawn on a chain that nobody knows before, and revealed, as far as its last blocks show it.
+    """Check by the last blocks of a chain that seeds drawn there are known to nobody before, and can be revealed.
 
     any_chain: for chains that nobody here knows as well. InputError if the chain is unknown; TransactionError if it
     gives the same randomness twice, or headers that contracts cannot read.
@@ -26,12 +27,12 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
     if chain not in CHAINS and not any_chain:
         raise InputError(
             f"chain {chain} is neither Ethereum nor one of its test networks (chains {CHAINS[0]}, {CHAINS[1]} and "
-            f"{CHAINS[2]}): on many others seeds are known before the mint, or can never be revealed; --any-chain "
+            f"{CHAINS[2]}): on many others seeds are known before the mint, or can never be revealed; `any_chain` "
             "deploys all the same"
         )
     latest = connection.number("eth_blockNumber")
     # the first block of all is made by whoever begins the chain
-    blocks = [_block(connection, number) for number in range(max(1, latest - BLOCKS + 1), latest + 1)]
+    blocks = [connection.block(number) for number in range(max(1, latest - BLOCKS + 1), latest + 1)]
     randomness = [block.get("mixHash") for block in blocks]
     if len(set(randomness)) < len(blocks):
         raise TransactionError(
@@ -44,7 +45,7 @@ def check_randomness(connection: Connection, any_chain: bool = False) -> None:
 
 
 def _check_header(connection: Connection, block: dict[str, Any]) -> None:
-    """TransactionError if a header is none that `reveal` would take."""
+    """Raise TransactionError if a header is none that `reveal` would take."""
     chain = connection.chain_id
     try:
         encode_header(block)
@@ -58,19 +59,12 @@ def _check_header(connection: Connection, block: dict[str, Any]) -> None:
         found = connection.data("eth_call", {"data": "0x" + program}, "latest")
     except RevertError:
         return  # not every node makes calls without a receiver
-    except RenderError as error:
+    except ChainError as error:
         if type(error) is NodeError:
             return
         raise
-    if "0x" + found.hex() != str(block.get("hash")).lower():
+    if to_hex(found) != str(block.get("hash")).lower():
         raise TransactionError(
             f"tokens could never be revealed on chain {chain}: its contracts see 0x{found.hex()} as the hash of block "
             f"{number:,}, whose header has {block.get('hash')!s:.66}"
         )
-
-
-def _block(connection: Connection, number: int) -> dict[str, Any]:
-    block = connection.request("eth_getBlockByNumber", hex(number), False)
-    if not isinstance(block, dict):
-        raise NodeError(f"the {connection.name} does not have block {number:,}, of which it told")
-    return block

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..artifacts import artifact, contracts
+from ..artifacts import known_errors
+from ..chain.refusal import describe
 from ..errors import RevertError
-from ..ether import ether
+from ..ethereum import ether
+from ..ethereum.abi import decode_error
 
 PHASES = ("closed", "open for the allow-list", "open for all")
 
@@ -63,37 +65,15 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
 
 
 def in_words(error: RevertError) -> RevertError:
-    """The error with a sentence in the place of what the node says, where its data is an error that is known."""
-    found = decode_error(error.data)
+    """Return the error with a sentence in place of what the node says, if its data is an error that is known."""
+    found = decode_error(error.data, known_errors())
     if found is None:
         return error
     name, values = found
     sentence = SENTENCES.get(name)
-    if sentence is not None:
-        return RevertError(sentence(values), error.data)
-    shown = ", ".join(f"{key}={_shown(value)}" for key, value in values.items())
-    return RevertError(f"the contract refused: {name}({shown})", error.data)
-
-
-def decode_error(data: bytes) -> tuple[str, dict[str, Any]] | None:
-    """The name of a custom error of any contract of ours, and its values by their names; None if it is none."""
-    from eth_abi.abi import decode
-    from eth_abi.exceptions import DecodingError
-
-    for contract in contracts():
-        if data[:4] in artifact(contract).errors:
-            name, parameters = artifact(contract).errors[data[:4]]
-            try:
-                values = decode([kind for _, kind in parameters], data[4:])
-            except DecodingError:
-                return None
-            return name, {label or kind: value for (label, kind), value in zip(parameters, values, strict=True)}
-    return None
+    said = f"the contract refused: {describe(error.data)}" if sentence is None else sentence(values)
+    return RevertError(said, error.data)
 
 
 def _phase(number: int) -> str:
     return PHASES[number] if number < len(PHASES) else f"phase {number}"
-
-
-def _shown(value: Any) -> str:
-    return "0x" + value.hex() if isinstance(value, bytes) else str(value)

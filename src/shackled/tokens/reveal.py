@@ -9,9 +9,9 @@ from typing import Any
 from ..deploy import Quote, Transactor
 from ..deploy.quote import make_quotes
 from ..errors import InputError, NodeError
+from ..ethereum.header import encode_header
 from .actions import call_of, plan
 from .collection import Collection
-from .header import encode_header
 
 #: Rounds in a transaction.
 ROUNDS_AT_ONCE = 40
@@ -36,7 +36,7 @@ class Round:
 
 
 def hidden_rounds(collection: Collection) -> list[Round]:
-    """The rounds of all tokens that are not revealed, each once."""
+    """Return the rounds of all tokens that are not revealed, each once."""
     minted = collection.minted()
     numbers: list[int] = []
     for first in range(0, minted, TOKENS_AT_ONCE):
@@ -46,7 +46,7 @@ def hidden_rounds(collection: Collection) -> list[Round]:
 
 
 def latest_block(collection: Collection) -> int:
-    """The number of the last block of the chain."""
+    """Return the number of the last block of the chain."""
     return collection.connection.number("eth_blockNumber")
 
 
@@ -60,7 +60,7 @@ class Step:
 
 
 def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
-    """The transactions that reveal rounds whose blocks are there, in this order.
+    """Return the transactions that reveal rounds whose blocks are there, in this order.
 
     Where rounds are so late that the chain has forgotten their blocks, the hashes of these are proven first.
     """
@@ -73,19 +73,19 @@ def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
 
 
 def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[Step]) -> list[Quote]:
-    """The prices of some steps, of which there is at least one. RevertError, in words, if the first would be refused;
-    the others follow from those before.
-    """
+    """Return the prices of one or more steps. Raises RevertError, in words, if the first would be refused."""
     first, *rest = todo
     contract = collection.contract
     quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
-    calls = [call_of(contract, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest]
+    calls = [
+        call_of(contract.interface, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest
+    ]
     return [quote, *make_quotes(transactor.connection, calls, quote.fees, [quote], transactor.address)]
 
 
 def header_of(collection: Collection, number: int) -> bytes:
-    """The header of a block, whose hash the node says and we check."""
-    block = block_of(collection, number)
+    """Return the header of a block, whose hash the node says and we check."""
+    block = collection.connection.block(number)
     try:
         return encode_header(block)
     except InputError:
@@ -94,17 +94,6 @@ def header_of(collection: Collection, number: int) -> bytes:
         raise NodeError(
             f"the {collection.connection.name} tells a block {number:,} with fields that are none: {block!r:.60}"
         ) from None
-
-
-def block_of(collection: Collection, number: int) -> dict[str, Any]:
-    """A block as the node tells it. NodeError if it does not have it."""
-    block = collection.connection.request("eth_getBlockByNumber", hex(number), False)
-    if not isinstance(block, dict):
-        raise NodeError(
-            f"the {collection.connection.name} does not have block {number:,}; take one that keeps them all"
-        )
-    found: dict[str, Any] = block
-    return found
 
 
 def _proofs(collection: Collection, forgotten: list[int]) -> Iterator[Step]:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from functools import partial
 
 from .._render import render
-from ..chain.addresses import show_address
 from ..chain.connection import Connection
 from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor
 from ..deploy.deployer import create
 from ..deploy.quote import current_fees, make_quotes
-from ..errors import RenderError
+from ..errors import VerificationError
+from ..ethereum import checksum_address
 from ..image import Image, decode_bmp
 from ..scene.scene import Scene
 from ..studio.keeping import STUDIO, Storing, store_scene
@@ -67,8 +67,9 @@ class Storage:
 
 
 def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | None = None) -> Storage:
-    """What of some scenes a chain does not have yet. Each scene is drawn here first, since none that cannot be drawn is
-    worth the price. fees: None asks for those of now.
+    """Return what of some scenes a chain does not have yet. fees: None asks for those of now.
+
+    Each scene is rendered here first, since one that cannot be rendered is not worth the price.
     """
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(STUDIO, itself=True)
@@ -78,7 +79,7 @@ def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | 
     for each in wanted:
         render(each.scene)
         storings = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
-        pointers.append(show_address(storings[-1].pointer))
+        pointers.append(checksum_address(storings[-1].pointer))
         for storing in storings:
             codes[storing.pointer] = storing.code
             if storing.pointer not in missing and not _stands(connection, storing):
@@ -117,9 +118,9 @@ def store(
 
 
 def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted) -> Image:
-    """The picture that the Studio of a chain draws of a scene that it keeps.
+    """Return the picture that the Studio of a chain draws of a scene that it keeps.
 
-    RenderError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
+    VerificationError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
     """
     contract = Contract(connection, STUDIO, studio)
     started = time.perf_counter()
@@ -127,9 +128,9 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
     seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
-        raise RenderError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
+        raise VerificationError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
     return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
 
 
 def _stands(connection: Connection, storing: Storing) -> bool:
-    return bool(connection.data("eth_getCode", "0x" + storing.pointer.hex(), "latest"))
+    return bool(connection.code(storing.pointer))

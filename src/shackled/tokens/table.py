@@ -26,7 +26,7 @@ ORIGINAL_TOKEN_URI = (5_700_000_000, 14_400_000_000)
 
 
 def comparison(costs: Sequence[Cost]) -> list[tuple[str, str, str, str]]:
-    """A heading, and a row for each action: what, gas, gas of the original, how many times less."""
+    """Return a heading, and a row for each action: what, gas, gas of the original, how many times less."""
     rows = [("action", "gas", "original", "times less")]
     for cost in costs:
         if cost.original is None:
@@ -40,7 +40,7 @@ def comparison(costs: Sequence[Cost]) -> list[tuple[str, str, str, str]]:
 
 
 def markdown(costs: Sequence[Cost]) -> str:
-    """The comparison as a table of Markdown."""
+    """Return the comparison as a table of Markdown."""
     head, *rows = comparison(costs)
     lines = [head, ("---", "---:", "---:", "---:"), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"

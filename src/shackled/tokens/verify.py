@@ -4,27 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain.addresses import keccak256, parse_address, show_address
 from ..chain.embedded import EmbeddedChain
 from ..deploy import Deployer
 from ..deploy.contract import deployment, local_chain
-from ..errors import NodeError, OutOfGasError, RenderError
+from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
+from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..studio.keeping import STUDIO
 from .collection import Collection
-from .contract import Interface
 from .deploying import Offer, creation_code, parts_of
 from .icons import icon_at
 from .immutables import immutable_places, immutable_values
 from .kept import kept_codes
 from .kinds import Kind
 from .metadata import Metadata, read_token_uri, shrink
-from .reveal import block_of
 
 #: EIP-712: what the domain of permissions is made of.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
@@ -43,48 +40,49 @@ class Check:
 
 
 def check_code(collection: Collection) -> Iterator[Check]:
-    """The code of the collection and of all contracts that it uses against the compiled ones."""
+    """Yield the code of the collection and of all contracts that it uses against the compiled ones."""
     connection = collection.connection
     parts = parts_of(collection.kind.contract)
     deployer = Deployer(connection)
     for part in parts:
-        what = f"{part.name} at {show_address(part.address)}"
+        what = f"{part.name} at {checksum_address(part.address)}"
         try:
             yield Check(what, "" if deployer.stands(part) else "it is not there")
-        except RenderError as error:
+        except ChainError as error:
             yield Check(what, str(error))
     what = f"{collection.kind.contract} at {collection.address}"
     try:
         check_collection_code(collection)
         yield Check(what)
-    except RenderError as error:
+    except ChainError as error:
         if isinstance(error, NodeError):
             raise
         yield Check(what, str(error))
 
 
 def check_collection_code(collection: Collection) -> None:
-    """RenderError if a byte of the code differs from what the compiled contract would be with the terms that the
-    collection tells.
+    """Compare the code with that of the compiled contract with the terms that the collection tells.
+
+    Raises VerificationError if a byte differs.
     """
     connection, kind = collection.connection, collection.kind
     runtime = artifact(kind.contract).runtime
-    code = connection.data("eth_getCode", collection.address, "latest")
+    code = connection.code(bytes.fromhex(collection.address[2:]))
     immutable_values(code, runtime)
     # the constructor is run here with numbers that nothing else has, which shows where it writes each of them
     sentinels = Offer("0x" + "11" * 20, "0x" + "11" * 20, price=0xABCDEF01, reserve=513, per_transaction=77)
     trial, local = trial_code(kind, sentinels)
     told = {"price": sentinels.price, "reserve": sentinels.reserve, "perTransaction": sentinels.per_transaction}
     meaning = {
-        _word(number): _word(collection.contract.call(name))
+        word(number): word(collection.contract.call(name))
         for name, number in told.items()
         if name in ("perTransaction", *kind.terms)
     }
     fixed = _fixed_values(kind)
-    here = {_word(local.chain_id): {_word(connection.chain_id)}}
+    here = {word(local.chain_id): {word(connection.chain_id)}}
     if kind.hidden:
-        here.setdefault(_word(local.block), set()).add(_word(collection.contract.call("firstBlock")))
-    place = _word(int(collection.address, 16))
+        here.setdefault(word(local.block), set()).add(word(collection.contract.call("firstBlock")))
+    place = word(int(collection.address, 16))
     for at in immutable_places(runtime):
         value, found = trial[at : at + 32], code[at : at + 32]
         if value in fixed:
@@ -96,11 +94,11 @@ def check_collection_code(collection: Collection) -> None:
         else:
             allowed = {place if int.from_bytes(value, "big") < 1 << 160 else _domain(kind, connection.chain_id, place)}
         if found not in allowed:
-            raise RenderError(f"at byte {at:,} of its code stands 0x{found.hex()}, not 0x{min(allowed).hex()}")
+            raise VerificationError(f"at byte {at:,} of its code stands 0x{found.hex()}, not 0x{min(allowed).hex()}")
 
 
 def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: str | None = None) -> Check:
-    """A token's seed against the block that drew it, and the whole of its `tokenURI` against what is computed here.
+    """Compare a token's seed with the block that drew it, and its whole `tokenURI` with what is computed here.
 
     uri: the `tokenURI`, if it was read already.
     """
@@ -112,32 +110,32 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
             return Check(f"{what}, {metadata.name}", _icon_failure(collection, token, metadata, local))
         if not collection.is_revealed(token):
             block = collection.contract.call("blockOf", collection.round_of(token))
-            expected = _local_call(local, "GenesisMetadata", "hiddenURI", token, block)
+            expected = local.ask("GenesisMetadata", "hiddenURI", token, block)
             return Check(f"{what}, not revealed", "" if uri == expected else "it shows something else than it should")
         drawn, failure = draw(collection, token)
         if failure:
             return Check(what, failure)
-        seed, _ = _local_call(local, "GenesisMetadata", "settle", drawn)
+        seed, _ = local.ask("GenesisMetadata", "settle", drawn)
         if seed != collection.contract.call("seedOf", token):
             return Check(what, "its seed is not that which its block and its number give")
-        bmp = _local_call(local, "Genesis", "render", seed)
-        if uri != _local_call(local, "GenesisMetadata", "tokenURI", token, drawn):
+        bmp = local.ask("Genesis", "render", seed)
+        if uri != local.ask("GenesisMetadata", "tokenURI", token, drawn):
             return Check(what, "what it says of itself is not what is computed here from its seed")
         return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture is not that of its seed")
     except OutOfGasError as error:
         return Check(what, unread=str(error))
-    except RenderError as error:
+    except ChainError as error:
         if isinstance(error, NodeError):
             raise
         return Check(what, str(error))
 
 
 def _icon_failure(collection: Collection, token: int, metadata: Metadata, local: EmbeddedChain) -> str:
-    """What is wrong with the token of an icon: its picture is made here of the bytes that the chain keeps."""
+    """Return what is wrong with the token of an icon: its picture is made here of the bytes that the chain keeps."""
     icon = icon_at(collection, collection.contract.call("iconOf", token))
     for pointer, code in kept_codes(collection.connection, local.address(STUDIO), bytes.fromhex(icon.scene[2:])):
         local.put(pointer, code)
-    picture = _local_call(local, STUDIO, "renderPNG(address,uint256)", icon.scene, icon.scale)
+    picture = local.ask(STUDIO, "renderPNG(address,uint256)", icon.scene, icon.scale)
     if metadata.picture != picture:
         return "its picture is not that of its scene"
     if metadata.traits != {"Icon": icon.name, "Supply": icon.supply}:
@@ -146,15 +144,13 @@ def _icon_failure(collection: Collection, token: int, metadata: Metadata, local:
 
 
 def draw(collection: Collection, token: int) -> tuple[bytes, str]:
-    """What was drawn for a token, computed here, and what is wrong with it; "" if nothing is."""
+    """Return what was drawn for a token, computed here, and what is wrong with it; "" if nothing is."""
     number = collection.round_of(token)
     randomness = collection.contract.call("randomnessOf", number)
     block_number = collection.contract.call("blockOf", number)
-    block = block_of(collection, block_number)
-    drawn = keccak256(
-        randomness + parse_address(collection.address, "the collection").rjust(32, b"\0") + token.to_bytes(32, "big")
-    )
-    if block.get("mixHash") != "0x" + randomness.hex():
+    block = collection.connection.block(block_number)
+    drawn = keccak256(randomness + word(parse_address(collection.address, "the collection")) + word(token))
+    if block.get("mixHash") != to_hex(randomness):
         return drawn, f"the randomness of its round is not that of block {block_number:,}"
     return drawn, ""
 
@@ -166,12 +162,6 @@ def _same_picture(pixels: NDArray[np.uint8], bmp: bytes) -> bool:
     return small is not None and bool((small == decode_bmp(bmp, SIDE, SIDE)).all())
 
 
-def _local_call(local: EmbeddedChain, contract: str, function: str, *arguments: object) -> Any:
-    """What a contract answers in the EVM here."""
-    asked = Interface(contract)
-    return asked.decode(function, local.call(contract, asked.encode(function, *arguments)).output)
-
-
 @dataclass(frozen=True)
 class Surroundings:
     """What a constructor sees of the chain on which it is run."""
@@ -181,7 +171,7 @@ class Surroundings:
 
 
 def trial_code(kind: Kind, offer: Offer) -> tuple[bytes, Surroundings]:
-    """The code of a collection as the EVM here makes it, and what the constructor saw there."""
+    """Return the code of a collection as the EVM here makes it, and what the constructor saw there."""
     local, parts = local_chain(), parts_of(kind.contract)
     made = deployment(kind.contract, creation_code(kind, parts, offer), [each.name for each in parts], local)
     probe = bytes.fromhex("c0de") + bytes(17) + b"\xff"
@@ -192,17 +182,13 @@ def trial_code(kind: Kind, offer: Offer) -> tuple[bytes, Surroundings]:
 
 
 def _fixed_values(kind: Kind) -> set[bytes]:
-    """What every collection of a kind has in its code, on any chain: the contracts that it uses, and its name."""
+    """Return the values that every collection of a kind has in its code: the contracts that it uses, and its name."""
     names = [kind.title.encode(), b"1"]
-    parts = {part.address.rjust(32, b"\0") for part in parts_of(kind.contract)}
+    parts = {word(part.address) for part in parts_of(kind.contract)}
     # short strings as OpenZeppelin keeps them: the characters, and their number in the last byte
     return parts | {keccak256(name) for name in names} | {name.ljust(31, b"\0") + bytes([len(name)]) for name in names}
 
 
 def _domain(kind: Kind, chain_id: int, place: bytes) -> bytes:
     """EIP-712: the hash of the domain of a collection's permissions."""
-    return keccak256(keccak256(DOMAIN) + keccak256(kind.title.encode()) + keccak256(b"1") + _word(chain_id) + place)
-
-
-def _word(number: int) -> bytes:
-    return number.to_bytes(32, "big")
+    return keccak256(keccak256(DOMAIN) + keccak256(kind.title.encode()) + keccak256(b"1") + word(chain_id) + place)

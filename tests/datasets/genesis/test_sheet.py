@@ -10,9 +10,10 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import render
-from shackled.datasets.genesis import generate, seed_of
+from shackled.datasets.genesis import seed_of
 from shackled.datasets.genesis.sheet import render_sheet
 from shackled.errors import InputError
+from shackled.reference.genesis import generate
 
 
 @pytest.fixture(autouse=True)

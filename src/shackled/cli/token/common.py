@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ...chain.addresses import parse_address, show_address
 from ...errors import InputError
+from ...ethereum import checksum_address, parse_address
 from ...tokens.kinds import KINDS
 from ..option import option
 from ..payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
@@ -90,7 +90,7 @@ def open_named(which: str, rpc: str | None, chain_id: int | None) -> Collection:
             f"run: shackled token deploy {which}"
         )
     try:
-        return open_collection(connection, show_address(place))
+        return open_collection(connection, checksum_address(place))
     except InputError as error:
         raise InputError(f"{error}, where the address book has it: deploy it, or give --collection ADDRESS") from None
 
@@ -149,7 +149,7 @@ def send(
 
 def address(text: str, name: str) -> str:
     """What was typed as an address, with its checksum. InputError, which says `name`, if it is none."""
-    return show_address(parse_address(text, name))
+    return checksum_address(parse_address(text, name))
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

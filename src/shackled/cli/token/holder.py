@@ -75,7 +75,7 @@ def mint(
 
 def minted_numbers(receipt: Receipt, address: str) -> list[int]:
     """The tokens that a transaction minted, of the Transfer events in its receipt."""
-    from ...chain.addresses import keccak256
+    from ...ethereum import keccak256
 
     transfer = "0x" + keccak256(b"Transfer(address,address,uint256)").hex()
     logs = [log for log in receipt.logs if log["topics"][0] == transfer and len(log["topics"]) == 4]

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InputError
-from ...ether import parse_ether
+from ...ethereum import parse_ether
 from ...studio.keeping import STUDIO
 from ..option import option
 from ..telling import tell
@@ -53,7 +53,7 @@ def add(
     # a scene that cannot be drawn is told here, before anything is asked
     studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
     codes = dict(kept_codes(collection.connection, studio, bytes.fromhex(place[2:])))
-    ours = add_call(collection.contract, collection.address, arguments, codes).ours
+    ours = add_call(collection.contract.interface, collection.address, arguments, codes).ours
     receipt = do(collection, account, private_key_env, max_fee, yes, f"add {name}", "add", *arguments, ours=ours)
     tell(f"{name} is added; {receipt.gas:,} gas")
 

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...ether import parse_ether
+from ...ethereum import checksum_address, parse_ether
 from ...tokens.icons import SCALE
 from ...tokens.kinds import KINDS
 from ..option import option
@@ -143,7 +142,7 @@ def deploy(
     def report(step: Step, receipts: Sequence[Receipt]) -> None:
         spent.extend(each.gas for each in receipts)
         gas = sum(each.gas for each in receipts)
-        say(f"{step.name}: at {show_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
+        say(f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
 
     made, receipt = launch(plan, transactor, report)
     if storage is not None:

@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InputError, RenderError
-from ...ether import amount, ether
+from ...errors import InputError, VerificationError
+from ...ethereum import amount, ether
 from ..option import option
 from ..telling import tell
 from .common import MOST, PHASES, Chain, Json, Rpc, Which, address, connect, open_named, table
@@ -150,6 +150,6 @@ def verify(
         tell(f"{verdict:6} {check.what}" + (f": {why}" if why else ""))
     not_read = f"{unread} of the tokens could not be read, which says nothing against them"
     if failures:
-        raise RenderError(f"{failures} of the checks failed" + (f", and {not_read}" if unread else ""))
+        raise VerificationError(f"{failures} of the checks failed" + (f", and {not_read}" if unread else ""))
     if unread:
-        raise RenderError(f"nothing is wrong, but {not_read}: take a node that gives calls more gas")
+        raise VerificationError(f"nothing is wrong, but {not_read}: take a node that gives calls more gas")

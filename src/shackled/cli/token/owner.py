@@ -6,10 +6,9 @@ from typing import Annotated
 
 import typer
 
-from ...chain.addresses import show_address
 from ...checks import choice, number
 from ...errors import InputError
-from ...ether import ether
+from ...ethereum import checksum_address, ether
 from ..option import option
 from ..payer import open_signer
 from ..telling import tell
@@ -106,7 +105,7 @@ def take_over(
     """Become the owner of a collection that was offered to you."""
     collection = open_named(which, rpc, chain_id)
     signer = open_signer(account, private_key_env)
-    heir = show_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
+    heir = checksum_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
     if heir != str(signer.address):
         offered = "to nobody" if int(heir, 16) == 0 else f"to {heir}"
         raise InputError(f"{collection.name} is offered {offered}, not to {signer.address}")

@@ -9,7 +9,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from typing import Any
 
-from ...errors import InputError, RenderError
+from ...errors import InputError, ShackledError
 from .. import change, orbit
 from ..controls import GROUPS, control
 from ..presets import PRESETS, apply, preset
@@ -27,7 +27,7 @@ async def act(visitor: Visitor, message: object) -> None:
         return
     try:
         await ACTIONS[message["do"]](visitor, message)
-    except (InputError, RenderError) as error:
+    except ShackledError as error:
         await visitor.tell({"alert": str(error)})
         await visitor.refresh()
 
@@ -186,7 +186,7 @@ async def _any_genesis(visitor: Visitor, message: Message) -> None:
 async def _undo(visitor: Visitor, message: Message) -> None:
     try:
         await visitor.go(visitor.history.undo())
-    except (InputError, RenderError):  # what was drawn then is not here any more
+    except ShackledError:  # what was drawn then is not here any more
         visitor.history.redo()
         raise
 
@@ -194,7 +194,7 @@ async def _undo(visitor: Visitor, message: Message) -> None:
 async def _redo(visitor: Visitor, message: Message) -> None:
     try:
         await visitor.go(visitor.history.redo())
-    except (InputError, RenderError):
+    except ShackledError:
         visitor.history.undo()
         raise
 
@@ -281,7 +281,7 @@ async def _minting(visitor: Visitor, offer: Offer, wallet: Wallet) -> None:
         await visitor.tell({"note": words})
     except DeclinedError:
         await tell("Cancelled")
-    except (InputError, RenderError) as error:
+    except ShackledError as error:
         await tell(f"Not minted: {error}")
         raise
     finally:

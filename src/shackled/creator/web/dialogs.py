@@ -9,7 +9,7 @@ from functools import cache
 from markupsafe import Markup
 from nicegui.element import Element
 
-from ...errors import InputError, RenderError
+from ...errors import ShackledError
 from ..link import LOCAL
 from ..picture import StagePicture
 from ..pool import film_pixels
@@ -66,7 +66,7 @@ class Dialogs:
         for kind in SNIPPETS:
             try:
                 text = (await visitor.pool.take(visitor.name, visitor.state, kind)).data.decode()
-            except (InputError, RenderError) as error:
+            except ShackledError as error:
                 text = str(error)
             if len(text) > SHOWN:
                 text = f"{text[:SHOWN]}…\n\n{len(text):,} characters; Copy and Save take them all"
@@ -109,7 +109,7 @@ class Dialogs:
         self._show_stages(await visitor.pool.stages(visitor.name, state))
         try:
             self._show_gas(await visitor.pool.stage_gas(visitor.name, state, progress=visitor.progress(_traced)))
-        except (InputError, RenderError) as error:
+        except ShackledError as error:
             self._gas.clear()
             with self._gas:
                 words("h3", "Gas by stage")

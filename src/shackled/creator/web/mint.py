@@ -7,12 +7,11 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ...artifacts import artifact
 from ...chain.address_book import AddressBook
-from ...chain.addresses import show_address
 from ...datasets import require
 from ...errors import InputError
-from ...ether import ether
-from ...tokens.contract import Interface
+from ...ethereum import checksum_address, ether
 from ...tokens.kinds import KINDS, Kind
 from ...tokens.refusals import PHASES
 from ..state import Source
@@ -85,7 +84,7 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
             ) from None
         if await wallet.number("eth_chainId") != chain:
             raise InputError(f"the wallet must be on {chain_name(chain)} for this")
-    sale = _Sale(offer, wallet, show_address(offer.places[chain]))
+    sale = _Sale(offer, wallet, checksum_address(offer.places[chain]))
     data, price = await sale.order()
     await tell(f"The price is {ether(price)}. Confirm it in the wallet …")
     transaction = {"from": accounts[0], "to": sale.address, "data": "0x" + data.hex(), "value": hex(price)}
@@ -105,7 +104,7 @@ class _Sale:
     def __init__(self, offer: Offer, wallet: Wallet, address: str) -> None:
         self.address = address
         self._offer, self._wallet = offer, wallet
-        self._interface = Interface(offer.kind.contract)
+        self._interface = artifact(offer.kind.contract).interface
 
     async def order(self) -> tuple[bytes, int]:
         """The data that mints one token, and the price in wei. InputError if the sale is not open, or sold out."""

@@ -29,7 +29,7 @@ from starlette.websockets import WebSocket
 from ..._load import locate
 from ...chain import open_node
 from ...datasets import Piece
-from ...errors import InputError, RenderError
+from ...errors import InputError, ShackledError
 from ..link import from_link, is_local
 from ..pool import Pool
 from ..state import Source, State
@@ -158,7 +158,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
                 state = wanted = from_link(p)
                 await pool.open(state.source)
                 wanted = None
-            except (InputError, RenderError) as error:
+            except ShackledError as error:
                 greeting, state = str(error), State(first)
         try:
             visitor = visitors.add(state, await pool.open(state.source))
@@ -195,7 +195,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
             scale = int(request.query_params.get("scale", "1")[:4])
             link = str(request.base_url).rstrip("/") + visitor.link
             file = await pool.take(visitor.name, visitor.state, kind, scale, link)
-        except (InputError, RenderError, ValueError) as error:
+        except (ShackledError, ValueError) as error:
             return PlainTextResponse(str(error), 400)
         return _download(file.data, file.name, file.media_type)
 
@@ -210,7 +210,7 @@ def make_app(visitors: Visitors, first: Source, local: bool, names: Sequence[str
             name, data = unpack(body)
             read = await pool.upload(visitor.name, name, data)
             visitor.show(read.facts)
-        except (InputError, RenderError) as error:
+        except ShackledError as error:
             return PlainTextResponse(str(error), 400)
         for note in read.notes:
             await visitor.tell({"note": note})
@@ -299,9 +299,9 @@ def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
     try:
         family = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0][0]
     except OSError:
-        raise InputError(f"--host must be an address of this machine such as 127.0.0.1, not {host!r}") from None
+        raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
     if port is not None and port > 65535:
-        raise InputError(f"--port must be from 1 to 65535, not {port}")
+        raise InputError(f"`port` must be from 1 to 65535, not {port}")
     wanted = (fallback, 0) if port is None else (port,)
     for number in wanted:
         # the protocol is said, or asyncio would not know that it may turn off the delay of small packets
@@ -312,10 +312,10 @@ def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
         except OSError as error:
             listening.close()
             if error.errno == errno.EADDRNOTAVAIL:
-                raise InputError(f"--host must be an address of this machine such as 127.0.0.1, not {host!r}") from None
+                raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
             if number == wanted[-1]:
                 reason = error.strerror or str(error)
-                raise InputError(f"port {number} of {host} cannot be had: {reason}; choose another by --port") from None
+                raise InputError(f"port {number} of {host} cannot be had: {reason}; choose another by `port`") from None
             continue
         return listening
     raise AssertionError("one of the ports was had or refused")

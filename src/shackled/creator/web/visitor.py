@@ -9,7 +9,7 @@ import time
 from collections.abc import Awaitable, Callable, Coroutine, Hashable
 from typing import Any, Protocol
 
-from ...errors import InputError, RenderError
+from ...errors import ShackledError
 from ..history import History
 from ..link import to_link
 from ..picture import Frame
@@ -216,7 +216,7 @@ class Visitor:
     async def _job(self, name: str, work: Callable[[], Coroutine[Any, Any, None]]) -> None:
         try:
             await work()
-        except (InputError, RenderError) as error:
+        except ShackledError as error:
             await self.tell({"alert": str(error)})
         finally:
             if self._jobs.get(name) is asyncio.current_task():
@@ -252,7 +252,7 @@ class Visitor:
             frame = await self.pool.render(
                 self.name, state, self._draft_side(state) if moving else None, count=not moving
             )
-        except (InputError, RenderError) as error:
+        except ShackledError as error:
             await self._complain(str(error))
             frame = None
         if self._drawing is not mine:

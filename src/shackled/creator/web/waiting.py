@@ -5,13 +5,13 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
-from ...errors import RenderError
+from ...errors import ChainError
 
 #: Codes of wallets (EIP-1193, EIP-3326, WalletConnect): the visitor refused; the wallet does not know the chain.
 REFUSED, UNKNOWN_CHAIN = (4001, 5000), 4902
 
 
-class WalletError(RenderError):
+class WalletError(ChainError):
     """A wallet refused, or does not answer. One line."""
 
 

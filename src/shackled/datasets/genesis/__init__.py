@@ -1,7 +1,4 @@
-"""Shackled Genesis: 1024 pieces from a generator that runs in a contract. Every seed of 32 bytes is a piece.
-
-The modules from `random` to `piece` are a model of the contract in Python; `contract` calls the contract itself.
-"""
+"""Shackled Genesis: 1024 pieces from a generator that runs in a contract. Every seed of 32 bytes is a piece."""
 
 from __future__ import annotations
 
@@ -9,10 +6,9 @@ import re
 from collections.abc import Iterator
 
 from ...errors import InputError
-from ...scene.scene import Scene
+from ...ethereum import keccak256
 from ..piece import Piece
-from .piece import GenesisPiece, generate
-from .random import keccak256
+from .piece import GenesisPiece
 
 COUNT = 1024
 
@@ -53,11 +49,11 @@ def find(name: str) -> Piece | None:
 
 def _piece(label: str, seed: bytes) -> Piece:
     title = f"Genesis {label}" if len(label) < 64 else f"Genesis {label[:8]}"
-    return Piece(f"genesis/{label}", "genesis", title, "MIT", lambda: scene_of(seed))
+    return Piece(f"genesis/{label}", "genesis", title, "MIT", lambda: generate(seed).scene())
 
 
-def scene_of(seed: bytes) -> Scene:
-    """How the piece of a seed is drawn; the contract makes it."""
+def generate(seed: bytes) -> GenesisPiece:
+    """Make the piece of a seed by the contract. RenderError for the rare seed that has none."""
     from .contract import generate_on_chain
 
-    return generate_on_chain(seed)[0].scene()
+    return generate_on_chain(seed)[0]

@@ -9,8 +9,7 @@ from ...artifacts import artifact
 from ...chain import CallResult, Chain, ContractChain, open_chain
 from ...errors import InputError, RenderError
 from ...image import Image, decode_bmp
-from .piece import GenesisPiece
-from .trigonometry import Point3
+from .piece import GenesisPiece, Point3
 
 CONTRACT = "Genesis"
 #: Of a picture, in pixels.

@@ -1,7 +1,4 @@
-"""A piece of the collection: from a seed to prisms, colours and names.
-
-As contracts/src/genesis/Genesis.sol.
-"""
+"""A piece of the collection."""
 
 from __future__ import annotations
 
@@ -9,20 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ...errors import InputError
 from ...scene.background import Background
 from ...scene.light import Light
 from ...scene.material import Material
 from ...scene.mesh import Mesh
 from ...scene.object import Object
 from ...scene.scene import Scene
-from .colors import paint
-from .layout import Layout
-from .prisms import Prisms
-from .random import Random
-from .schemes import NEVER_INVERTED, choose_scheme
-from .structures import SWARM, choose_structure
-from .trigonometry import Point3
+
+#: A vertex, a colour, or the corners of a face.
+Point3 = tuple[int, int, int]
 
 #: Every piece is lit alike: its colours show in full, and light comes from the left.
 MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
@@ -77,39 +69,3 @@ class GenesisPiece:
             background=Background(*self.background),
             invert=self.invert,
         )
-
-
-def generate(seed: bytes) -> GenesisPiece:
-    """The piece of a seed of 32 bytes, as the contract makes it. InputError for the rare seed that has none."""
-    if len(seed) != 32:
-        raise InputError(f"a seed has 32 bytes, not {len(seed)}")
-    random = Random(seed)
-    structure = choose_structure(random)
-    layout = Layout(random, structure)
-    triangles = layout.triangles
-    if not triangles:
-        raise InputError(f"the seed {seed.hex()} has no piece: no triangle fits")
-    prisms = Prisms(random, triangles)
-    scheme = choose_scheme(random, len(triangles))
-    wireframe = structure.index != SWARM and random.draw("wireframe", low=1, high=100) > 95
-    return GenesisPiece(
-        seed=seed,
-        structure=structure.name,
-        chroma=scheme.name,
-        pseudosymmetry=pseudosymmetry(layout.mirror_x, layout.mirror_y),
-        prisms=len(triangles),
-        wireframe=wireframe,
-        culling=not wireframe,
-        invert=scheme.index not in NEVER_INVERTED and random.draw("invert", low=1, high=10) > 6,
-        background=(scheme.top, scheme.bottom),
-        verts=prisms.vertices,
-        cols=paint(random, scheme, prisms),
-        faces=prisms.faces,
-    )
-
-
-def pseudosymmetry(mirror_x: bool, mirror_y: bool) -> str:
-    """What the mirrors are called."""
-    if mirror_x:
-        return "Diagonal" if mirror_y else "Horizontal"
-    return "Vertical" if mirror_y else "Scattered"

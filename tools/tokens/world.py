@@ -15,14 +15,14 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pyrevm
+import rlp
 from Crypto.Hash import keccak as _keccak
 from eth_abi.abi import decode, encode
 from eth_abi.exceptions import DecodingError
 from eth_utils.abi import collapse_if_tuple
 
 from shackled.artifacts import artifact
-from shackled.chain.embedded import intrinsic_gas
-from shackled.tokens.header import encode_values
+from shackled.ethereum import intrinsic_gas
 
 #: EIP-2935: the contract that knows the hashes of blocks, and its code.
 HISTORY = "0x0000f90827f1c53a10cb7a02335b175320002935"
@@ -37,6 +37,7 @@ ZERO = "0x" + "00" * 20
 
 
 def keccak(data: bytes) -> bytes:
+    """Hash as Ethereum does."""
     return _keccak.new(digest_bits=256, data=data).digest()
 
 
@@ -54,12 +55,15 @@ class Refused(Exception):
     """A call that was reverted: the name of the error and its values."""
 
     def __init__(self, name: str, values: tuple[Any, ...] = ()) -> None:
+        """Keep what the contract said."""
         super().__init__(f"{name}{values}")
         self.name, self.values = name, values
 
 
 @dataclass
 class Account:
+    """What the chain keeps of an address."""
+
     balance: int = 0
     nonce: int = 0
     code: bytes = b""
@@ -90,6 +94,7 @@ class World:
     """The chain. Its first block is far enough from 0 that there are older ones."""
 
     def __init__(self, chain_id: int = 1, salt: str = "") -> None:
+        """Begin with the contract that knows the hashes of blocks. salt: makes their hashes differ."""
         self.chain_id, self.salt = chain_id, salt
         self.accounts: dict[str, Account] = {HISTORY: Account(nonce=1, code=HISTORY_CODE)}
         self.number, self.time = 20_000_000, 1_800_000_000
@@ -130,17 +135,20 @@ class World:
             b"made by a test"[: number % 15],
             self.randomness(number),
         ]
-        return encode_values([*values, bytes(8), 7, digest, 0, 0, digest, digest])
+        return bytes(rlp.encode([*values, bytes(8), 7, digest, 0, 0, digest, digest]))
 
     # ---- accounts ----
 
     def of(self, address: str) -> Account:
+        """Return the account of an address."""
         return self.accounts.setdefault(address.lower(), Account())
 
     def balance(self, address: str) -> int:
+        """Return what an address has, in wei."""
         return self.of(address).balance
 
     def fund(self, address: str, amount: int = 1000 * ETHER) -> str:
+        """Give an address ether; return the address."""
         self.of(address).balance += amount
         return address
 
@@ -173,6 +181,7 @@ class World:
     def run(
         self, sender: str, to: str, data: bytes, value: int, gas: int, keep: bool, abi: list[dict[str, Any]]
     ) -> Receipt:
+        """Execute a transaction, or a call if nothing is to be kept. Raises Refused where it is reverted."""
         evm, intrinsic = self._evm(), intrinsic_gas(data)
         try:
             output = bytes(evm.message_call(sender, to, data, value, gas + intrinsic))

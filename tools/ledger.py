@@ -9,8 +9,9 @@ import pytest
 from eth_abi.abi import decode, encode
 
 from shackled.artifacts import artifact
-from shackled.chain.embedded import EmbeddedChain, _hex, _pyrevm_error, intrinsic_gas
+from shackled.chain.embedded import EmbeddedChain, _pyrevm_error
 from shackled.chain.opening import open_chain
+from shackled.ethereum import intrinsic_gas, to_hex
 
 GAS = 2_000_000_000
 SENDER = b"\x5a" * 20
@@ -20,6 +21,7 @@ class World:
     """Contracts by their addresses. Each call finds the same addresses cold."""
 
     def __init__(self) -> None:
+        """Begin with the contracts of the renderer and the Studio. Skips the test where there is no pyrevm."""
         pytest.importorskip("pyrevm")
         chain = open_chain("pyrevm")
         assert isinstance(chain, EmbeddedChain)
@@ -30,12 +32,13 @@ class World:
         self.gas = 0
 
     def address(self, contract: str) -> bytes:
+        """Return where a contract of the package stands."""
         return self.chain.address(contract)
 
     def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
         """Where a new contract stands."""
         address = b"\xde" + len(self.codes).to_bytes(19, "big")
-        self.codes[address] = self.chain._create("a contract", creation + arguments)
+        self.codes[address] = self.chain.create("a contract", creation + arguments)
         return address
 
     def run(self, to: bytes, data: bytes, gas: int = GAS, created: bool = False, before: Sequence[bytes] = ()) -> bytes:
@@ -46,11 +49,11 @@ class World:
 
         evm: Any = pyrevm.EVM(spec_id="Cancun")
         for address, code in self.codes.items():
-            evm.insert_account_info(_hex(address), pyrevm.AccountInfo(code=code))
+            evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
         try:
             for earlier in before:
-                evm.message_call(_hex(SENDER), _hex(to), earlier, None, gas)
-            output = bytes(evm.message_call(_hex(SENDER), _hex(to), data, None, gas))
+                evm.message_call(to_hex(SENDER), to_hex(to), earlier, None, gas)
+            output = bytes(evm.message_call(to_hex(SENDER), to_hex(to), data, None, gas))
         except RuntimeError as error:
             raise _pyrevm_error(str(error), gas) from None
         self.gas = evm.result.gas_used - intrinsic_gas(data)
@@ -61,7 +64,7 @@ class World:
     def _keep(self, evm: Any, address: bytes) -> None:
         if address not in self.codes:
             # pyrevm adds 33 bytes of zeros to what was created
-            code = bytes(evm.get_code(_hex(address)) or b"")[:-33]
+            code = bytes(evm.get_code(to_hex(address)) or b"")[:-33]
             if not code:  # a list may name what is not there
                 return
             self.codes[address] = code

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.tokens.header import encode_header, encode_values
+from shackled.ethereum.header import encode_header
 
 #: The first block of Ethereum (2015), as every node tells it.
 GENESIS = {
@@ -53,12 +53,3 @@ def test_a_header_with_another_hash_is_refused() -> None:
             InputError, match=r"^the header of block 0 has the hash 0x\w+, not 0x\w+: its chain has other"
         ):
             encode_header({**GENESIS, **change})
-
-
-def test_lists_in_rlp() -> None:
-    # the examples of the Yellow Paper and of Ethereum's wiki
-    assert encode_values([b"cat", b"dog"]) == b"\xc8\x83cat\x83dog"
-    assert encode_values([]) == b"\xc0"
-    assert encode_values([0, 15, 1024, 127, 128]) == bytes.fromhex("c8800f8204007f8180")
-    long = b"Lorem ipsum dolor sit amet, consectetur adipisicing elit"
-    assert encode_values([long]) == b"\xf8\x3a\xb8\x38" + long

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-
-from shackled.bench.energy import BLOCKS_PER_YEAR, CCAF_2023, CCRI_2022, Computer, Network, estimates
+from benchmarks.energy import BLOCKS_PER_YEAR, CCAF_2023, CCRI_2022, Computer, Network, estimates
 
 
 def test_a_year_of_gas_takes_a_year_of_electricity() -> None:

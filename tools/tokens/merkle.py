@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tokens.world import keccak
+from tools.tokens.world import keccak
 
 
 def leaf(address: str, quantity: int) -> bytes:
+    """Hash an entry."""
     return keccak(keccak(bytes.fromhex(address[2:]).rjust(32, b"\0") + quantity.to_bytes(32, "big")))
 
 
 def pair(*nodes: bytes) -> bytes:
+    """Hash two nodes, whichever comes first; a single node is handed on."""
     return nodes[0] if len(nodes) == 1 else keccak(b"".join(sorted(nodes)))
 
 
@@ -23,10 +25,12 @@ def _layers(entries: Mapping[str, int]) -> list[list[bytes]]:
 
 
 def root_of(entries: Mapping[str, int]) -> bytes:
+    """Return the root of the tree of accounts and quantities."""
     return _layers(entries)[-1][0]
 
 
 def proof_of(entries: Mapping[str, int], address: str) -> list[bytes]:
+    """Return the nodes that lead from the entry of an account to the root."""
     proof, layers = [], _layers(entries)
     place = layers[0].index(leaf(address, entries[address]))
     for layer in layers[:-1]:

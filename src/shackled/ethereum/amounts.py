@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from decimal import ROUND_UP, Context, Decimal
 
-from .errors import InputError
+from ..errors import InputError
 
 #: In wei.
 ETHER = 10**18
@@ -15,40 +15,43 @@ MAX_ETHER = 10**9
 
 
 def ether(wei: int) -> str:
-    """An amount for people, exact, as "0.15 ether"."""
+    """Write an amount exactly, as "0.15 ether"."""
     return f"{amount(wei)} ether"
 
 
 def amount(wei: int) -> str:
-    """An amount in ether, exact, in decimal digits."""
+    """Write an amount in ether exactly, in decimal digits without the unit."""
     whole, rest = divmod(wei, ETHER)
     return f"{whole}.{rest:018}".rstrip("0").rstrip(".")
 
 
 def roughly(wei: int) -> str:
-    """An amount for people, to three digits."""
+    """Write an amount to three digits, in ether or gwei."""
     if wei < 10**11:
         return ether(wei) if wei == 0 else f"{Decimal(f'{wei:.3g}') / GWEI:f} gwei"
     return f"{Decimal(f'{wei:.3g}') / ETHER:f} ether"
 
 
 def rounded(wei: int) -> str:
-    """An amount in ether to six places behind the point, for people; what is less, to two digits."""
+    """Write an amount in ether to six decimal places, or to two digits if that would be zero."""
     text = f"{wei / ETHER:.6f}".rstrip("0").rstrip(".")
     return text if wei == 0 or float(text) else f"{wei / ETHER:.2g}"
 
 
 def at_most(wei: int) -> str:
-    """An amount in ether in six digits, rounded up, for people."""
+    """Write an amount in ether to six digits, rounded up."""
     return f"{Context(prec=6, rounding=ROUND_UP).create_decimal(Decimal(wei)) / ETHER:f}"
 
 
 def parse_ether(text: str, name: str) -> int:
-    """The wei of an amount in ether, such as 0.15; in wei or gwei with the unit behind it. InputError if it is none."""
+    """Return the wei of an amount such as "0.15", "20gwei" or "7 wei"; without a unit it is ether.
+
+    Raises InputError, which says `name`, if it is none.
+    """
     match = re.fullmatch(r"(\d{1,30})(?:\.(\d{1,18}))?\s*(ether|eth|gwei|wei)?", text.strip())
     if match:
         unit = {"wei": 1, "gwei": GWEI}.get(match[3] or "ether", ETHER)
-        value = Decimal(f"{match[1]}.{match[2] or 0}").scaleb(0) * unit
+        value = Decimal(f"{match[1]}.{match[2] or 0}") * unit
         if value == int(value) and value <= MAX_ETHER * ETHER:
             return int(value)
     raise InputError(f"{name} must be an amount of ether such as 0.15, or with its unit as 20gwei, not {text!r:.60}")

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.ether import ETHER, at_most, ether, parse_ether, roughly, rounded
+from shackled.ethereum import ETHER, at_most, ether, parse_ether, roughly, rounded
 
 
 @pytest.mark.parametrize(

@@ -10,15 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shackled.datasets.genesis import COUNT, find, generate, parse_seed, pieces, seed_of
-from shackled.datasets.genesis.hsv import hsv_to_rgb, rgb_to_hsv
-from shackled.datasets.genesis.random import Random, keccak256
-from shackled.datasets.genesis.trigonometry import ONE, TABLE, cosine, quotient, rotate, rotate_y, sine
+from shackled.datasets.genesis import COUNT, find, parse_seed, pieces, seed_of
 from shackled.errors import InputError
+from shackled.reference.genesis import generate
+from shackled.reference.genesis.hsv import hsv_to_rgb, rgb_to_hsv
+from shackled.reference.genesis.random import Random, keccak256
+from shackled.reference.genesis.trigonometry import ONE, TABLE, cosine, quotient, rotate, rotate_y, sine
 from shackled.scene.codec import encode
 from shackled.scene.files.load import load
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared")
 needs_shared = pytest.mark.skipif(
     not (SHARED / "genesis").is_dir(), reason="there is no folder `shared` with the vectors beside the repository"

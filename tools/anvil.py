@@ -1,4 +1,9 @@
-"""Foundry's anvil, a node for development, as a place where the contracts run."""
+"""Foundry's anvil, a node for development, as a place where the contracts run.
+
+    python -m tools.anvil COMMAND ...
+
+runs a command while an anvil with the contracts of the renderer is there; its address is the command's last argument.
+"""
 
 from __future__ import annotations
 
@@ -6,19 +11,21 @@ import os
 import shutil
 import socket
 import subprocess
+import sys
 import time
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from ..artifacts import artifact
-from ..chain import CallResult, ContractChain
-from ..chain.connection import Connection
-from ..chain.embedded import intrinsic_gas
-from ..errors import NodeUnreachableError, RenderError
+from shackled.artifacts import artifact
+from shackled.chain import CallResult, ContractChain, open_chain
+from shackled.chain.connection import Connection
+from shackled.chain.embedded import EmbeddedChain
+from shackled.errors import NodeUnreachableError, RenderError
+from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
 
 #: Where `npm ci` puts it in a clone of the repository.
-BINARIES = Path(__file__).resolve().parents[3] / "contracts" / "node_modules" / ".bin"
+BINARIES = Path(__file__).resolve().parents[1] / "contracts" / "node_modules" / ".bin"
 GAS_LIMIT = 1_000_000_000
 PATIENCE = 60
 
@@ -114,12 +121,15 @@ class AnvilChain(ContractChain):
         return int(receipt["gasUsed"], 16) - intrinsic_gas(data)
 
     def address(self, contract: str) -> str:
-        """Where a contract stands; it is deployed when it is first asked for."""
+        """Return where a contract stands, as on any other chain. It is deployed when it is first asked for."""
         if contract not in self._addresses:
-            built = artifact(contract)
-            arguments = "".join(self.address(part)[2:].rjust(64, "0") for part in built.parts)
-            receipt = self._send({"data": "0x" + built.creation.hex() + arguments})
-            self._addresses[contract] = receipt["contractAddress"]
+            for part in artifact(contract).parts:
+                self.address(part)
+            local = open_chain()
+            assert isinstance(local, EmbeddedChain)
+            # anvil starts with the proxy that puts contracts where they are looked for
+            self._send({"to": checksum_address(PROXY), "data": "0x" + (SALT + local.creation(contract)).hex()})
+            self._addresses[contract] = checksum_address(local.address(contract))
         return self._addresses[contract]
 
     def read(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:
@@ -140,3 +150,18 @@ class AnvilChain(ContractChain):
                 return receipt
             time.sleep(0.02)
         raise RenderError(f"anvil: no receipt after {PATIENCE} s")
+
+
+def main() -> int:
+    """Run the command that the arguments are, and return its exit code."""
+    binary = find_anvil()
+    if binary is None:
+        print("anvil is not installed: npm ci in contracts/", file=sys.stderr)
+        return 1
+    with AnvilChain(binary) as chain:
+        chain.address("Renderer")
+        return subprocess.call([*sys.argv[1:], chain.node.url])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -12,7 +12,7 @@ from eth_utils.abi import collapse_if_tuple
 from shackled import Scene
 from shackled.datasets import icons
 from shackled.scene.codec import encode
-from tokens.world import ETHER, GAS, Contract, World, account, keccak
+from tools.tokens.world import ETHER, GAS, Contract, World, account, keccak
 
 PRICE = ETHER // 20
 RESERVE = 24
@@ -57,10 +57,11 @@ def _deployed(chain_id: int) -> Stage:
     owner, alice, bob = (world.fund(account(name)) for name in ("owner", "alice", "bob"))
     renderer = world.deploy("Renderer", world.deploy("Engine"), world.deploy("FragmentEngine"))
     generator = world.deploy("Genesis", renderer)
-    metadata = world.deploy("GenesisMetadata", generator)
+    encoder = world.deploy("PngEncoder")
+    metadata = world.deploy("GenesisMetadata", generator, encoder)
     genesis = world.deploy("GenesisCollection", metadata, PRICE, RESERVE, (owner, LIMIT, owner, 500), sender=owner)
     genesis.send("setPhase", PUBLIC, sender=owner)
-    studio = world.deploy("Studio", renderer, world.deploy("PngEncoder"))
+    studio = world.deploy("Studio", renderer, encoder)
     collection = world.deploy("IconsCollection", studio, (owner, LIMIT, owner, 500), sender=owner)
     for name, (title, supply, reserve, price) in ICONS.items():
         pointer = store_scene(studio, icon_scene(name))

@@ -1,0 +1,69 @@
+"""Calls, answers and errors as the ABI has them."""
+
+from __future__ import annotations
+
+import pytest
+
+from shackled.artifacts import artifact, known_errors
+from shackled.ethereum import word
+from shackled.ethereum.abi import SOLIDITY_ERRORS, Interface, decode_error, error_table
+
+# the examples of the specification of the ABI: docs.soliditylang.org/en/latest/abi-spec.html
+FOO = Interface(
+    [
+        {"type": "constructor", "inputs": [{"name": "a", "type": "uint256"}]},
+        {
+            "type": "function",
+            "name": "baz",
+            "inputs": [{"name": "x", "type": "uint32"}, {"name": "y", "type": "bool"}],
+            "outputs": [{"name": "r", "type": "bool"}],
+        },
+        {
+            "type": "function",
+            "name": "sam",
+            "inputs": [{"type": "bytes"}, {"type": "bool"}, {"type": "uint256[]"}],
+            "outputs": [{"type": "uint256"}, {"type": "uint256"}],
+        },
+    ]
+)
+
+
+def test_the_examples_of_the_specification() -> None:
+    assert FOO.encode("baz", 69, True) == bytes.fromhex("cdcd77c0") + word(69) + word(1)
+    assert FOO.encode("sam(bytes,bool,uint256[])", b"dave", True, [1, 2, 3])[:4] == bytes.fromhex("a5643bf2")
+    assert FOO.construct(7) == word(7)
+
+
+def test_one_value_is_itself_and_several_are_a_tuple() -> None:
+    assert FOO.decode("baz", word(0)) is False
+    assert FOO.decode("sam", word(5) + word(6)) == (5, 6)
+
+
+def test_an_answer_of_another_kind_is_refused() -> None:
+    for answer in (b"", word(5), word(2)):
+        function = "sam" if answer == word(5) else "baz"
+        with pytest.raises(ValueError, match=rf"^{len(answer)} bytes are no answer of {function}: "):
+            FOO.decode(function, answer)
+
+
+def test_the_struct_of_a_scene_is_that_of_the_renderer() -> None:
+    kind = artifact("Renderer").interface.parameter_type("render")
+    assert kind.startswith("((uint256,uint256),(")
+    assert kind == artifact("Studio").interface.parameter_type("storeScene")
+
+
+def test_errors_of_solidity_itself() -> None:
+    text = bytes.fromhex("08c379a0") + word(32) + word(5) + b"wrong" + bytes(27)
+    assert decode_error(text, SOLIDITY_ERRORS) == ("Error", {"message": "wrong"})
+    assert decode_error(bytes.fromhex("4e487b71") + word(0x11), SOLIDITY_ERRORS) == ("Panic", {"code": 0x11})
+
+
+def test_an_error_that_is_cut_or_unknown_is_none() -> None:
+    for data in (b"", b"\x08\xc3", bytes.fromhex("4e487b71") + bytes(31), b"\1\2\3\4" + word(1)):
+        assert decode_error(data, known_errors()) is None
+
+
+def test_values_without_a_name_have_that_of_their_type() -> None:
+    table = error_table([{"type": "error", "name": "Odd", "inputs": [{"name": "", "type": "address"}]}])
+    ((selector, _),) = table.items()
+    assert decode_error(selector + word(b"\x77" * 20), table) == ("Odd", {"address": "0x" + 20 * "77"})

@@ -1,0 +1,156 @@
+"""Faces that a tile does not show are left out before the engine is called; pixels and counts know nothing of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from accuracy import flat, teapot_scene
+from pictures import call, call_data, chain, draw, dynamic
+from shackled import Camera, Material, Mesh, Object, RenderError, Scene, load
+from shackled.chain import open_chain
+from shackled.image import decode_bmp
+from shackled.parallel.tiles import grid
+from shackled.scene.codec import Rectangle
+from shackled.scene.fit import fit
+
+SIDE, ACROSS = 80, 4
+
+
+def ready(scene: Scene, **changes: Any) -> Scene:
+    """With whole coordinates, and a near plane."""
+    return fit(evolve(scene, width=SIDE, height=SIDE, **changes))
+
+
+def objects(scene: Scene, **changes: Any) -> Scene:
+    return evolve(scene, objects=[evolve(o, **changes) for o in scene.objects])
+
+
+def inside(scene: Scene) -> Scene:
+    """The eye in the middle of the teapot: faces on all sides of it, behind it, and across the near plane."""
+    middle = np.asarray(scene.objects[0].mesh.positions).mean(axis=0) + np.asarray(scene.objects[0].position)
+    camera = evolve(scene.camera, eye=np.add(middle, (0.1, 0.2, 0.3)), target=np.add(middle, (5, 1, -2)), near=0.01)
+    return objects(evolve(scene, camera=camera), cull=False)
+
+
+def through(scene: Scene) -> Scene:
+    """Very near, so that most vertices have to be clipped."""
+    return evolve(scene, camera=evolve(scene.camera, half_height=scene.camera.half_height / 60))
+
+
+def above(scene: Scene) -> Scene:
+    return evolve(scene, camera=Camera(projection="orthographic", half_height=2.0, eye=(0, 6, 0.01), target=(0, 0, 0)))
+
+
+SCENES: dict[str, Callable[[], Scene]] = {
+    "smooth": lambda: ready(teapot_scene(1)),
+    "flat, four lights": lambda: ready(flat(teapot_scene(4))),
+    "wires": lambda: ready(objects(teapot_scene(1), wireframe=True, cull=False)),
+    "glass": lambda: ready(objects(teapot_scene(1), opacity=0.5, cull=False)),
+    "from inside": lambda: ready(inside(flat(teapot_scene(1)))),
+    "magnified": lambda: ready(through(flat(teapot_scene(1)))),
+    "orthographic": lambda: ready(above(teapot_scene(1))),
+    "inverted": lambda: ready(flat(teapot_scene(1)), invert=True),
+    "a piece of the collection": lambda: ready(load("genesis/907")),
+}
+
+
+def tiles() -> list[Rectangle]:
+    return list(grid(SIDE, SIDE, SIDE // ACROSS, SIDE // ACROSS))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_tiles_are_parts_and_count_as_the_reference_does(name: str) -> None:
+    scene = SCENES[name]()
+    whole = draw(scene)
+    assert len(np.unique(whole.reshape(-1, 3), axis=0)) > 1
+    for tile in tiles():
+        output = call("renderTileCounted", scene, tile).output
+        pixels = decode_bmp(dynamic(output), tile.width, tile.height)
+        assert (pixels == whole[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]).all(), tile
+        found = tuple(int.from_bytes(output[at : at + 32], "big") for at in (32, 64))
+        assert found == open_chain("reference").count(scene, tile), tile
+
+
+def moved(scene: Scene, *places: tuple[float, float, float]) -> Scene:
+    """The first object, at other places too."""
+    (thing, *_) = scene.objects
+    return evolve(scene, objects=[evolve(thing, position=np.asarray(thing.position) + place) for place in places])
+
+
+def word(data: bytes, position: int) -> int:
+    return int.from_bytes(data[position : position + 32], "big")
+
+
+#: Words of a scene, and the bytes of a call before it.
+OBJECTS, EXTENSIONS, HEAD = 19, 20, 4 + 5 * 32
+
+
+def object_positions(data: bytes) -> list[int]:
+    """Where in a call of `renderTile` the objects are."""
+    objects = HEAD + word(data, HEAD + 32 * OBJECTS)
+    return [objects + 32 + word(data, objects + 32 * (1 + i)) for i in range(word(data, objects))]
+
+
+def test_objects_that_share_the_bytes_of_a_mesh() -> None:
+    scene = ready(moved(flat(teapot_scene(1)), (0, 0, 0), (1.5, -0.5, 0.3)))
+    whole = draw(scene)
+    for tile in tiles():
+        data = call_data("renderTile", scene, tile)
+        first, second = object_positions(data)
+        shared = second + word(data, second) - first
+        data = data[:first] + shared.to_bytes(32, "big") + data[first + 32 :]
+        pixels = decode_bmp(dynamic(chain().call("Renderer", data).output), tile.width, tile.height)
+        assert (pixels == whole[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]).all(), tile
+
+
+def test_a_call_without_padding_at_its_end() -> None:
+    """What is written behind the last face of the last mesh belongs to nobody."""
+    first, second = moved(flat(teapot_scene(1)), (0, 0, 0), (0.5, 0, 0)).objects
+    mesh = second.mesh
+    for faces in range(200, 208):
+        few = evolve(second, mesh=evolve(mesh, faces=np.asarray(mesh.faces)[:faces]))
+        scene = ready(evolve(flat(teapot_scene(1)), objects=[first, few]))
+        whole = draw(scene)
+        tile = Rectangle(20, 30, 20, 20)
+        data = call_data("renderTile", scene, tile)
+        # the extensions, which are empty, come last; they may be told to stand anywhere where there is a 0
+        place = object_positions(data)[1]
+        mesh_at = place + word(data, place)
+        cut = data[: mesh_at + 32 + word(data, mesh_at)]
+        zero = next(at for at in range(HEAD + 32 * (EXTENSIONS + 1), len(cut) - 32) if word(cut, at) == 0)
+        extensions = HEAD + 32 * EXTENSIONS
+        cut = cut[:extensions] + (zero - HEAD).to_bytes(32, "big") + cut[extensions + 32 :]
+        pixels = decode_bmp(dynamic(chain().call("Renderer", cut).output), tile.width, tile.height)
+        assert (pixels == whole[30:50, 20:40]).all()
+
+
+def test_the_number_of_a_bad_object_counts_those_that_are_left_out() -> None:
+    square = Mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    good = ready(moved(flat(teapot_scene(1)), (100, 0, 0)))
+    # fit() refuses what is wrong, so the number is changed in the call
+    scene = evolve(good, objects=[*good.objects, Object(square, material=Material("unlit"))])
+    tile = Rectangle(0, 0, 8, 8)
+    data = call_data("renderTile", scene, tile)
+    place = object_positions(data)[1]
+    mesh_at = place + word(data, place)
+    end = mesh_at + 32 + word(data, mesh_at)
+    data = data[: end - 2] + b"\0\4" + data[end:]
+    with pytest.raises(RenderError, match=r"IndexOutOfRange\(object=1, face=1, vertexCount=4\)"):
+        chain().call("Renderer", data)
+
+
+#: Gas of a tile that shows nothing: of a call with a background of 20 x 20 pixels, of a vertex, of a face.
+CALL, VERTEX, FACE = 110_000, 230, 25
+
+
+def test_a_tile_that_shows_nothing_costs_little() -> None:
+    for name in ("smooth", "flat, four lights", "wires"):
+        scene = SCENES[name]()
+        mesh = scene.objects[0].mesh
+        gas = call("renderTile", scene, Rectangle(0, 0, 20, 20)).gas
+        assert gas <= CALL + VERTEX * len(np.asarray(mesh.positions)) + FACE * len(np.asarray(mesh.faces)), name

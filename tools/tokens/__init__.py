@@ -1,0 +1,1 @@
+"""The collections, deployed on a chain in this process."""
