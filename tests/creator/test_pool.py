@@ -20,7 +20,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from nodes import anvil, needs_anvil
-from shackled import InputError, RenderError, load, render
+from shackled import ChainError, InputError, load, render
 from shackled.creator.change import put
 from shackled.creator.lane import Lane, PoolError
 from shackled.creator.limits import Limits
@@ -355,7 +355,7 @@ def test_what_is_wrong_is_said() -> None:
             await pool.render("a", State(Source("piece", "teapott")))
         with pytest.raises(InputError, match="is not here, or no more: hand it in again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))
-        with pytest.raises(RenderError, match="ran out of gas: 100,000 did not suffice"):
+        with pytest.raises(ChainError, match="ran out of gas: 100,000 did not suffice"):
             await pool.render("a", TETRAHEDRON)
         with pytest.raises(InputError, match="no node to compare with"):
             await pool.compare("a", TETRAHEDRON)
@@ -486,7 +486,7 @@ def test_the_picture_of_a_node_is_compared() -> None:
 
     with anvil() as node:
         with_pool(test, node=node.url)
-    with pytest.raises(RenderError, match=r"127\.0\.0\.1"):
+    with pytest.raises(ChainError, match=r"127\.0\.0\.1"):
         with_pool(test, node=node.url)
 
 

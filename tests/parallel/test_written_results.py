@@ -28,4 +28,5 @@ def test_gas_of_tiles(side: int) -> None:
 def test_strips_cost_about_as_much_as_squares() -> None:
     for written in FIGURES["Tiles"].values():
         assert written["1 x 4"] < 1.1 * written["2 x 2"]
-        assert written["1 x 64"] < 1.1 * written["8 x 8"]
+        # of 128 rows, two each
+        assert written["1 x 64"] < 1.2 * written["8 x 8"]

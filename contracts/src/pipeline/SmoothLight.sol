@@ -114,7 +114,10 @@ library SmoothLight {
             function setVertex(vertex) {
                 let screen := mload(vertex)
                 // the ray (x, y, 1), Q24
-                let x := add(mload(RAY_LEFT), sar(SUBPIXEL_BITS, mul(and(shr(SCREEN_COLUMN_AT, screen), SCREEN_COLUMN_MASK), mload(RAY_STEP))))
+                let x := add(
+                    mload(RAY_LEFT),
+                    sar(SUBPIXEL_BITS, mul(and(shr(SCREEN_COLUMN_AT, screen), SCREEN_COLUMN_MASK), mload(RAY_STEP)))
+                )
                 let y := add(mload(RAY_TOP), sar(SUBPIXEL_BITS, mul(shr(SCREEN_ROW_AT, screen), mload(RAY_STEP))))
                 let lx := mload(add(LIGHTS, LIGHT_X))
                 let ly := mload(add(LIGHTS, LIGHT_Y))
