@@ -51,7 +51,8 @@ function lookAt(Camera calldata camera, uint256 width, uint256 height) pure retu
 function setRays(View memory view_, uint256 width, uint256 height) pure {
     unchecked {
         // where all rays are parallel, places in world units (Q32) instead
-        int256 step = (view_.orthographic ? int256(1 << (SUBPIXEL_BITS + Q32 + Q32)) : int256(1 << (SUBPIXEL_BITS + Q32 + Q24))) / view_.focal;
+        int256 step =
+            (view_.orthographic ? int256(1 << (SUBPIXEL_BITS + Q32 + Q32)) : int256(1 << (SUBPIXEL_BITS + Q32 + Q24))) / view_.focal;
         storeSigned(RAY_STEP, step);
         storeSigned(RAY_LEFT, ((int256(1) - int256(width + 2 * PIXEL_BIAS)) * step) / 2);
         storeSigned(RAY_TOP, ((int256(1) - int256(height + 2 * PIXEL_BIAS)) * step) / 2);
