@@ -30,9 +30,15 @@ _DONE, _FAILED, _TOLD = range(3)
 #: Errors of streams to and from a process that has ended.
 _BROKEN = (EOFError, OSError, ValueError, pickle.UnpicklingError)
 #: What a worker runs. The modules of the functions that it is to call may be found only where this process finds them.
-_PROGRAM = (
-    "import pickle, sys; sys.path[:] = pickle.load(sys.stdin.buffer); from shackled.workers import _serve; _serve()"
-)
+_PROGRAM = """
+import pickle, sys
+try:
+    sys.path[:] = pickle.load(sys.stdin.buffer)
+except (EOFError, pickle.UnpicklingError):  # whoever started this has ended meanwhile
+    sys.exit()
+from shackled.workers import _serve
+_serve()
+"""
 #: Seconds for a process to start and to prepare itself, on a machine that is busy.
 STARTING = 60.0
 
