@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene.files import polygons
-from shackled.scene.files.polygons import cut, fans
+from shackled.scene import cut, fans
+from shackled.scene._files import polygons
 
 Array = NDArray[np.float64]
 
