@@ -13,7 +13,6 @@ from attrs import evolve
 
 import shackled
 from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, load
-from shackled._render import render_whole
 from shackled.chain import PyrevmChain, open_chain
 from shackled.parallel import (
     COMPARED_GAS,
@@ -36,7 +35,7 @@ SCENE = evolve(load("teapot"), width=96, height=70)
 
 @pytest.fixture(scope="module")
 def whole() -> Image:
-    return render_whole(SCENE, open_chain())
+    return shackled.render(SCENE)
 
 
 @pytest.mark.parametrize(
@@ -92,13 +91,13 @@ def test_the_cost_is_told_about_right() -> None:
 
 def test_an_empty_scene() -> None:
     scene = Scene([], width=50, height=40)
-    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == render_whole(scene, open_chain()).bmp
+    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == shackled.render(scene).bmp
 
 
 def test_a_picture_of_2048() -> None:
     scene = evolve(load("cube"), width=2048, height=48)
     (image,) = render_frames([scene], Where(gas_limit=6_000_000)).images
-    assert image.bmp == render_whole(scene, open_chain()).bmp
+    assert image.bmp == shackled.render(scene).bmp
 
 
 def test_a_worker_that_dies_is_replaced() -> None:

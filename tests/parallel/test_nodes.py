@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 from attrs import evolve
 
+import shackled
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, each_third, proxy
 from shackled import ChainError, Image, load
-from shackled._render import render_whole
 from shackled.chain import open_chain
 from shackled.errors import NodeError
 from shackled.ethereum import PROXY
@@ -55,7 +55,7 @@ def node() -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def right() -> Image:
-    return render_whole(SCENE, open_chain())
+    return shackled.render(SCENE)
 
 
 @pytest.fixture(scope="module")
