@@ -9,6 +9,7 @@ are computed, so that one line of the table adds a register, and the contracts a
 
 from __future__ import annotations
 
+import ast
 import sys
 import textwrap
 import tomllib
@@ -22,8 +23,8 @@ TABLE = ROOT / "contracts" / "layout.toml"
 PIPELINE = ROOT / "contracts" / "src" / "pipeline"
 REFERENCE = ROOT / "src" / "shackled" / "reference" / "layout.py"
 WORD = 32
-#: Columns of a line of the contracts, and of Python.
-SOLIDITY_WIDTH, PYTHON_WIDTH = 140, 120
+#: Columns of a line of the contracts.
+SOLIDITY_WIDTH = 140
 
 HEAD = """// SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
@@ -199,16 +200,30 @@ def solidity(sections: Iterator[Section], *imports: str) -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
-def python(sections: Iterator[Section]) -> str:
-    """The same for the reference."""
-    lines = ['"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""', ""]
+def python(sections: Iterator[Section], used: set[str]) -> str:
+    """Return the text of a Python module with those constants that `used` names; the comments are in the table."""
+    lines = ['"""Registers, packed words and modes. Written by tools/layout.py from contracts/layout.toml."""']
     for section in sections:
-        lines += ["", f"# ---- {section.title} ----", *wrapped(section.text, "# ", PYTHON_WIDTH), ""]
-        for constant in section.constants:
-            lines += wrapped(constant.text, "#: ", PYTHON_WIDTH)
+        constants = [constant for constant in section.constants if constant.name in used]
+        if constants:
+            lines += ["", f"# {section.title}"]
+        for constant in constants:
             text = str(constant.value) if constant.value < 256 else f"0x{constant.value:X}"
             lines.append(f"{constant.name} = {text}")
     return "\n".join(lines) + "\n"
+
+
+def used_names() -> set[str]:
+    """Return the names that modules of the package import from reference/layout.py."""
+    return {
+        alias.name
+        for path in REFERENCE.parents[1].rglob("*.py")
+        if "layout import" in (text := path.read_text("utf-8"))
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.ImportFrom)
+        if node.module == "reference.layout" or (node.module == "layout" and path.parent == REFERENCE.parent)
+        for alias in node.names
+    }
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
@@ -226,7 +241,7 @@ def files() -> dict[Path, str]:
             iter([*registers(table), *records(table), *bits(table)]), "Memory.sol", "Words.sol"
         ),
         PIPELINE / "Words.sol": solidity(iter(packed)),
-        REFERENCE: python(iter([*registers(table), *bits(table), *packed])),
+        REFERENCE: python(iter([*registers(table), *bits(table), *packed]), used_names()),
     }
 
 

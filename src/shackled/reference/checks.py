@@ -5,7 +5,23 @@ from __future__ import annotations
 from .extensions import check_extensions
 from .mesh import NORMALS, WIDE
 from .scene_errors import Reverted
-from .structs import DIRECTIONAL, ORTHOGRAPHIC, PERSPECTIVE, POINT, SMOOTH, Camera, Light, Object, Rectangle, Scene
+from .structs import (
+    DIRECTIONAL,
+    ORTHOGRAPHIC,
+    PERSPECTIVE,
+    POINT,
+    SMOOTH,
+    Camera,
+    Light,
+    Member,
+    Object,
+    Rectangle,
+    Scene,
+    element_of,
+    is_dynamic,
+    size_of,
+    word,
+)
 
 MAX_CANVAS = 2048
 MAX_LIGHTS = 4
@@ -14,31 +30,30 @@ MAX_COORDINATE = 1 << 58
 MAX_EXTENT = 1 << 59
 MAX_COEFFICIENT = 4 << 32
 
-#: Words of the encoding: of a scene before its arrays, and where in it the offsets of those are; of a light; of an
-#: object before its mesh.
-SCENE_LIGHTS = 18
-SCENE_OBJECTS = 19
-SCENE_EXTENSIONS = 20
-LIGHT_WORDS = 5
-OBJECT_WORDS = 15
 
+def check_layout(data: bytes, begin: int, struct: Member) -> None:
+    """Follow the offsets and lengths of a struct of the call before anything is read through them.
 
-def check_layout(data: bytes, base: int) -> None:
-    """Follows the offsets and lengths of the call before anything is read through them; the scene begins at `base`."""
-    check_tail(data, base, base + 32 * SCENE_LIGHTS, 32 * LIGHT_WORDS)
-    objects = check_tail(data, base, base + 32 * SCENE_OBJECTS, 32)
-    check_tail(data, base, base + 32 * SCENE_EXTENSIONS, 1)
-    count = word(data, objects)
-    objects += 32
-    for position in range(objects, objects + 32 * count, 32):
-        obj = objects + word(data, position)
-        if obj + 32 * OBJECT_WORDS > len(data):
-            raise Reverted("MalformedScene", position=position)
-        check_tail(data, obj, obj, 1)
+    begin: of the struct, from which its offsets count.
+    """
+    position, arrays = begin, []
+    for member in struct["components"]:
+        if is_dynamic(member):
+            element = element_of(member)
+            size = 1 if member["type"] == "bytes" else 32 if is_dynamic(element) else size_of(element)
+            arrays.append((element, check_tail(data, begin, position, size) + 32))
+        position += 32 if is_dynamic(member) else size_of(member)
+    for element, first in arrays:
+        if element["type"] == "tuple" and is_dynamic(element):
+            for position in range(first, first + 32 * word(data, first - 32), 32):
+                start = first + word(data, position)
+                if start + size_of(element) > len(data):
+                    raise Reverted("MalformedScene", position=position)
+                check_layout(data, start, element)
 
 
 def check_tail(data: bytes, base: int, position: int, size: int) -> int:
-    """Checks that the offset at `position`, which counts from `base`, leads to an array that lies within the call.
+    """Check that the offset at `position`, which counts from `base`, leads to an array that lies within the call.
 
     size: bytes of an element. Returns where the length of the array is.
     """
@@ -48,11 +63,6 @@ def check_tail(data: bytes, base: int, position: int, size: int) -> int:
     if tail + 32 + word(data, tail) * size > len(data):
         raise Reverted("MalformedScene", position=tail)
     return tail
-
-
-def word(data: bytes, position: int) -> int:
-    """The word at that place of the call, which zeros follow."""
-    return int.from_bytes(data[position : position + 32].ljust(32, b"\0"), "big")
 
 
 def check_scene(scene: Scene, tile: Rectangle) -> None:
@@ -67,8 +77,8 @@ def check_scene(scene: Scene, tile: Rectangle) -> None:
     ):
         raise Reverted("RectangleOutsideCanvas", x=tile.x, y=tile.y, width=tile.width, height=tile.height)
     check_camera(scene.camera)
-    check_color(scene.background_top)
-    check_color(scene.background_bottom)
+    check_color(scene.background.top)
+    check_color(scene.background.bottom)
     check_color(scene.ambient_light)
     if scene.invert > 1:
         raise Reverted("NotAFlag", value=scene.invert)
@@ -110,7 +120,7 @@ def check_light(light: Light, index: int) -> None:
 
 def check_object(obj: Object, index: int) -> None:
     """All numbers of an object."""
-    bits, has_normals = check_mesh(obj.mesh_header, len(obj.mesh), index)
+    bits, has_normals = check_mesh(obj.mesh, index)
     if not all(map(in_range, obj.position)):
         raise Reverted("PositionOutOfRange", object=index, x=obj.position[0], y=obj.position[1], z=obj.position[2])
     material = obj.material
@@ -134,9 +144,10 @@ def check_object(obj: Object, index: int) -> None:
         raise Reverted("RotationIsZero", object=index)
 
 
-def check_mesh(header: int, length: int, index: int) -> tuple[int, bool]:
-    """Header and length of a mesh; returns the bits of a coordinate, and whether it has normals."""
-    kind = header >> 32 if length else 0
+def check_mesh(mesh: bytes, index: int) -> tuple[int, bool]:
+    """Check the header and the length of a mesh; return the bits of a coordinate, and whether it has normals."""
+    length, header = len(mesh), int.from_bytes(mesh[:5].ljust(5, b"\0"), "big")
+    kind = header >> 32
     if length < 5 or kind > NORMALS + WIDE:
         raise Reverted("MeshHeader", object=index, format=kind, length=length)
     bits, has_normals = (24 if kind & WIDE else 16), bool(kind & NORMALS)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from .layout import LANE_85, ONES
 from .registers import Registers
-from .structs import Rectangle, Scene
+from .structs import Background, Rectangle, Scene
 from .words import MASK, color_lanes, divide_signed
 
 #: Just below 256, Q10.
@@ -20,11 +20,12 @@ def begin(blended: bool, scene: Scene, r: Registers) -> None:
     Under those that are not is the picture of the opaque ones, as it is.
     """
     if not blended:
-        r.image = background(scene.background_top, scene.background_bottom, scene.canvas.height, r.tile)
+        r.image = background(scene.background, scene.canvas.height, r.tile)
 
 
-def background(top: int, bottom: int, height: int, tile: Rectangle) -> NDArray[np.uint8]:
+def background(colors: Background, height: int, tile: Rectangle) -> NDArray[np.uint8]:
     """The background of a tile: (height, width, 3) blue, green, red, rows from the top."""
+    top, bottom = colors.top, colors.bottom
     # lanes of Q24: the change from row to row upwards, and the bottom row
     step = lane_step(top, bottom, 1 if height == 1 else height - 1)
     color = (color_lanes(top if height == 1 else bottom) << 24) + (ONES << 23)
