@@ -1,4 +1,4 @@
-"""What pictures cost in gas: the snapshot that tests compare with, and the tables of `python -m benchmarks`."""
+"""Measure what pictures cost in gas: the snapshot of the tests, and the tables of `python -m benchmarks`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the results: what people read, and the exact figures."""
+    """A part of the results: its text, and the exact figures."""
 
     title: str
     text: str

@@ -1,4 +1,4 @@
-"""`python -m benchmarks`: all tables, printed and written to results.md and results.json."""
+"""`python -m benchmarks`: print all tables and write them to results.md and results.json."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
 
 
 def main() -> int:
-    """The command."""
+    """Make the tables."""
     written = ["# Benchmarks\n\nMade by `python -m benchmarks`. Gas is exact: the same on every machine.\n"]
     data = {}
     for part in (cost.section, linearity.section, stages.section):

@@ -1,4 +1,4 @@
-"""What the pictures and tokens of the collections cost: all 1,024 pieces of Genesis, all icons, PNG files."""
+"""The cost of the collections: all 1,024 pieces of Genesis, all icons, PNG files."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from .studio import recorded as recorded_of_studio
 
 #: Seeds of the collection of 2021.
 PIECES = 1024
-#: Of the original, as its paper tells it.
+#: Of the original, as its paper states it.
 ORIGINAL_PIECE, ORIGINAL_GENERATION = 17_831e6, 40.2e6
 
 
 def rows() -> list[Row]:
-    """The rows of the cost table."""
+    """Measure the rows of the cost table."""
     return [*piece_rows(), *token_rows(), png_row()]
 
 
 def piece_rows() -> list[Row]:
-    """From a seed to a piece, and from a piece to its picture."""
+    """Measure the generation and the pictures of the pieces."""
     generate = artifact("Genesis").selectors["generate"]
     generation = [call("Genesis", generate + seed_of(number)).gas for number in range(PIECES)]
     pictures = [gas(load(f"genesis/{number}")) for number in range(PIECES)]
@@ -47,7 +47,7 @@ def piece_rows() -> list[Row]:
 
 
 def token_rows() -> list[Row]:
-    """`tokenURI` of both collections."""
+    """Measure `tokenURI` of both collections."""
     of_genesis, of_icons = genesis_uris(), icon_uris()
     worst, dearest = int(np.argmax(of_genesis)), max(of_icons, key=of_icons.__getitem__)
     return [
@@ -58,14 +58,14 @@ def token_rows() -> list[Row]:
 
 
 def genesis_uris() -> list[int]:
-    """Execution gas of `GenesisMetadata.tokenURI` for each seed."""
+    """Return the execution gas of `GenesisMetadata.tokenURI` for each seed."""
     s = stage()
     calls = (s.metadata.encode("tokenURI", (number, seed_of(number)))[1] for number in range(PIECES))
     return [s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, []).execution for data in calls]
 
 
 def icon_uris() -> dict[str, int]:
-    """Execution gas of `IconsCollection.tokenURI` for each icon, enlarged four times, by its name."""
+    """Return the execution gas of `IconsCollection.tokenURI` by the name of the icon, enlarged four times."""
     s = stage()
     names = [piece.name for piece in icons.pieces()]
     collection = with_icons(s, names)
@@ -73,7 +73,7 @@ def icon_uris() -> dict[str, int]:
 
 
 def with_icons(s: Stage, names: list[str]) -> Contract:
-    """A collection of one token of each icon."""
+    """Deploy a collection with one token of each icon."""
     collection = s.world.deploy("IconsCollection", s.studio, (s.owner, LIMIT, s.owner, 500), sender=s.owner)
     for name in names:
         pointer = store_scene(s.studio, icon_scene(name))
@@ -85,7 +85,7 @@ def with_icons(s: Stage, names: list[str]) -> Contract:
 
 
 def png_row() -> Row:
-    """What a PNG file costs beside the bitmap that it is made of; the figure of studio.json."""
+    """Return what a PNG file costs beyond the bitmap that it is made of; the figure of studio.json."""
     (name,) = (name for name in recorded_of_studio() if name.startswith("PNG, Genesis, x 4") and name.endswith(": gas"))
     return Row(
         "PNG of 128 x 128 enlarged 4 times, more than BMP, mean", recorded_of_studio()[name], must=1.3e6, aim=1.1e6

@@ -1,4 +1,4 @@
-"""What the scenes of the original cost now, against what they cost there and what was aimed at."""
+"""The cost of the original's scenes, against the original and against the targets."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TITLE = "Cost against the original"
 
 @dataclass(frozen=True)
 class Row:
-    """One figure; `more` says what belongs to it. The limits are for `gas`."""
+    """One figure, with its limits; `more` says what it is of."""
 
     what: str
     gas: float
@@ -27,7 +27,7 @@ class Row:
 
     @property
     def verdict(self) -> str:
-        """Which limits are kept."""
+        """Return which limits are kept."""
         if self.must is None:
             return ""
         if self.gas > self.must:
@@ -38,7 +38,7 @@ class Row:
 
 
 def section() -> Section:
-    """The table."""
+    """Make the table."""
     if not shared.is_there():
         return Section(TITLE, shared.SKIPPED, {})
     from .collection_cost import rows as collection_rows
@@ -67,7 +67,7 @@ def section() -> Section:
 
 
 def render_rows() -> list[Row]:
-    """The rows of pictures."""
+    """Measure pictures."""
     scenes, known = shared.table_scenes(), original()
     objects, pieces = shared.objects(), shared.genesis()
 
@@ -113,7 +113,7 @@ def render_rows() -> list[Row]:
 
 
 def uri_rows() -> list[Row]:
-    """What a data URI costs more than the bytes."""
+    """Measure what a data URI costs beyond the bytes."""
     scenes = {name: scene for name, scene in shared.table_scenes().items() if is_usual(scene)}
     more = {name: gas(scene, "renderDataURI") - gas(scene) for name, scene in scenes.items()}
     worst = max(more, key=more.__getitem__)
@@ -130,7 +130,7 @@ def uri_rows() -> list[Row]:
 
 
 def largest_row() -> Row:
-    """The dearest transaction of all scenes, as they are and as this table changes them."""
+    """Measure the most expensive transaction of all scenes, unchanged and as this table changes them."""
     costs, refused = {}, 0
     for name, scene in (shared.all_scenes() | shared.table_scenes()).items():
         if is_usual(scene):
@@ -146,5 +146,5 @@ def largest_row() -> Row:
 
 
 def is_usual(scene: Scene) -> bool:
-    """Whether the canvas has 128 x 128 pixels."""
+    """Return whether the canvas has 128 x 128 pixels."""
     return (scene.width, scene.height) == (128, 128)

@@ -1,4 +1,4 @@
-"""How the Creator's page does with many visitors at once: pictures a second, and how late they are.
+"""Measure the Creator's page with many visitors at once: frames per second, and their delay.
 
     python -m benchmarks.creator [--visitors 20] [--seconds 10] [--piece NAME] [--write]
     python -m benchmarks.creator --pool [--longest 128] [--workers N]
@@ -50,7 +50,7 @@ class Orbiting:
 
 
 async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
-    """One visitor."""
+    """Simulate one visitor."""
     html = await asyncio.to_thread(lambda: urllib.request.urlopen(address).read().decode())
     found = re.search(r'"visitor":"([\w-]+)"', html)
     assert found, "the page names no visitor"
@@ -81,14 +81,14 @@ async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
 
 
 async def measure(address: str, visitors: int, seconds: float) -> list[Orbiting]:
-    """All visitors at once."""
+    """Simulate all visitors at once."""
     seen = [Orbiting() for _ in range(visitors)]
     await asyncio.gather(*(orbit(address, seconds, each) for each in seen))
     return seen
 
 
 async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, workers: int | None) -> list[Orbiting]:
-    """All visitors at once, without the page."""
+    """Simulate all visitors at once, without the page."""
     seen = [Orbiting() for _ in range(visitors)]
     async with Pool(workers) as pool:
         facts = await pool.open(Source("piece", piece))
@@ -109,7 +109,7 @@ async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, 
 
 
 def report(seen: Sequence[Orbiting], seconds: float) -> str:
-    """The figures, as a table in Markdown."""
+    """Return the figures as a table in Markdown."""
     each = np.array([one.pictures / seconds for one in seen])
     delays = 1000 * np.concatenate([one.delays for one in seen])
     sides = np.concatenate([one.sides for one in seen])
@@ -125,7 +125,7 @@ def report(seen: Sequence[Orbiting], seconds: float) -> str:
 
 
 def main() -> None:
-    """The command."""
+    """Measure, print, and write the table if that is asked for."""
     parser = argparse.ArgumentParser(description="The Creator with many visitors at once.")
     parser.add_argument("--visitors", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=10)

@@ -1,4 +1,4 @@
-"""Electricity and carbon dioxide of transactions and read calls, by figures that are stated and can be changed.
+"""Estimate electricity and carbon dioxide of transactions and read calls, from figures that can be changed.
 
 Under proof of stake a network draws the same power whether its blocks are full or empty. What a transaction "uses" is
 thus a share: its part of the gas of a year, of the electricity of that year. A read call runs on one computer.
@@ -28,11 +28,11 @@ class Network:
     gas_per_block: float = 15e6
 
     def kilowatt_hours(self, gas: float) -> float:
-        """The share of that much gas."""
+        """Return the share of so much gas."""
         return self.electricity * gas / (self.gas_per_block * BLOCKS_PER_YEAR)
 
     def grams(self, gas: float) -> float:
-        """Of CO2 equivalent, the share of that much gas."""
+        """Return the grams of CO2 equivalent of so much gas."""
         return self.emissions * 1e6 * gas / (self.gas_per_block * BLOCKS_PER_YEAR)
 
 
@@ -45,11 +45,11 @@ class Computer:
     grams_per_kilowatt_hour: float = 480
 
     def kilowatt_hours(self, gas: float) -> float:
-        """Of a call of that much gas."""
+        """Return the electricity of a call of so much gas."""
         return self.watts * gas / self.gas_per_second / 3.6e6
 
     def grams(self, gas: float) -> float:
-        """Of CO2 equivalent, of a call of that much gas."""
+        """Return the grams of CO2 equivalent of a call of so much gas."""
         return self.kilowatt_hours(gas) * self.grams_per_kilowatt_hour
 
 
@@ -65,7 +65,7 @@ def estimates(
     networks: tuple[Network, ...] = (CCRI_2022, CCAF_2023),
     computer: Computer | None = None,
 ) -> str:
-    """A table: for each transaction, by its gas, the share of each network; for each call one computer."""
+    """Return a table: for each transaction the share of each network by its gas, for each call that of one computer."""
     computer = computer or Computer()
     rows = [
         [f"transaction: {name}", f"{gas:,.0f}", *(_cell(network, gas) for network in networks), ""]
@@ -84,6 +84,6 @@ def _cell(of: Network | Computer, gas: float) -> str:
 
 
 def _figures(value: float) -> str:
-    """Two significant digits, without an exponent."""
+    """Format two significant digits, without an exponent."""
     places = 1 - floor(log10(value)) if value else 0
     return f"{round(value, places):,.{max(0, places)}f}"

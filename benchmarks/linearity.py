@@ -1,4 +1,4 @@
-"""Gas against the number of triangles and of pixels: a straight line, or not."""
+"""Whether gas is linear in the number of triangles and of pixels."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from shackled.bench import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, gas, squares, table
-from shackled.bench.fits import Column, Fit, fit, line, quadratic_share
+from shackled.bench.fits import Column, LinearFit, fit, line, quadratic_share
 
 from . import Section
 from .workload import workload_of
@@ -35,14 +35,14 @@ def series(kind: str, look: str) -> Series:
 
 @cache
 def _quantities(kind: str) -> tuple[Column, Column, Column]:
-    """Faces, rows of triangles, and pixels of the canvas; they do not depend on the look."""
+    """Return faces, rows of triangles, and pixels of the canvas, which do not depend on the look."""
     scenes = squares("unlit") if kind == "squares" else cubes("unlit")
     work = [workload_of(scene) for scene in scenes]
     return tuple(np.array([getattr(w, name) for w in work], float) for name in ("faces", "rows", "canvas"))  # type: ignore[return-value]
 
 
 def section() -> Section:
-    """The fits."""
+    """Make the table of the fits."""
     lines, data = [], {}
     for look in LOOKS:
         of_squares, of_cubes = series("squares", look), series("cubes", look)
@@ -78,6 +78,6 @@ def section() -> Section:
 _FIELDS = ("triangles", "rows", "pixels", "gas")
 
 
-def _record(of: Series, by: Fit, share: float) -> dict[str, object]:
+def _record(of: Series, by: LinearFit, share: float) -> dict[str, object]:
     figures = {name: getattr(of, name).astype(int).tolist() for name in _FIELDS}
     return figures | {"fit": by.coefficients, "r2": by.r2, "quadratic share": share}

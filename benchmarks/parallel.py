@@ -1,4 +1,4 @@
-"""`python -m benchmarks.parallel`: what tiles cost, and how many frames a second several places make.
+"""`python -m benchmarks.parallel`: measure the gas of tiles, and the frames per second of several backends.
 
 Written to parallel.md and parallel.json beside this file. Gas is exact; times are of one run on one machine, and say
 little but for their ratios.
@@ -20,7 +20,7 @@ from tools.anvil import Anvil, AnvilChain, find_anvil
 from shackled import Scene, load
 from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
-from shackled.parallel import Listener, Part, Place, ProcessPlace, Scheduler, Where, grid
+from shackled.parallel import Backend, Listener, Part, ProcessBackend, Scheduler, Where, grid
 from shackled.scene import Rectangle, full_turn
 
 from . import Section, shared
@@ -35,7 +35,7 @@ RUNS = 4
 
 
 def tiles() -> Section:
-    """Gas of a picture in tiles against that of the whole."""
+    """Measure the gas of a picture in tiles against that of the whole."""
     rows, data = [], {}
     for side in SIDES:
         scene = evolve(load("teapot"), width=side, height=side)
@@ -62,7 +62,7 @@ MOST = {"4 x 4": (1.6, 2.2), "8 x 8": (1.6, 3.0)}
 
 
 def many_tiles() -> Section:
-    """The same for 512 x 512 pixels of many scenes."""
+    """Measure the tiles of many scenes at 512 x 512 pixels."""
     if not shared.is_there():
         return Section("Tiles of 512 x 512 pixels", shared.SKIPPED, {})
     scenes = {"teapot": load("teapot"), "cube": shared.scene(shared.LARGE_CUBE)}
@@ -85,7 +85,7 @@ def many_tiles() -> Section:
 
 
 def throughput() -> Section:
-    """Frames a second of a turntable, in several places."""
+    """Measure the frames per second of a turntable on several backends."""
     frames = full_turn(evolve(load("teapot"), width=SIDE, height=SIDE), FRAMES)
     with ExitStack() as stack:
         places = opened(stack)
@@ -112,8 +112,8 @@ def throughput() -> Section:
     return Section("Frames", text, data)
 
 
-def opened(stack: ExitStack) -> dict[str, list[Place]]:
-    """The places, which close with the stack."""
+def opened(stack: ExitStack) -> dict[str, list[Backend]]:
+    """Open the backends, which close with the stack."""
     wanted: dict[str, Where] = {
         "this process": Where(),
         "2 worker processes": Where(jobs=2),
@@ -131,7 +131,7 @@ def opened(stack: ExitStack) -> dict[str, list[Place]]:
         wanted["anvil, 2 calls at a time"] = Where(rpc=(one.url,), jobs=2)
         wanted["2 anvils"] = Where(rpc=(one.url, two.url))
     # a single job of a command is done in its own process
-    found: dict[str, list[Place]] = {"1 worker process": [ProcessPlace(None, 1)]}
+    found: dict[str, list[Backend]] = {"1 worker process": [ProcessBackend(None, 1)]}
     found |= {name: where.open(Listener()) for name, where in wanted.items()}
     for places in found.values():
         for place in places:
@@ -139,8 +139,8 @@ def opened(stack: ExitStack) -> dict[str, list[Place]]:
     return found
 
 
-def timed(frames: list[Scene], places: list[Place]) -> float:
-    """Seconds that places take for frames."""
+def timed(frames: list[Scene], places: list[Backend]) -> float:
+    """Return the seconds that backends take for frames."""
     parts = [Part(number, Rectangle(0, 0, SIDE, SIDE)) for number in range(len(frames))]
     started = time.perf_counter()
     pieces = Scheduler(frames, places).run(parts)
@@ -150,7 +150,7 @@ def timed(frames: list[Scene], places: list[Place]) -> float:
 
 
 def main() -> int:
-    """The command."""
+    """Measure everything and write the files."""
     written = ["# Tiles and places\n\nMade by `python -m benchmarks.parallel`.\n"]
     data = {}
     for part in (tiles, many_tiles, throughput):

@@ -1,4 +1,4 @@
-"""Scenes of our own, which need no file."""
+"""Scenes that need no file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LAMP = Light("point", (500, 800, 0))
 
 
 def cubes(size: int) -> Scene:
-    """Three cubes that pass through each other, each with a material of its own."""
+    """Make three cubes that intersect, each with its own material."""
     objects = [
         Object(cube_mesh(), (x, 0, -DISTANCE - x), from_euler((30, turn, 0)), 0.9, material)
         for x, turn, material in ((-500, 20, UNLIT), (0, 50, GLOSSY), (500, 75, Material("smooth", 0.3, 0.6, 0.2, 8)))
@@ -23,19 +23,19 @@ def cubes(size: int) -> Scene:
 
 
 def room(size: int) -> Scene:
-    """The inside of a cube around the camera, cut by the near plane and by all sides of the view, lit by a lamp."""
+    """Make the inside of a cube around the camera, cut by the near plane and all sides of the view, lit by a lamp."""
     walls = Object(cube_mesh(1000), (100, 200, -300), from_euler((5, 25, 0)), material=GLOSSY, cull=False)
     lamp = Light("point", (0, 500, -600), (255, 240, 200))
     return Scene([walls], Camera(), (lamp,), NIGHT, width=size, height=size)
 
 
 def staged_teapot(shading: Shading, size: int | tuple[int, int], **look: object) -> Scene:
-    """The teapot as `shackled render` shows a mesh; `look` changes fields of its Look."""
+    """Stage the teapot as `shackled render` does; `look` changes fields of its Look."""
     width, height = (size, size) if isinstance(size, int) else size
     material = Material(shading, 0.25, 0.75, 0.3, 24)
     return stage(TEAPOT, Look(width, height, material=material, **look))  # type: ignore[arg-type]
 
 
 def empty(size: int) -> Scene:
-    """Nothing but background."""
+    """Make a scene of background only."""
     return Scene([], background=NIGHT, width=size, height=size)

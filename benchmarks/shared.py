@@ -29,43 +29,43 @@ UNLIT_SUFFIX, SMOOTH_SUFFIX, OWN_SUFFIX, LAMP_SUFFIX = " unlit", " smooth", " sm
 
 
 def is_there() -> bool:
-    """Whether the scenes can be read."""
+    """Return whether the folder is there."""
     return FOLDER.is_dir()
 
 
 @cache
 def scene(name: str) -> Scene:
-    """The scene of that name."""
+    """Load the scene of that name."""
     return load(FOLDER / f"{name}.json")
 
 
 def objects() -> list[str]:
-    """The scenes of real meshes."""
+    """Return the names of the scenes of real meshes."""
     return sorted(path.stem for path in FOLDER.glob("obj_*_cull.json"))
 
 
 def genesis() -> list[str]:
-    """The first pieces of the original's collection."""
+    """Return the names of the first pieces of the original's collection."""
     return [f"genesis_{i:03}" for i in range(24)]
 
 
 def unlit(of: Scene) -> Scene:
-    """Colours as they are."""
+    """Make the materials unlit."""
     return _with(of, [UNLIT] * len(of.objects))
 
 
 def smooth(of: Scene) -> Scene:
-    """Smooth normals, one point light, the glossy material."""
+    """Use smooth normals, one point light and the glossy material."""
     return evolve(_with(of, [evolve(GLOSSY, shading="smooth")] * len(of.objects)), lights=[LAMP])
 
 
 def smooth_own(of: Scene) -> Scene:
-    """Smooth normals and one point light with the coefficients that the scene has itself."""
+    """Use smooth normals and one point light, with the scene's own coefficients."""
     return evolve(_with(of, [evolve(o.material, shading="smooth") for o in of.objects]), lights=[LAMP])
 
 
 def frontal(of: Scene) -> Scene:
-    """A point light in front, the glossy material."""
+    """Use a point light in front and the glossy material."""
     return evolve(_with(of, [GLOSSY] * len(of.objects)), lights=[FRONTAL_LAMP])
 
 
@@ -76,7 +76,7 @@ def _with(of: Scene, materials: list[Material]) -> Scene:
 
 @cache
 def table_scenes() -> dict[str, Scene]:
-    """Every scene that the cost table measures, by name and what was changed in it; nothing without the folder."""
+    """Return the scenes of the cost table, by name and what was changed; nothing if the folder is missing."""
     if not is_there():
         return {}
     scenes = {}
@@ -92,7 +92,7 @@ def table_scenes() -> dict[str, Scene]:
 
 
 def all_scenes() -> dict[str, Scene]:
-    """Every scene of the folder that can be loaded: some are made to be refused."""
+    """Return all scenes of the folder that can be loaded; some are made to be refused."""
     scenes = {}
     for path in sorted(FOLDER.glob("*.json")):
         try:

@@ -49,7 +49,7 @@ ORIGINAL_LIGHT = (True, 0, 2000, 2000, 10, (40, 30, 0), (255, 255, 255), (1, 1, 
 
 
 def own_figures() -> Figures:
-    """Scenes that need no file."""
+    """Measure scenes that need no file."""
     scenes = {
         "cube, 128": turned_cube(128),
         "cube, 512": turned_cube(512),
@@ -92,7 +92,7 @@ def own_figures() -> Figures:
 
 
 def genesis_figures() -> Figures:
-    """Seed to piece and seed to picture: the mean of the first pieces of the collection, and one that is dear."""
+    """Measure generation and picture of the first pieces: the mean, and the most expensive one."""
     figures = {}
     for function in ("generate", "render"):
         selector = artifact("Genesis").selectors[function]
@@ -103,7 +103,7 @@ def genesis_figures() -> Figures:
 
 
 def shared_figures() -> Figures:
-    """The scenes of the cost table; nothing if they are not there."""
+    """Measure the scenes of the cost table; nothing if they are missing."""
     return {name: gas(scene) for name, scene in shared.table_scenes().items()}
 
 
@@ -129,7 +129,7 @@ def contract_figures() -> Figures:
 
 
 def take() -> Snapshot:
-    """All figures that can be measured here."""
+    """Measure all figures."""
     snapshot = {"contracts": contract_figures(), "scenes": own_figures()}
     if shared.is_there():
         snapshot["scenes of the cost table"] = shared_figures()
@@ -137,13 +137,13 @@ def take() -> Snapshot:
 
 
 def recorded() -> Snapshot:
-    """The figures of gas.json."""
+    """Return the figures of gas.json."""
     snapshot: Snapshot = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
     return snapshot
 
 
 def changes(old: Snapshot, new: Snapshot) -> tuple[list[str], list[str]]:
-    """What rose or is new, and what fell or is gone, a line each; groups that were not measured are left out."""
+    """Return what rose or is new, and what fell or is gone, a line each; groups that were not measured are skipped."""
     worse, better = [], []
     for group, figures in new.items():
         before = old.get(group, {})
@@ -160,7 +160,7 @@ def changes(old: Snapshot, new: Snapshot) -> tuple[list[str], list[str]]:
 
 
 def main() -> int:
-    """The command."""
+    """Measure, print the changes and write gas.json."""
     old, new = recorded(), take()
     worse, better = changes(old, new)
     print("\n".join([*worse, *better]) or "no figure has changed")

@@ -36,12 +36,12 @@ BAND_PIXELS = 16384
 
 
 def missing() -> str | None:
-    """What this needs and does not find, if anything."""
+    """Return the package that is needed and not installed, or None."""
     return None if find_spec("eth") else "py-evm"
 
 
 def gas_by_stage(scene: Scene) -> dict[str, int]:
-    """Execution gas of a render, by stage; stages that need none are there with 0."""
+    """Return the execution gas of a render by stage; stages without gas are there with 0."""
     return profile(scene).stages()
 
 
@@ -65,7 +65,7 @@ def floor_of(scene: Scene, work: Workload) -> dict[str, int]:
 
 
 def section() -> Section:
-    """The table of some scenes."""
+    """Make the table of some scenes."""
     lack = missing()
     if lack is not None:
         return Section(TITLE, f"skipped: needs {lack}", {})
@@ -73,7 +73,7 @@ def section() -> Section:
 
 
 def report(scenes: dict[str, Scene]) -> Section:
-    """The stages of each scene, beside their floor."""
+    """Return the stages of each scene, beside their floor, as a table."""
     spent = {name: gas_by_stage(scene) for name, scene in scenes.items()}
     floors = {name: floor_of(scene, workload_of(scene)) for name, scene in scenes.items()}
     totals = [sum(spent[name].values()) for name in scenes]
@@ -109,7 +109,7 @@ def _examples() -> dict[str, Scene]:
 
 
 def main() -> int:
-    """The command."""
+    """Print the stages of the files that are named."""
     lack = missing()
     if lack is not None:
         print(f"this needs {lack}", file=sys.stderr)

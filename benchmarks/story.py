@@ -30,7 +30,7 @@ MINT_GAS = 124_000
 
 
 def content(name: str) -> str:
-    """What stands between the marks of that name: the text of an experiment without its title, or estimates."""
+    """Return the text between the marks of that name: of an experiment without its title, or estimates."""
     if name == "energy":
         return estimates()
     path = RESULTS / f"{name}.md"
@@ -40,7 +40,7 @@ def content(name: str) -> str:
 
 
 def estimates() -> str:
-    """Electricity of what the experiments have measured."""
+    """Estimate the electricity of what the experiments have measured."""
     deployment = sum(int(row["gas"]) for row in rows("deploy") if row["contract"] in RENDERER)
     cubes = {int(row["side"]): int(row["gas"]) for row in rows("canvas") if row["projection"] == "perspective"}
     before = original_gas("cube_persp_128")
@@ -62,13 +62,13 @@ def estimates() -> str:
 
 
 def rows(name: str) -> list[dict[str, str]]:
-    """The figures of an experiment."""
+    """Return the figures of an experiment."""
     with (RESULTS / f"{name}.csv").open(encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
 def main() -> int:
-    """The command."""
+    """Update the page."""
     return update(dict.fromkeys(PAGES, content), "python -m benchmarks.story", "--check" in sys.argv[1:])
 
 

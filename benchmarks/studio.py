@@ -35,22 +35,22 @@ PIECES = 16
 
 
 class Keeper:
-    """The embedded chain, with what its Studio keeps."""
+    """The embedded chain, with what its Studio stores."""
 
     def __init__(self) -> None:
-        """With nothing in it."""
+        """Open the chain."""
         chain = open_chain()
         assert isinstance(chain, EmbeddedChain)
         self.chain = chain
         self.studio = chain.address("Studio")
 
     def gas(self, contract: str, function: str, data: bytes) -> int:
-        """Of a call, without what a transaction costs."""
+        """Return the execution gas of a call."""
         identifiers = artifact(contract).selectors
         return self.chain.call(contract, identifiers[function] + data).gas
 
     def kept_mesh(self, o: Object, normal_bits: int) -> tuple[int, int, int]:
-        """Bytes of a mesh, gas of the transaction that stores it, and of reading it."""
+        """Return the bytes of a mesh, the gas of the transaction that stores it, and that of reading it."""
         packed = pack(o.mesh, o.material.shading == "smooth")
         (storing,) = store_mesh(packed, self.studio, normal_bits, self.chain)
         self.chain._codes[storing.pointer] = b"\0" + compact(packed, normal_bits)
@@ -62,7 +62,7 @@ class Keeper:
 
 
 def mesh_figures(keeper: Keeper) -> Figures:
-    """What 1,000 triangles cost: 992 of a teapot, without loss and with."""
+    """Measure 1,000 triangles: 992 of a teapot, without loss and with."""
     smooth = load("teapot")
     flat = stage(teapot(4))
     figures: Figures = {}
@@ -85,7 +85,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
 
 
 def png_figures(keeper: Keeper) -> Figures:
-    """PNG files of pictures of 128 x 128 pixels."""
+    """Measure PNG files of pictures of 128 x 128 pixels."""
 
     def encoding(pixels: NDArray[np.uint8], scale: int) -> tuple[int, int]:
         bmp = encode_bmp(pixels)
@@ -111,19 +111,19 @@ def png_figures(keeper: Keeper) -> Figures:
 
 
 def take() -> Figures:
-    """All figures."""
+    """Measure all figures."""
     keeper = Keeper()
     return mesh_figures(keeper) | png_figures(keeper)
 
 
 def recorded() -> Figures:
-    """The figures of studio.json."""
+    """Return the figures of studio.json."""
     figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
     return figures
 
 
 def main() -> int:
-    """The command."""
+    """Measure, print the changes and write studio.json."""
     old, new = recorded(), take()
     worse, better = changes({"studio": old}, {"studio": new})
     print("\n".join([*worse, *better]) or "no figure has changed")

@@ -30,7 +30,7 @@ mint 1 and mint 5 as measured, `tokenURI` from 5,700 to 14,400 million.
 
 
 def main() -> int:
-    """The command."""
+    """Run the demo on an anvil and write token-demo.md."""
     binary = find_anvil()
     if binary is None:
         print("anvil is not installed: npm ci in contracts/", file=sys.stderr)

@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
 PAGE = ROOT / "docs" / "tokens.md"
 
-#: Of the contracts of 2021, as their authors tell it.
+#: Of the contracts of 2021, as their authors state it.
 ORIGINAL = {"mint 1": 124_000, "mint 5": 712_000}
 #: Seeds of the collection over which the statistics of tokenURI are.
 SEEDS = 256
@@ -32,7 +32,7 @@ Figures = dict[str, int]
 
 
 def take(seeds: int = SEEDS) -> Figures:
-    """All figures. Gas of transactions is with intrinsic gas, and that of calls without."""
+    """Measure all figures: gas of transactions with intrinsic gas, that of calls without."""
     s = stage()
     contracts = {"GenesisCollection": s.genesis, "GenesisMetadata": s.metadata, "IconsCollection": s.icons}
     figures = {f"deploy {name}": contract.gas for name, contract in contracts.items()}
@@ -79,7 +79,7 @@ def take(seeds: int = SEEDS) -> Figures:
 
 
 def reveals(s: Stage) -> Figures:
-    """Of rounds, however many tokens are in them."""
+    """Measure the reveals of rounds."""
     figures = {}
     for count in (1, 5, 20):
         with s.world.attempt():
@@ -97,7 +97,7 @@ def reveals(s: Stage) -> Figures:
 
 
 def added(s: Stage) -> int:
-    """What looking up the round and handing on the answer take."""
+    """Return the gas that the collection adds to `tokenURI`."""
     address = bytes.fromhex(s.genesis.address[2:]).rjust(32, b"\0")
     drawn = keccak(s.genesis.call("randomnessOf", 0) + address + (1).to_bytes(32, "big"))
     assert s.metadata.call("tokenURI", 1, drawn) == s.genesis.call("tokenURI", 1)
@@ -105,7 +105,7 @@ def added(s: Stage) -> int:
 
 
 def token_uris(s: Stage, seeds: int) -> Figures:
-    """Gas and length over seeds, without what the collection adds."""
+    """Measure gas and length over seeds, without what the collection adds."""
     gas, lengths = [], []
     for number in range(seeds):
         _, data = s.metadata.encode("tokenURI", (number, seed_of(number)))
@@ -122,13 +122,13 @@ def token_uris(s: Stage, seeds: int) -> Figures:
 
 
 def recorded() -> Figures:
-    """The figures of tokens.json."""
+    """Return the figures of tokens.json."""
     figures: Figures = json.loads(FILE.read_text("utf-8")) if FILE.exists() else {}
     return figures
 
 
 def table(figures: Figures) -> str:
-    """The figures for people."""
+    """Return the figures as a table in Markdown."""
     lines = ["| what | gas | original |", "|---|---:|---:|"]
     for name, value in figures.items():
         lines.append(f"| {name} | {value:,} | {f'{ORIGINAL[name]:,}' if name in ORIGINAL else ''} |")
@@ -136,7 +136,7 @@ def table(figures: Figures) -> str:
 
 
 def main() -> int:
-    """The command."""
+    """Measure, print and write the figures."""
     figures = take()
     print(table(figures))
     FILE.write_text(json.dumps(figures, indent=1) + "\n", "utf-8")

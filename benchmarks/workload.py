@@ -1,4 +1,4 @@
-"""What there is to do in a scene, counted by the reference renderer."""
+"""Count the work that a scene takes, by the reference renderer."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Workload:
 
 
 def workload_of(scene: Scene) -> Workload:
-    """Draws the scene and counts."""
+    """Render a scene and count."""
     data = encode(artifact("Renderer").selectors["renderCounted"], scene)
     with _counting() as counts:
         picture = reference.draw_call(data)
@@ -49,7 +49,7 @@ def workload_of(scene: Scene) -> Workload:
 
 @contextmanager
 def _counting() -> Iterator[dict[str, int]]:
-    """Counts what the rasterizer hands on while the context is open."""
+    """Count the rasterizer's output while the context is open."""
     counts = {"rows": 0, "tested": 0}
     halves_of = rasterizer.halves_of
 

@@ -31,7 +31,6 @@ EXTRA_OF = {
     "bench": "bench",
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
-    "parallel/_local_cluster.py": "cluster",
 }
 
 

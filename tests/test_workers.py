@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import pytest
 
 from shackled import InputError, RenderError
-from shackled.workers import Worker, WorkerEndedError, WorkerLateError, each, tell
+from shackled.workers import Worker, WorkerEndedError, WorkerLateError, each, report_progress
 
 prepared: list[int] = []
 
@@ -46,7 +46,7 @@ def fail_in_two_parts() -> None:
 
 def count_up(to: int) -> str:
     for done in range(to):
-        tell(done, to)
+        report_progress(done, to)
     return "counted"
 
 
@@ -105,7 +105,7 @@ def test_what_is_printed_is_no_answer(worker: Worker) -> None:
 
 def test_it_tells_how_far_it_is(worker: Worker) -> None:
     told: list[tuple[int, int]] = []
-    assert worker.call(count_up, 3, told=lambda *values: told.append(values)) == "counted"
+    assert worker.call(count_up, 3, on_progress=lambda *values: told.append(values)) == "counted"
     assert told == [(0, 3), (1, 3), (2, 3)]
     assert worker.call(count_up, 3) == "counted"
 
@@ -159,8 +159,8 @@ def test_after_it_was_closed_there_is_no_process() -> None:
 
 
 def test_unwanted_work_is_not_begun(worker: Worker) -> None:
-    with pytest.raises(WorkerEndedError, match="nobody wants"):
-        worker.call(double, 1, unwanted=lambda: True)
+    with pytest.raises(WorkerEndedError, match="was cancelled"):
+        worker.call(double, 1, cancelled=lambda: True)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems may not know the limit")

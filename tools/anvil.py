@@ -29,7 +29,7 @@ PATIENCE = 60
 
 
 def find_anvil() -> str | None:
-    """The binary, of the path or of a clone."""
+    """Return the binary in the PATH or in a checkout, or None."""
     return shutil.which("anvil", path=f"{os.environ.get('PATH', '')}{os.pathsep}{BINARIES}")
 
 
@@ -37,7 +37,7 @@ class Anvil:
     """A node that runs while the context is open, on a port that is free."""
 
     def __init__(self, binary: str, *options: str) -> None:
-        """`binary`: its path. `options`: of its command line."""
+        """Start the node. binary: its path. options: of its command line."""
         self.binary, self.options = binary, options
 
     def __enter__(self) -> Self:
@@ -64,11 +64,11 @@ class Anvil:
         self.stop()
 
     def rpc(self, method: str, *parameters: Any) -> Any:
-        """What the node answers."""
+        """Return the answer to a request."""
         return self.connection.request(method, *parameters)
 
     def stop(self) -> None:
-        """Ends the process; nothing happens if it has ended."""
+        """End the process, if it still runs."""
         self.process.terminate()
         try:
             self.process.wait(10)
@@ -93,7 +93,7 @@ class AnvilChain(ContractChain):
     name = "node (anvil)"
 
     def __init__(self, binary: str) -> None:
-        """`binary`: its path."""
+        """Start a node and deploy the contracts. binary: its path."""
         rules = ["--hardfork", "cancun", "--gas-limit", str(GAS_LIMIT), "--base-fee", "0", "--no-request-size-limit"]
         self.node = Anvil(binary, *rules)
         self._addresses: dict[str, str] = {}
@@ -110,11 +110,11 @@ class AnvilChain(ContractChain):
         self.node.stop()
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """A read call, which says no gas, and the same as a transaction for that."""
+        """Make a read call, which reports no gas, and the same call as a transaction, which does."""
         return CallResult(self.read(contract, data, gas_limit), self.transact(contract, data), intrinsic_gas(data))
 
     def transact(self, contract: str, data: bytes) -> int:
-        """The execution gas of the same call as a transaction."""
+        """Return the execution gas of the same call as a transaction."""
         receipt = self._send({"to": self.address(contract), "data": "0x" + data.hex()})
         return int(receipt["gasUsed"], 16) - intrinsic_gas(data)
 
@@ -131,7 +131,7 @@ class AnvilChain(ContractChain):
         return self._addresses[contract]
 
     def read(self, contract: str, data: bytes, gas_limit: int | None = None) -> bytes:
-        """What a read call returns."""
+        """Return the answer to a read call."""
         gas = hex((gas_limit or GAS_LIMIT // 2) + intrinsic_gas(data))
         call = {"from": self.sender, "to": self.address(contract), "data": "0x" + data.hex(), "gas": gas}
         return self.node.connection.data("eth_call", call, "latest")

@@ -61,20 +61,20 @@ OUTPUTS = ["abi", "metadata", "evm.bytecode.object", "evm.deployedBytecode.objec
 
 
 def group_of(contract: str) -> str:
-    """The group in which a contract is compiled."""
+    """Return the group in which a contract is compiled."""
     return next(name for name, group in GROUPS.items() if contract in group["contracts"])
 
 
 def settings_of(contract: str) -> dict[str, Any]:
-    """The compiler's settings for a contract."""
+    """Return the compiler's settings for a contract."""
     group = GROUPS[group_of(contract)]
     return settings(group["runs"], group["inline"])
 
 
 def settings(runs: int, inline: bool) -> dict[str, Any]:
-    """The compiler's settings.
+    """Return the compiler's settings.
 
-    inline: whether functions are put into those that call them, as the compiler does by itself.
+    inline: whether functions are inlined, which is the compiler's default.
     """
     steps = {"yul": True, "yulDetails": {"stackAllocation": True, "optimizerSteps": OPTIMIZER_STEPS}}
     return {
@@ -86,9 +86,9 @@ def settings(runs: int, inline: bool) -> dict[str, Any]:
 
 
 def find_contracts() -> dict[str, str]:
-    """The files of our contracts, as they are named in contracts/src, by contract.
+    """Return the files of the contracts, as they are named in contracts/src, by contract.
 
-    SystemExit if two are called alike, or if the groups are not those of these contracts.
+    Raises SystemExit if two have the same name, or if the groups do not list exactly these contracts.
     """
     found: dict[str, str] = {}
     for path in sorted(SOURCES.rglob("*.sol")):
@@ -104,13 +104,13 @@ def find_contracts() -> dict[str, str]:
 
 
 def read_sources(contracts: Iterable[str]) -> dict[str, str]:
-    """The files of contracts and what these import, named by their paths in contracts/src or contracts/node_modules."""
+    """Read the files of contracts and their imports, by their paths in contracts/src or contracts/node_modules."""
     found = find_contracts()
     return follow_imports([found[contract] for contract in contracts])
 
 
 def follow_imports(names: Iterable[str], folder: Path = SOURCES) -> dict[str, str]:
-    """The files of these names in the folder or the libraries, and what they import."""
+    """Read the files of these names in the folder or the libraries, and their imports."""
     sources: dict[str, str] = {}
     waiting = list(names)
     while waiting:
@@ -137,7 +137,7 @@ def _join(name: str, relative: str) -> str:
 
 
 def standard_input(group: str) -> dict[str, Any]:
-    """The input of the compiler for a group; outputs are asked only for its contracts."""
+    """Return the input of the compiler for a group, with outputs for its contracts only."""
     contracts, found = GROUPS[group]["contracts"], find_contracts()
     selection = {found[contract]: {contract: OUTPUTS} for contract in contracts}
     return request(read_sources(contracts), settings_of(contracts[0]), selection)
@@ -146,7 +146,7 @@ def standard_input(group: str) -> dict[str, Any]:
 def request(
     sources: dict[str, str], settings: dict[str, Any], selection: dict[str, dict[str, list[str]]]
 ) -> dict[str, Any]:
-    """The input of the compiler: outputs are asked for by source and contract."""
+    """Return the input of the compiler, with outputs by source and contract."""
     return {
         "language": "Solidity",
         "sources": {name: {"content": content} for name, content in sources.items()},
@@ -155,7 +155,7 @@ def request(
 
 
 def run_compiler(request: str) -> dict[str, Any]:
-    """The compiler's answer. Files, not pipes, on both sides: the compiler cuts off what it writes to a pipe."""
+    """Run the compiler. Input and output are files, since the compiler truncates what it writes to a pipe."""
     with tempfile.TemporaryFile("w+") as stdin, tempfile.TemporaryFile("w+") as stdout:
         stdin.write(request)
         stdin.seek(0)
@@ -171,7 +171,7 @@ def run_compiler(request: str) -> dict[str, Any]:
 
 
 def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
-    """The text of every artifact file of these groups, by name."""
+    """Return the text of every artifact file of these groups, by name."""
     files: dict[str, str] = {}
     maps = [_kept_maps(groups)]
     # each group is a process of its own, for which a thread waits
@@ -188,7 +188,7 @@ def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
 
 
 def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
-    """The text of every artifact file of a group, by name; and its source maps."""
+    """Return the text of every artifact file of a group, by name, and its source maps."""
     asked = standard_input(group)
     files = {input_name(group): _text(without_libraries(asked))}
     answer = compile_with_maps(asked)
@@ -214,12 +214,12 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
 
 
 def input_name(group: str) -> str:
-    """The file of the compiler's input of a group."""
+    """Return the name of the file with the compiler's input of a group."""
     return f"{STANDARD_INPUT}-{group}.json"
 
 
 def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
-    """The request with the code of others named by place and hash: it is not ours to keep here."""
+    """Return the request with third-party sources replaced by their place and hash, so that they are not copied."""
     sources = {
         name: source
         if (SOURCES / name).is_file()
@@ -233,7 +233,7 @@ def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
 
 
 def compile_with_maps(asked: dict[str, Any]) -> dict[str, Any]:
-    """The compiler's answer, with source maps and syntax trees too, which verifiers of sources do not want.
+    """Compile with source maps and syntax trees, which verifiers of sources do not want.
 
     The trees are asked for apart, before anything is compiled: together they take three times as long.
     """
@@ -248,7 +248,7 @@ def compile_with_maps(asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def source_maps(answer: dict[str, Any]) -> str:
-    """Of each contract the compiler's source map and where its functions begin; of each source the functions in it.
+    """Return each contract's source map and the positions of its functions, and the functions of each source.
 
     As `shackled.gas.source_map` reads it. Places in sources are in bytes of UTF-8.
     """
@@ -271,7 +271,7 @@ def source_maps(answer: dict[str, Any]) -> str:
 
 
 def _kept_maps(groups: Sequence[str]) -> dict[str, Any]:
-    """The source maps on disk of the contracts of other groups than these."""
+    """Return the source maps on disk of the contracts of other groups than these."""
     others = {contract for name, group in GROUPS.items() if name not in groups for contract in group["contracts"]}
     path = ARTIFACTS / SOURCE_MAPS
     maps: dict[str, Any] = json.loads(path.read_text("utf-8")) if path.is_file() and others else {"sources": {}}
@@ -279,7 +279,7 @@ def _kept_maps(groups: Sequence[str]) -> dict[str, Any]:
 
 
 def merge_maps(parts: Iterable[dict[str, Any]]) -> str:
-    """Source maps of several runs of the compiler, which numbers sources in its own way each time, as one."""
+    """Merge source maps of several runs of the compiler, each of which numbers the sources differently."""
     numbers: dict[str, str] = {}
     sources: dict[str, Any] = {}
     contracts: dict[str, Any] = {}
@@ -297,7 +297,7 @@ def merge_maps(parts: Iterable[dict[str, Any]]) -> str:
 
 
 def _functions(node: Any, owner: str) -> list[list[Any]]:
-    """The functions in a syntax tree: name with that of the contract or file, begin, and length."""
+    """Return the functions in a syntax tree: name with that of the contract or file, begin, and length."""
     if isinstance(node, list):
         return [function for each in node for function in _functions(each, owner)]
     if not isinstance(node, dict):
@@ -315,7 +315,7 @@ def _text(value: object) -> str:
 
 
 def artifacts_of(groups: Sequence[str]) -> set[str]:
-    """The names of the artifact files on disk that belong to these groups."""
+    """Return the names of the artifact files on disk that belong to these groups."""
     names = set()
     for path in ARTIFACTS.glob("*.json"):
         if path.name.startswith(STANDARD_INPUT):
@@ -329,7 +329,7 @@ def artifacts_of(groups: Sequence[str]) -> set[str]:
 
 
 def differences(files: dict[str, str], groups: Sequence[str]) -> list[str]:
-    """What of the artifacts on disk is not as it should be, one line each."""
+    """Return how the artifacts on disk differ from these, one line each."""
     found = artifacts_of(groups)
     lines = [f"{name} is there, but nothing builds it" for name in sorted(found - files.keys())]
     for name, text in files.items():
@@ -346,7 +346,7 @@ def differences(files: dict[str, str], groups: Sequence[str]) -> list[str]:
 
 
 def report_sizes(files: dict[str, str]) -> bool:
-    """Prints the size of every contract; whether all are within the limit."""
+    """Print the size of every contract; return whether all are within the limit."""
     fits = True
     for name, text in files.items():
         if name != SOURCE_MAPS and not name.startswith(STANDARD_INPUT):
@@ -358,7 +358,7 @@ def report_sizes(files: dict[str, str]) -> bool:
 
 
 def main() -> int:
-    """The command."""
+    """Build or check the artifacts."""
     parser = argparse.ArgumentParser(description="Compile the contracts into src/shackled/artifacts.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
     parser.add_argument("--group", choices=tuple(GROUPS), help="only the contracts of this group")

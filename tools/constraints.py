@@ -21,7 +21,7 @@ HEAD = "# The versions with which the project is tested; written by tools/constr
 
 
 def main() -> None:
-    """The command."""
+    """Write the file."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.executable, "-m", "venv", folder], check=True)
         pip = [f"{folder}/bin/python", "-m", "pip"]
@@ -33,7 +33,7 @@ def main() -> None:
 
 
 def constraints(frozen: str, python: tuple[int, int]) -> str:
-    """The file, from what `pip freeze` prints under a version of Python."""
+    """Return the text of the file, from the output of `pip freeze` under a version of Python."""
     marker = f"python_version == '{python[0]}.{python[1]}'"
     return HEAD + "".join(f"{line} ; {marker}\n" for line in frozen.splitlines() if "==" in line)
 

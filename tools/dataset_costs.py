@@ -21,7 +21,7 @@ FILE = Path(__file__).resolve().parent.parent / "src" / "shackled" / "datasets" 
 
 
 def main() -> int:
-    """The command."""
+    """Measure the pieces and write the file."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="change nothing; exit code 1 if the file is wrong")
     check = parser.parse_args().check

@@ -1,6 +1,6 @@
 """Print where the gas of one function of a contract goes: its basic blocks with counts, gas and instructions.
 
-    python tools/gas_blocks.py teapot                              the functions of the engine, the dearest first
+    python tools/gas_blocks.py teapot                              the functions of the engine, most gas first
     python tools/gas_blocks.py teapot LinearSpans.plain             the blocks of one of them
     python tools/gas_blocks.py --call Genesis 0x5d6c... Layouts.fits    of a call of another contract, by its data
 
@@ -15,11 +15,11 @@ import sys
 
 from shackled import load
 from shackled.errors import ShackledError
-from shackled.gas import Frame, blocks, functions, render_call, trace
+from shackled.gas import CallFrame, blocks, functions, render_call, trace
 
 
 def main() -> int:
-    """The command."""
+    """Print the functions of a contract, or the blocks of one, by their gas."""
     text = __doc__ or ""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("input", nargs="?", help="a scene, unless there is --call")
@@ -45,13 +45,13 @@ def main() -> int:
     return _print_functions(root, contract) if function is None else _print_blocks(root, contract, function)
 
 
-def _print_functions(root: Frame, contract: str) -> int:
+def _print_functions(root: CallFrame, contract: str) -> int:
     for name, gas in functions(root, contract):
         print(f"{gas:12,} {name}")
     return 0
 
 
-def _print_blocks(root: Frame, contract: str, function: str) -> int:
+def _print_blocks(root: CallFrame, contract: str, function: str) -> int:
     found = blocks(root, contract, function)
     if not found:
         print(f"{function} was not called in {contract}", file=sys.stderr)

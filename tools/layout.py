@@ -52,13 +52,13 @@ class Section:
 
 
 def named(names: str, text: str, values: Iterator[int]) -> Iterator[Constant]:
-    """The constants of one line of the table, of which the first carries the text."""
+    """Yield the constants of one row of the table; the first carries the text."""
     for i, name in enumerate(names.split()):
         yield Constant(name, next(values), "" if i else text)
 
 
 def registers(table: dict[str, Any]) -> Iterator[Section]:
-    """The sections of registers, one word after the other."""
+    """Yield the sections of registers, one word after the other."""
     address: int = table["registers_begin"]
     first = Constant("REGISTERS", address, table["registers_text"])
     sections = []
@@ -86,14 +86,14 @@ def registers(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def rows_of_registers(part: dict[str, Any]) -> Iterator[tuple[str, int, str]]:
-    """Names, words of each, and what they hold."""
+    """Yield names, words of each, and text of each row."""
     for row in part["rows"]:
         names, *size, text = row
         yield names, size[0] if size else 1, text
 
 
 def records(table: dict[str, Any]) -> Iterator[Section]:
-    """Records of several words: offsets of the fields, and the size; or the fields of records that stand elsewhere."""
+    """Yield records of several words: offsets of the fields, and the size; or fields in the middle of other records."""
     addresses = {constant.name: constant.value for section in registers(table) for constant in section.constants}
     for part in table["records"]:
         constants: list[Constant] = []
@@ -111,7 +111,7 @@ def records(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def bits(table: dict[str, Any]) -> Iterator[Section]:
-    """Flags of a word, a bit each."""
+    """Yield flags of a word, a bit each."""
     for part in table["flags"]:
         values = (1 << i for i in range(256))
         constants = [constant for names, text in part["rows"] for constant in named(names, text, values)]
@@ -119,7 +119,9 @@ def bits(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def words(table: dict[str, Any]) -> Iterator[Section]:
-    """Packed words: of each field its lowest bit and the mask of its value; of a flag, under its own name, the bit."""
+    """Yield packed words: of each field its lowest bit and the mask of its value; of a flag, under its own name, the
+    bit.
+    """
     for part in table["words"]:
         constants = []
         for name, at, width, text in part["rows"]:
@@ -133,14 +135,14 @@ def words(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def flags(table: dict[str, Any]) -> dict[str, int]:
-    """All flags by name."""
+    """Return all flags by name."""
     return {
         constant.name: constant.value for section in [*bits(table), *words(table)] for constant in section.constants
     }
 
 
 def unions(table: dict[str, Any]) -> Iterator[Section]:
-    """Several flags at once."""
+    """Yield sums of several flags."""
     known = flags(table)
     for part in table["unions"]:
         constants = [
@@ -150,7 +152,7 @@ def unions(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def shifts(table: dict[str, Any]) -> Iterator[Section]:
-    """By how many bits one flag is above another."""
+    """Yield by how many bits one flag is above another."""
     known = flags(table)
     for part in table["shifts"]:
         constants = [
@@ -161,7 +163,7 @@ def shifts(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def lanes(table: dict[str, Any]) -> Iterator[Section]:
-    """Numbers side by side in a word: the same in each lane, or a list of them."""
+    """Yield numbers side by side in a word: the same in each lane, or a list of them."""
     for part in table["lanes"]:
         constants = []
         for name, value, text in part["rows"]:
@@ -172,14 +174,14 @@ def lanes(table: dict[str, Any]) -> Iterator[Section]:
 
 
 def numbers(table: dict[str, Any]) -> Iterator[Section]:
-    """What stands alone."""
+    """Yield single numbers."""
     for part in table["numbers"]:
         constants = [Constant(name, value, text) for name, value, text in part["rows"]]
         yield Section(part["title"], part.get("text", ""), tuple(constants))
 
 
 def solidity_literal(value: int) -> str:
-    """Hexadecimal; with 40 digits it would be an address, so there it begins with two zeros more."""
+    """Return a number in hexadecimal; with 40 digits it would be an address, so there it begins with two more zeros."""
     if value < 256:
         return str(value)
     digits = f"{value:x}"
@@ -187,7 +189,7 @@ def solidity_literal(value: int) -> str:
 
 
 def solidity(sections: Iterator[Section], *imports: str) -> str:
-    """A file of constants."""
+    """Return the text of a file of constants."""
     lines = [HEAD.format(imports="".join(f'import "./{name}";\n' for name in imports) + "\n" * bool(imports))]
     for section in sections:
         lines.append(f"// {'-' * (SOLIDITY_WIDTH - 5 - len(section.title))} {section.title}")
@@ -227,13 +229,13 @@ def used_names() -> set[str]:
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
-    """The text in comment lines."""
+    """Wrap a text to comment lines."""
     indent = first if rest is None else rest
     return textwrap.wrap(text, width, initial_indent=first, subsequent_indent=indent) if text else []
 
 
 def files() -> dict[Path, str]:
-    """The text of every file that is made of the table."""
+    """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
     packed = [*numbers(table), *words(table), *unions(table), *shifts(table), *lanes(table)]
     return {
@@ -246,7 +248,7 @@ def files() -> dict[Path, str]:
 
 
 def main() -> int:
-    """The command."""
+    """Write or check the files."""
     made = files()
     if "--check" in sys.argv[1:]:
         stale = [path for path, text in made.items() if not path.exists() or path.read_text("utf-8") != text]

@@ -35,14 +35,14 @@ class World:
         return self.chain.address(contract)
 
     def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
-        """Where a new contract stands."""
+        """Deploy a contract; return its address."""
         address = b"\xde" + len(self.codes).to_bytes(19, "big")
         self.codes[address] = self.chain.create("a contract", creation + arguments)
         return address
 
     def run(self, to: bytes, data: bytes, gas: int = GAS, created: bool = False, before: Sequence[bytes] = ()) -> bytes:
-        """Calls a contract; `gas` then tells what it took without the cost of a transaction. With `created`, the answer
-        is the address of a contract that is kept from now on. `before` are the data of calls of it that come first.
+        """Call a contract; `gas` then has the execution gas. With `created`, the answer is the address of a contract
+        that is kept. `before`: data of calls of it that come first.
         """
         import pyrevm
 
@@ -71,17 +71,17 @@ class World:
                 self._keep(evm, code[at : at + 20])
 
     def call(self, contract: str, signature: str, *values: Any, gas: int = GAS) -> Any:
-        """The one value that a function returns."""
+        """Return the single value that a function returns."""
         output = self.run(self.address(contract), call_data(signature, *values), gas)
         return decode([returned(contract, signature)], output)[0]
 
     def store(self, signature: str, *values: Any) -> bytes:
-        """Stores something in the Studio; its pointer."""
+        """Store something in the Studio; return its pointer."""
         return self.run(self.address("Studio"), call_data(signature, *values), created=True)[12:32]
 
 
 def call_data(signature: str, *values: Any) -> bytes:
-    """The data of a call of a function whose parameters have these types."""
+    """Encode a call of a function whose parameters have these types."""
     from Crypto.Hash import keccak
 
     kinds = signature.partition("(")[2][:-1]
@@ -90,7 +90,7 @@ def call_data(signature: str, *values: Any) -> bytes:
 
 
 def returned(contract: str, signature: str) -> str:
-    """The type of what a function returns."""
+    """Return the type of a function's return value."""
     name = signature.partition("(")[0]
     (kind,) = {entry["outputs"][0]["type"] for entry in artifact(contract).abi if entry.get("name") == name}
     return str(kind)

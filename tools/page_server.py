@@ -53,16 +53,16 @@ class Started:
 
 
 def browser_path() -> str | None:
-    """Where a browser is, if there is one."""
+    """Return the path of a browser, or None."""
     return next((path for path in map(shutil.which, BROWSERS) if path), None)
 
 
 @contextmanager
 def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
-    """The server of `shackled creator`; port 0 is any that is free. variables: of its environment."""
+    """Run the server of `shackled creator`. Port 0 is any free one. variables: of its environment."""
     # NiceGUI behaves in another way where it believes to be under test
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    # what somebody has deployed on this machine is no part of it
+    # without the address book of this machine
     environment |= {"SHACKLED_ADDRESS_BOOK": str(Path(__file__).parent / "no-address-book.json")} | variables
     at = time.monotonic()
     process = subprocess.Popen(
@@ -83,7 +83,7 @@ def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Star
 
 
 def pixels(page: Any) -> bytes:
-    """What the canvas shows: red, green, blue, rows from the top."""
+    """Return the pixels of the canvas: red, green, blue, rows from the top."""
     data = page.evaluate(
         """() => {
             const canvas = document.getElementById('picture');

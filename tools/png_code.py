@@ -1,15 +1,25 @@
-"""Write contracts/src/encode/PngCode.sol: the tables of the PNG encoder, of the code lengths in shackled.reference.png.
+"""Model the PNG encoder of contracts/src/encode/Png.sol, and write its tables: contracts/src/encode/PngCode.sol.
 
 python tools/png_code.py            writes the file
 python tools/png_code.py --check    writes nothing; fails if the file is not as it would be written
+
+Each pixel becomes a square of `scale` pixels, so that it stays crisp where pictures are enlarged smoothly. The first
+row of each square holds the pixels themselves (filter None), the others equal the row above (filter Up): zeros. A
+pixel is written as its three bytes, and a match that repeats them until another one comes. All bytes have codes of nine
+bits, so that no table is needed for them; one code, fitted to pictures of this renderer, serves all.
 """
 
 from __future__ import annotations
 
+import struct
 import sys
+import zlib
+from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
-from shackled.reference import png
+import numpy as np
+from numpy.typing import NDArray
 
 TARGET = Path(__file__).resolve().parent.parent / "contracts" / "src" / "encode" / "PngCode.sol"
 
@@ -57,27 +67,205 @@ library PngCode {{
 }}
 """
 
+#: Bits of the code of each byte.
+LITERAL_LENGTH = 9
+#: Bits of the code of each symbol: 256 bytes, the end, 29 lengths of matches.
+CODE_LENGTHS = 256 * [LITERAL_LENGTH] + [int(digit, 16) for digit in "c4eeeee4eeead2d98a98a788887774"]
+END = 256
+SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+#: In PNG: a row of pixels as they are, and of their differences from the row above.
+NONE = 0
+UP = 2
+
+#: Codes of the two distances: of the byte before, and of the pixel before.
+BYTE, PIXEL = "0", "1"
+#: The longest match.
+LONGEST = 258
+
+#: Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
+PART = 256
+#: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, as many pixels as fit into
+#: a word are written all if so many of them are not like those at their left.
+BLOCK = 8
+MANY = 4
+
+
+def encode_png(pixels: NDArray[np.uint8], scale: int = 1) -> bytes:
+    """Encode (height, width, 3) pixels, red, green, blue, rows from the top, each enlarged `scale` times."""
+    height, width, _ = pixels.shape
+    head = struct.pack(">IIBBBBB", width * scale, height * scale, 8, 2, 0, 0, 0)
+    filtered = _filtered(pixels, scale)
+    data = b"\x78\x01" + _deflate(pixels, scale) + struct.pack(">I", zlib.adler32(filtered))
+    return SIGNATURE + _chunk(b"IHDR", head) + _chunk(b"IDAT", data) + _chunk(b"IEND", b"")
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def _filtered(pixels: NDArray[np.uint8], scale: int) -> bytes:
+    """Return the bytes that are compressed."""
+    rows = []
+    size = 3 * pixels.shape[1] * scale
+    for row in pixels:
+        rows.append(bytes([NONE]) + row.repeat(scale, 0).tobytes() + (bytes([UP]) + bytes(size)) * (scale - 1))
+    return b"".join(rows)
+
+
+def _deflate(pixels: NDArray[np.uint8], scale: int) -> bytes:
+    """Return one block with the code, in bits: "0" and "1" in the order of the stream."""
+    width = pixels.shape[1]
+    above = literal(UP) + literal(0) + match(3 * width * scale - 1, BYTE)
+    bits = [code_header()]
+    for row in pixels:
+        bits.append(literal(NONE))
+        for begin in range(0, width, PART):
+            part = row[begin : begin + PART]
+            places = [*_written(part, scale), len(part)]
+            for place, following in pairwise(places):
+                bits += [*map(literal, part[place].tolist()), match(3 * scale * (following - place) - 3, PIXEL)]
+        bits += (scale - 1) * [above]
+    bits.append(codes()[END])
+    return packed("".join(bits))
+
+
+def _written(part: NDArray[np.uint8], scale: int) -> list[int]:
+    """Return which pixels are written; the others equal those at their left."""
+    written = np.append(True, (part[1:] != part[:-1]).any(1))
+    if 3 * LITERAL_LENGTH + len(match(3 * scale - 3, PIXEL)) == 32:
+        # the first pixel of a part is written anyway
+        changed = np.append(False, written[1:])
+        for begin in range(0, len(part) - BLOCK + 1, BLOCK):
+            if changed[begin : begin + BLOCK].sum() >= MANY:
+                written[begin : begin + BLOCK] = True
+    return np.flatnonzero(written).tolist()
+
+
+def packed(bits: str) -> bytes:
+    """Pack bits into bytes, the first bit lowest."""
+    bits += "0" * (-len(bits) % 8)
+    return bytes(int(bits[at : at + 8][::-1], 2) for at in range(0, len(bits), 8))
+
+
+def literal(value: int) -> str:
+    """Return the code of a byte."""
+    return codes()[value]
+
+
+def match(length: int, distance: str) -> str:
+    """Return the code of a repetition of so many bytes, none or at least 3, at one of the two distances."""
+    if not length:
+        return ""
+    # so many of the longest that at least 3 are left
+    longest, rest = divmod(length - 3, LONGEST)
+    return longest * (codes()[285] + distance) + short_match(rest + 3, distance)
+
+
+@cache
+def short_match(length: int, distance: str) -> str:
+    """Return the code of a repetition of 3 to 260 bytes."""
+    if length > LONGEST:
+        return short_match(length - 3, distance) + short_match(3, distance)
+    symbol, extra, first = next(row for row in reversed(_lengths()) if row[2] <= length)
+    more = f"{length - first:0{extra}b}"[::-1] if extra else ""
+    return codes()[symbol] + more + distance
+
+
+def _lengths() -> list[tuple[int, int, int]]:
+    """Return for each symbol of a length: the symbol, its extra bits, its first length. RFC 1951, 3.2.5."""
+    rows, length = [], 3
+    for symbol in range(257, 285):
+        extra = max(0, (symbol - 261) // 4)
+        rows.append((symbol, extra, length))
+        length += 1 << extra
+    return [*rows, (285, 0, 258)]
+
+
+@cache
+def codes() -> list[str]:
+    """Return the code of each symbol. RFC 1951, 3.2.2."""
+    return canonical(CODE_LENGTHS)
+
+
+def canonical(lengths: list[int]) -> list[str]:
+    """Return the codes of these lengths: shorter ones first, in the order of the symbols."""
+    result = [""] * len(lengths)
+    code, before = 0, 0
+    for length, symbol in sorted((length, symbol) for symbol, length in enumerate(lengths) if length):
+        code <<= length - before
+        result[symbol] = f"{code:0{length}b}"
+        code, before = code + 1, length
+    return result
+
+
+@cache
+def code_header() -> str:
+    """Return the header of the block: the last one, with dynamic codes."""
+    # the distances 1 and 3 have a bit each, 2 has none
+    lengths = [*CODE_LENGTHS, 1, 0, 1]
+    # the lengths of the codes, themselves as symbols: 16 repeats the one before 3 to 6 times
+    symbols: list[tuple[int, str]] = []
+    while lengths:
+        value, times = lengths[0], 1
+        while times < len(lengths) and lengths[times] == value:
+            times += 1
+        del lengths[:times]
+        symbols.append((value, ""))
+        times -= 1
+        while times >= 3:
+            part = min(times, 6)
+            symbols.append((16, f"{part - 3:02b}"[::-1]))
+            times -= part
+        symbols += times * [(value, "")]
+    order = [16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15]
+    used = sorted({symbol for symbol, _ in symbols})
+    # codes of three bits while there are symbols for them, of four for the others
+    short = 16 - len(used)
+    by_count = sorted(used, key=lambda symbol: -sum(each == symbol for each, _ in symbols))
+    sizes = [0] * 19
+    for rank, symbol in enumerate(by_count):
+        sizes[symbol] = 3 if rank < short else 4
+    texts = canonical(sizes)
+    last = max(at for at, symbol in enumerate(order) if sizes[symbol])
+    return "".join(
+        [
+            "1",
+            "01",
+            _number(len(CODE_LENGTHS) - 257, 5),
+            _number(2, 5),
+            _number(last + 1 - 4, 4),
+            *(_number(sizes[symbol], 3) for symbol in order[: last + 1]),
+            *(texts[symbol] + more for symbol, more in symbols),
+        ]
+    )
+
+
+def _number(value: int, bits: int) -> str:
+    """Return the bits of a number, the lowest first."""
+    return f"{value:0{bits}b}"[::-1]
+
 
 def write() -> str:
-    """The text of the file."""
-    matches = [png.short_match(length, png.PIXEL) for length in range(3, 261)]
-    longest, zeros = (png.short_match(png.LONGEST, distance) for distance in (png.PIXEL, png.BYTE))
-    others = {int(png.short_match(n, png.PIXEL), 2) ^ int(png.short_match(n, png.BYTE), 2) for n in (259, 260)}
-    header = png.code_header()
+    """Return the text of the file."""
+    matches = [short_match(length, PIXEL) for length in range(3, 261)]
+    longest, zeros = (short_match(LONGEST, distance) for distance in (PIXEL, BYTE))
+    others = {int(short_match(n, PIXEL), 2) ^ int(short_match(n, BYTE), 2) for n in (259, 260)}
+    header = code_header()
     whole = len(header) // 8 * 8
     return FILE.format(
         tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in matches)),
         header=_literal(f"{int(header[:whole], 2):0{whole // 4}x}"),
-        literal=int(png.literal(0), 2),
-        literals=int(3 * png.literal(0), 2),
+        literal=int(literal(0), 2),
+        literals=int(3 * literal(0), 2),
         longest_size=len(longest),
         longest=f"0x{int(32 * longest, 2):064x}",
         zeros=f"0x{int(32 * zeros, 2):064x}",
         others=hex(others.pop()),
         rest=int(header[whole:] or "0", 2),
         rest_size=len(header) - whole,
-        end=int(png.codes()[png.END], 2),
-        end_size=len(png.codes()[png.END]),
+        end=int(codes()[END], 2),
+        end_size=len(codes()[END]),
     )
 
 
@@ -87,7 +275,7 @@ def _literal(digits: str) -> str:
 
 
 def main() -> int:
-    """The command."""
+    """Write or check the file."""
     text = write()
     if "--check" in sys.argv[1:]:
         return int(TARGET.read_text("utf-8") != text)

@@ -7,8 +7,8 @@
     python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
-Packages of the system that are missing are installed by apt-get, if that is there and we are root, unless the variable
-SHACKLED_NO_APT is set. The versions of Python's packages are those of tools/constraints.txt.
+Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
+SHACKLED_NO_APT is set. The versions of Python packages are those of tools/constraints.txt.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ PIP = "pip>=25.1"
 
 
 def main() -> int:
-    """The command."""
+    """Prepare what the arguments name."""
     targets = {
         "package": prepare_package,
         "creator": prepare_creator,
@@ -63,7 +63,7 @@ def main() -> int:
 
 
 def prepare_package() -> None:
-    """The package in .venv, from the sources where they are."""
+    """Install the package in .venv, editable."""
     make_venv()
     say("installing the package")
     install("--editable", ROOT)
@@ -71,7 +71,7 @@ def prepare_package() -> None:
 
 
 def prepare_creator() -> None:
-    """The package with the extra "creator"."""
+    """Install the package with the extra "creator"."""
     make_venv()
     say("installing the package and the page")
     install("--editable", f"{ROOT}[creator]")
@@ -80,7 +80,7 @@ def prepare_creator() -> None:
 
 
 def prepare_dev() -> None:
-    """The package and the dependency group "dev"."""
+    """Install the package and the dependency group "dev"."""
     make_venv()
     say("installing the package and the tools of development")
     install("--upgrade", PIP)
@@ -90,7 +90,7 @@ def prepare_dev() -> None:
 
 
 def prepare_node() -> None:
-    """contracts/node_modules as package-lock.json says."""
+    """Install contracts/node_modules from package-lock.json."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
     check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
@@ -102,7 +102,7 @@ def prepare_node() -> None:
 
 
 def check_node(said: str) -> None:
-    """Stops if Node is too old. said: what `node --version` prints, as v20.19.2."""
+    """Exit if Node is too old. said: the output of `node --version`, as v20.19.2."""
     major = said.strip().removeprefix("v").partition(".")[0]
     if not major.isdecimal() or int(major) < OLDEST_NODE:
         raise SystemExit(
@@ -112,7 +112,7 @@ def check_node(said: str) -> None:
 
 
 def prepare_browser() -> None:
-    """Chromium, as a package of the system. Without it, all tests but those of the page can be run."""
+    """Install Chromium as a package of the system. Only the tests of the page need it."""
     if any(map(shutil.which, BROWSERS)):
         return
     try:
@@ -122,7 +122,7 @@ def prepare_browser() -> None:
 
 
 def prepare_opengl() -> None:
-    """OpenGL by EGL, as packages of the system. Without it, all tests but those against OpenGL can be run."""
+    """Install OpenGL by EGL as packages of the system. Only the tests against OpenGL need it."""
     folders = (*Path("/usr").glob("lib*"), *Path("/usr/lib").glob("*-linux-gnu"))
     has_renderer = any(list(folder.glob(name)) for folder in folders for name in OPENGL_RENDERERS)
     if has_renderer and all(map(find_library, OPENGL_LIBRARIES)):
@@ -134,7 +134,7 @@ def prepare_opengl() -> None:
 
 
 def make_venv() -> None:
-    """An empty .venv, if there is none that works."""
+    """Create .venv, if there is none that works."""
     if sys.version_info < OLDEST_PYTHON:
         found, needed = (".".join(map(str, v[:2])) for v in (sys.version_info, OLDEST_PYTHON))
         raise SystemExit(f"Python {needed} or newer is needed, this is {found}: make PYTHON=python{needed} ...")
@@ -147,12 +147,12 @@ def make_venv() -> None:
 
 
 def install(*wanted: object) -> None:
-    """Installs packages of Python in .venv."""
+    """Install Python packages in .venv."""
     run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", CONSTRAINTS, *wanted)
 
 
 def apt_install(what: str, *packages: str) -> None:
-    """Installs packages of the system."""
+    """Install packages of the system."""
     if not shutil.which("apt-get") or os.geteuid() != 0 or os.environ.get("SHACKLED_NO_APT"):
         raise SystemExit(f"missing: {what}; install it, for instance by: sudo apt-get install {' '.join(packages)}")
     say(f"missing: {what}; installing {' '.join(packages)}")
@@ -162,12 +162,12 @@ def apt_install(what: str, *packages: str) -> None:
 
 
 def run(*command: object, cwd: Path = ROOT, env: dict[str, str] | None = None) -> None:
-    """Runs a command; CalledProcessError if it fails."""
+    """Run a command; raise CalledProcessError if it fails."""
     subprocess.run([str(part) for part in command], cwd=cwd, env=env, check=True)
 
 
 def say(text: str) -> None:
-    """Tells what is going on."""
+    """Print a message about the progress."""
     print(f"{text} ...", flush=True)
 
 

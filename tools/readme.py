@@ -28,7 +28,7 @@ ROWS = {
 
 
 def costs() -> str:
-    """The table of what pictures cost."""
+    """Return the table of what pictures cost."""
     if not RESULTS.exists():
         return "Run `make bench` for the figures."
     data: dict[str, dict[str, Any]] = next(iter(json.loads(RESULTS.read_text("utf-8")).values()))
@@ -42,7 +42,7 @@ def costs() -> str:
 
 
 def tokens() -> str:
-    """What tokens cost, beside what the authors of the original tell."""
+    """Return the table of what tokens cost, beside the figures of the original's authors."""
     data: dict[str, int] = json.loads(TOKENS.read_text("utf-8"))
     mean = next(value for name, value in data.items() if name.startswith("tokenURI, mean"))
     most = next(value for name, value in data.items() if name.startswith("tokenURI, most"))
@@ -56,7 +56,7 @@ def tokens() -> str:
 
 
 def pictures() -> str:
-    """What the pictures of the documentation cost."""
+    """Return the table of what the pictures of the documentation cost."""
     data = json.loads(PICTURES.read_text("utf-8"))
     scene, strip, teapot = data["scene"], data["strip"], data["teapot"]
     return (
@@ -69,12 +69,12 @@ def pictures() -> str:
 
 
 def millions(gas: float) -> str:
-    """Such as 4.9 million."""
+    """Format gas as 4.9 million."""
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
 
 
 def main() -> int:
-    """The command."""
+    """Update the README."""
     parser = argparse.ArgumentParser(description="Bring the figures of README.md up to date.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check

@@ -1,9 +1,9 @@
-"""Worker processes: a function is called in another process, which may be ended at any time.
+"""Call functions in worker processes, which may be killed at any time.
 
-Threads would not do for an embedded EVM: pyrevm and py-evm keep the interpreter's lock while they run.
+Threads do not help an embedded EVM: pyrevm and py-evm hold the interpreter's lock while they run.
 
-The processes are started as programs of their own and not by `multiprocessing`, which would run the script of whoever
-calls us once more in each of them. They end with this process, however it ends.
+The processes are started as separate programs and not by `multiprocessing`, which would run the main script again in
+each of them. They end with this process, however it ends.
 """
 
 from __future__ import annotations
@@ -25,30 +25,30 @@ from .errors import RenderError
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-#: What stands first in a message of a worker.
-_DONE, _FAILED, _TOLD = range(3)
+#: The kinds of messages of a worker.
+_DONE, _FAILED, _PROGRESS = range(3)
 #: Errors of streams to and from a process that has ended.
 _BROKEN = (EOFError, OSError, ValueError, pickle.UnpicklingError)
-#: What a worker runs. The modules of the functions that it is to call may be found only where this process finds them.
+#: The program of a worker. It imports the modules of functions by the same path as this process.
 _PROGRAM = """
 import pickle, sys
 try:
     sys.path[:] = pickle.load(sys.stdin.buffer)
-except (EOFError, pickle.UnpicklingError):  # whoever started this has ended meanwhile
+except (EOFError, pickle.UnpicklingError):  # the parent has ended meanwhile
     sys.exit()
 from shackled.workers import _serve
 _serve()
 """
-#: Seconds for a process to start and to prepare itself, on a machine that is busy.
+#: Seconds for a process to start and to prepare itself, on a busy machine.
 STARTING = 60.0
 
 
 class WorkerEndedError(RenderError):
-    """The process ended before it answered: it was killed, perhaps for want of memory."""
+    """The process ended before it answered; it may have been killed for lack of memory."""
 
 
 class WorkerLateError(RenderError):
-    """The process did not answer in time, and was ended."""
+    """The process did not answer in time, and was killed."""
 
 
 class _Traceback(Exception):
@@ -56,8 +56,10 @@ class _Traceback(Exception):
 
 
 class Worker:
-    """A process that calls functions, one after the other. It is started when it is first needed, and another one
-    when it has ended. One thread at a time may use `call`; any thread `kill` and `close`.
+    """A process that calls functions, one after the other.
+
+    It is started by the first call, and again by a call after it has ended. One thread at a time may use `call`; any
+    thread may use `kill` and `close`.
     """
 
     def __init__(
@@ -69,8 +71,8 @@ class Worker:
     ) -> None:
         """Start nothing yet.
 
-        prepare: called in each new process with the arguments. memory: bytes of address space, where the system knows
-        such a limit. niceness: added to that of this process.
+        prepare: called in each new process with the arguments. memory: limit of address space in bytes, where the
+        system has such a limit. niceness: added to that of this process.
         """
         self._prepare = (prepare, *arguments)
         self._limits = memory, niceness
@@ -80,7 +82,7 @@ class Worker:
 
     @property
     def pid(self) -> int | None:
-        """The id of the process, if there is one."""
+        """Return the id of the process, or None if there is none."""
         process = self._process
         return None if process is None else process.pid
 
@@ -89,37 +91,37 @@ class Worker:
         function: Callable[..., Result],
         *arguments: Any,
         seconds: float | None = None,
-        told: Callable[..., object] | None = None,
-        unwanted: Callable[[], bool] = bool,
+        on_progress: Callable[..., object] | None = None,
+        cancelled: Callable[[], bool] = bool,
     ) -> Result:
-        """Call a function, which must be one of a module, in the process; return its result or raise its error.
+        """Call a function of a module in the process; return its result or raise its error.
 
-        seconds: that it may take. told: called with what the function hands to `tell`. unwanted: whether nobody wants
-        the result any more; who says so then calls `kill`.
+        seconds: time limit. on_progress: called with the arguments of each `report_progress`. cancelled: whether the
+        result is no longer wanted; whoever cancels also calls `kill`.
         Raises WorkerLateError or WorkerEndedError if there is no answer.
         """
         for is_last in (False, True):
             process = self._start()
-            if unwanted():
-                # a process that was not there yet when it was to be killed is not given the work
-                raise WorkerEndedError("nobody wants the result any more")
+            if cancelled():
+                # the call was cancelled before there was a process to kill
+                raise WorkerEndedError("the call was cancelled")
             try:
                 _hand_over(process, function, arguments)
                 break
-            except _BROKEN:  # it had ended while it had nothing to do
+            except _BROKEN:  # it had ended while it was idle
                 self.end()
                 if is_last:
                     raise WorkerEndedError("a worker process ended before it began its work") from None
-        return self._answer(process, seconds, told)  # type: ignore[no-any-return]
+        return self._answer(process, seconds, on_progress)  # type: ignore[no-any-return]
 
     def kill(self) -> None:
-        """End the process at once. Who waits for an answer gets a WorkerEndedError."""
+        """Kill the process; a call that waits for it raises WorkerEndedError."""
         process = self._process
         if process is not None:
             process.kill()
 
     def end(self) -> None:
-        """End the process and free what it held; the next call starts another one."""
+        """End the process and close its streams; the next call starts another one."""
         with self._lock:
             process, self._process = self._process, None
         if process is not None:
@@ -131,7 +133,7 @@ class Worker:
                     stream.close()
 
     def close(self) -> None:
-        """End the process, and start none from now on."""
+        """End the process, and start none again."""
         self._closed = True
         self.end()
 
@@ -140,7 +142,7 @@ class Worker:
         if process is not None and process.poll() is None:
             return process
         self.end()
-        # in a session of its own, so that Ctrl-C reaches only the process that decides what happens then
+        # in a new session, so that Ctrl-C reaches only this process
         process = self._process = subprocess.Popen(
             [sys.executable, "-c", _PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
         )
@@ -159,7 +161,7 @@ class Worker:
         return process
 
     def _answer(
-        self, process: subprocess.Popen[bytes], seconds: float | None, told: Callable[..., object] | None
+        self, process: subprocess.Popen[bytes], seconds: float | None, on_progress: Callable[..., object] | None
     ) -> Any:
         late = threading.Event()
 
@@ -175,10 +177,10 @@ class Worker:
         try:
             while True:
                 kind, content = pickle.loads(pickle.load(process.stdout))
-                if kind != _TOLD:
+                if kind != _PROGRESS:
                     break
-                if told is not None:
-                    told(*content)
+                if on_progress is not None:
+                    on_progress(*content)
         except _BROKEN:
             self.end()
             if late.is_set():
@@ -194,14 +196,14 @@ class Worker:
 
 
 def _hand_over(process: subprocess.Popen[bytes], function: Callable[..., object], arguments: tuple[Any, ...]) -> None:
-    """Give a process its work, and wait until it has begun."""
+    """Send a call to a process, and wait until it has begun."""
     _send(process.stdin, pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL))
     assert process.stdout is not None
     pickle.load(process.stdout)
 
 
 def each(function: Callable[[Item], Result], items: Iterable[Item], processes: int) -> Iterator[tuple[int, Result]]:
-    """Call a function for each item in several processes; yield (place of the item, result) as they are done."""
+    """Call a function for each item in several processes; yield (index of the item, result) as they are done."""
     items = list(items)
     workers = [Worker() for _ in range(min(processes, len(items)))]
     idle: queue.SimpleQueue[Worker] = queue.SimpleQueue()
@@ -226,21 +228,21 @@ def each(function: Callable[[Item], Result], items: Iterable[Item], processes: i
                 worker.close()
 
 
-def tell(*values: Any) -> None:
-    """Hand something to the caller of the function that is being called in this worker, before its result."""
-    _send(_answers, pickle.dumps((_TOLD, values), pickle.HIGHEST_PROTOCOL))
+def report_progress(*values: Any) -> None:
+    """Send values from the function that this worker runs to the `on_progress` of its caller."""
+    _send(_answers, pickle.dumps((_PROGRESS, values), pickle.HIGHEST_PROTOCOL))
 
 
-# ---- in the process ----
+# ---- in the worker ----
 
 _answers: IO[bytes] | None = None
 
 
 def _serve() -> None:
-    """Call what comes in by standard input until that is closed."""
+    """Make the calls that come by standard input until it is closed."""
     global _answers
     _answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    # what a library may print goes where people look
+    # what a library prints goes to stderr
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     with suppress(EOFError, OSError):
         _restrict(*pickle.loads(pickle.load(sys.stdin.buffer)))

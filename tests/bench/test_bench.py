@@ -15,10 +15,10 @@ from shackled.artifacts import artifact
 from shackled.bench import (
     CODE_SIZES,
     EXPERIMENTS,
-    Lab,
+    ExperimentReport,
     PyEvmDeployer,
     PyrevmDeployer,
-    Report,
+    Runner,
     call_renderer,
     cost,
     fits,
@@ -96,7 +96,7 @@ def test_without_a_name_all_are_made(
             made.append(name)
             return [folder / name]
 
-    monkeypatch.setattr(bench, "run", lambda name, lab: Nothing())
+    monkeypatch.setattr(Runner, "run", lambda self, name: Nothing())
     for options in ([], ["--all"], ["--quick"]):
         made.clear()
         assert run(["bench", "-o", str(tmp_path), *options]) == 0
@@ -263,9 +263,9 @@ def double(number: int) -> int:
 
 
 def test_several_processes_keep_the_order() -> None:
-    with Lab(processes=2) as lab:
-        assert lab.map("doubles", double, range(20)) == list(range(0, 40, 2))
-        assert lab.map("doubles", double, [1], alone=True) == [2]
+    with Runner(processes=2) as runner:
+        assert runner.map("doubles", double, range(20)) == list(range(0, 40, 2))
+        assert runner.map("doubles", double, [1], alone=True) == [2]
 
 
 def test_tables_are_not_wrapped() -> None:
@@ -317,7 +317,7 @@ def test_without_matplotlib(
 
 def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    report = Report("Title", ["a"], [[1], [None]], "text", lambda figure: None)
+    report = ExperimentReport("Title", ["a"], [[1], [None]], "text", lambda figure: None)
     assert report.csv() == 'a\n1\n""\n'
     with pytest.raises(InputError, match=r"folder cannot be written: Not a directory"):
         report.save("name", tmp_path / "file" / "folder")

@@ -156,7 +156,7 @@ def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: py
         drawn.append(arguments)
         return draw_part(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("shackled.parallel._place.draw_part", counted)
+    monkeypatch.setattr("shackled.parallel._backends.draw_part", counted)
     assert run(["render", "shape.obj", "--size", "48", *options, "-o", "spin.gif"]) == 1
     messages = capsys.readouterr().err.splitlines()
     assert messages[-2:] == [

@@ -18,7 +18,7 @@ from shackled.gas import (
     MARGIN,
     STAGES,
     WIDTH,
-    Frame,
+    CallFrame,
     Profile,
     flame_graph,
     measure,
@@ -90,7 +90,7 @@ def test_the_stack_of_calls_is_that_of_the_sources(profiles: dict[str, Profile])
 def test_calls_are_left_where_they_were_entered(scenes: dict[str, Scene]) -> None:
     root, _ = trace("Renderer", render_call(scenes["smooth"]))
 
-    def depth(frame: Frame) -> int:
+    def depth(frame: CallFrame) -> int:
         return 1 + max(map(depth, frame.calls.values()), default=0)
 
     # a missed way out of a function would nest without end

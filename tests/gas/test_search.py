@@ -14,7 +14,7 @@ from shackled.errors import OutOfGasError
 from shackled.gas import (
     FIRST_LIMIT,
     KEPT,
-    Step,
+    SearchStep,
     engine_calls,
     floor_gas,
     margin,
@@ -31,7 +31,7 @@ NAMES = ("smooth", "clipped, wires, inverted", "empty")
 @pytest.mark.parametrize("least", [1, 2, 3, 1000, FIRST_LIMIT - 1, FIRST_LIMIT, FIRST_LIMIT + 1, 77_777_777])
 @pytest.mark.parametrize("upper", [None, 1 << 27])
 def test_it_finds_the_least_that_is_enough(least: int, upper: int | None) -> None:
-    steps: list[Step] = []
+    steps: list[SearchStep] = []
     found = search(lambda limit: limit >= least, upper=upper, report=steps.append)
     assert found.gas == least
     assert found.steps == tuple(steps)
@@ -51,7 +51,10 @@ def test_it_finds_the_least_that_is_enough(least: int, upper: int | None) -> Non
 
 def test_it_halves() -> None:
     assert search(lambda limit: limit >= 700, 0, 1024).calls <= 11
-    assert search(lambda limit: limit >= 700, 699, 701).steps == (Step(701, True, 699, 701), Step(700, True, 699, 700))
+    assert search(lambda limit: limit >= 700, 699, 701).steps == (
+        SearchStep(701, True, 699, 701),
+        SearchStep(700, True, 699, 700),
+    )
 
 
 def test_limits_that_cannot_be() -> None:

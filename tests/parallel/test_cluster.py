@@ -14,7 +14,7 @@ from attrs import evolve
 from nodes import Reply, serving
 from shackled import ChainError, InputError, Scene, load
 from shackled.chain import Drawing
-from shackled.parallel import ClusterPlace, Listener, Where, render_frames
+from shackled.parallel import ClusterBackend, Listener, Where, render_frames
 from shackled.scene import Rectangle, full_turn
 
 pytest.importorskip("distributed")
@@ -24,7 +24,7 @@ SCENE = evolve(load("teapot"), width=48, height=48)
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
     """A cluster of two workers that somebody else has started."""
-    command = [sys.executable, "-m", "shackled.parallel._local_cluster", "2"]
+    command = [sys.executable, "-m", "shackled.parallel._cluster", "2"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as process:
@@ -48,13 +48,13 @@ def test_a_turntable_on_two_workers(address: str) -> None:
 
 def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its workers have our contracts: without being asked for, nothing is compared."""
-    draw, tile = ClusterPlace.work, (48, 16)
+    draw, tile = ClusterBackend.render, (48, 16)
 
-    def lie(place: ClusterPlace, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
-        piece = draw(place, seat, scene, tile)
+    def lie(place: ClusterBackend, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        piece = draw(place, slot, scene, tile)
         return replace(piece, bmp=piece.bmp[:-1] + b"\x7f") if tile.y == 32 else piece
 
-    monkeypatch.setattr(ClusterPlace, "work", lie)
+    monkeypatch.setattr(ClusterBackend, "render", lie)
     wrong = render_frames([SCENE], Where(cluster=address, tile=tile))
     assert wrong.images[0].bmp != render_frames([SCENE], Where(tile=tile)).images[0].bmp
     with pytest.raises(ChainError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
@@ -77,7 +77,7 @@ def test_what_a_worker_says_is_told(address: str) -> None:
 def test_something_else_than_a_cluster() -> None:
     """Nothing but one line, and at once."""
     program = (
-        "import sys; from shackled.cli.app import run; from shackled.parallel import cluster; cluster.PATIENCE = 2; "
+        "import sys; from shackled.cli.app import run; from shackled.parallel import _cluster; _cluster.PATIENCE = 2; "
         "sys.exit(run(['render', 'cube', '--size', '8', '--cluster', %r]))"
     )
     with serving(lambda request: Reply(b"?")) as url:
@@ -89,7 +89,7 @@ def test_something_else_than_a_cluster() -> None:
 
 
 def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
-    command = [sys.executable, "-m", "shackled.parallel._local_cluster", "1"]
+    command = [sys.executable, "-m", "shackled.parallel._cluster", "1"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as process:
@@ -133,7 +133,7 @@ class Workers:
     ],
 )
 def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
-    place = ClusterPlace.__new__(ClusterPlace)
+    place = ClusterBackend.__new__(ClusterBackend)
     place._client = Workers(found)  # type: ignore[assignment]
     with pytest.raises(InputError, match=message):
         place._check()

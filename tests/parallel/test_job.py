@@ -16,13 +16,13 @@ from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, loa
 from shackled.chain import PyrevmChain, open_chain
 from shackled.parallel import (
     COMPARED_GAS,
-    ChainPlace,
+    ChainBackend,
     Part,
-    ProcessPlace,
-    Referee,
-    Store,
+    PartStore,
+    ProcessBackend,
+    Verifier,
     Where,
-    choose_referee,
+    choose_verifier,
     draw_part,
     estimate,
     plan,
@@ -68,7 +68,7 @@ def test_parts_fit_their_gas() -> None:
     chain = open_chain()
     assert isinstance(chain, PyrevmChain)
     job = render_frames([SCENE], Where(gas_limit=limit))
-    tiles = plan(SCENE, 1, [ChainPlace(chain, gas=limit)], estimate(SCENE, chain), None)
+    tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE, chain), None)
     assert 1 < len(tiles) <= job.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
@@ -101,14 +101,14 @@ def test_a_picture_of_2048() -> None:
 
 
 def test_a_worker_that_dies_is_replaced() -> None:
-    place = ProcessPlace(None, 1)
+    place = ProcessBackend(None, 1)
     tile = Rectangle(0, 0, 96, 20)
     try:
-        first = place.work(0, SCENE, tile)
+        first = place.render(0, SCENE, tile)
         pid = place._workers[0].pid
         assert pid is not None
         os.kill(pid, signal.SIGKILL)
-        assert place.work(0, SCENE, tile) == first
+        assert place.render(0, SCENE, tile) == first
         assert place._workers[0].pid != pid
     finally:
         place.close()
@@ -148,7 +148,7 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
         ({"on": 5}, "`on` must be one of pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
         ({"on": Nodes("nowhere")}, "must be the address of a node"),
         ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "`verify` must be all, some or none, not 'most'"),
-        ({"on": Processes(2, open_chain("reference"))}, "give its name"),  # type: ignore[arg-type]
+        ({"on": Processes(2, open_chain("reference"))}, "pass its name"),  # type: ignore[arg-type]
     ],
 )
 def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
@@ -169,9 +169,9 @@ def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, w
     assert job.estimated_gas is None
     assert job.calls > 1
     assert job.images[0].bmp == whole.bmp
-    monkeypatch.setattr("shackled.parallel._referee.open_chain", lambda name: open_chain(name) if name else slow)
+    monkeypatch.setattr("shackled.parallel._backends.open_chain", lambda name: open_chain(name) if name else slow)
     # NumPy draws what nodes are compared with
-    judge, small, cube = Referee(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
+    judge, small, cube = Verifier(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
     piece, right = draw_part(open_chain("pyrevm"), cube, small), judge.draw(cube, small)
     assert right.gas is None
     assert piece.bmp == right.bmp
@@ -181,7 +181,7 @@ def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
     chain = open_chain()
     assert isinstance(chain, PyrevmChain)
-    node, cheap = ChainPlace(chain, distant=True), estimate(SCENE, chain)
+    node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE, chain)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
     large = evolve(SCENE, width=2048, height=1024)
     cases = (
@@ -194,20 +194,20 @@ def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
         (SCENE, None, None, "all"),
         (large, None, None, "some"),
     )
-    monkeypatch.setattr("shackled.parallel._referee.SAMPLE", 10**9)
+    monkeypatch.setattr("shackled.parallel._backends.SAMPLE", 10**9)
     for scene, expected, verify, much in cases:
-        judge, compared = choose_referee(scene, [node], expected, verify)
+        judge, compared = choose_verifier(scene, [node], expected, verify)
         assert compared is (much == "all")
         assert (judge is None) is (much == "none")
         if judge is not None:
-            assert judge.wants(first=True)
-            assert judge.wants(first=False) is compared
+            assert judge.selects(first=True)
+            assert judge.selects(first=False) is compared
     # what is drawn on this machine is right
-    assert choose_referee(SCENE, [ChainPlace(chain)], dear, None) == (None, True)
+    assert choose_verifier(SCENE, [ChainBackend(chain)], dear, None) == (None, True)
 
 
 def test_parts_that_nobody_compared_are_no_parts_of_a_compared_picture(tmp_path: Path) -> None:
-    loose, strict = (Store(tmp_path, [SCENE], compared) for compared in (False, True))
+    loose, strict = (PartStore(tmp_path, [SCENE], compared) for compared in (False, True))
     part = Part(0, Rectangle(0, 0, 96, 10))
     loose.write(part, draw_part(open_chain(), SCENE, part.tile))
     assert loose.read(part) is not None

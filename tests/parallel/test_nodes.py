@@ -176,7 +176,7 @@ def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.M
         notes = Notes()
         render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), listener=notes)
         assert len(notes.warnings) == told
-        assert all("`verify` all compares every pixel" in warning for warning in notes.warnings)
+        assert all("`verify` all verifies every part" in warning for warning in notes.warnings)
 
 
 def test_a_node_that_turns_bad(node: str, right: Image) -> None:

@@ -22,7 +22,7 @@ from shackled.errors import (
     TooLargeError,
     WrongChainError,
 )
-from shackled.parallel import FAILURES, Listener, Part, Place, Referee, Scheduler, Store, area, cut, draw_part
+from shackled.parallel import FAILURES, Backend, Listener, Part, PartStore, Scheduler, Verifier, area, cut, draw_part
 from shackled.scene import Rectangle
 
 SIDE = 40
@@ -37,9 +37,9 @@ class Shaky:
     gas: int | None = None
 
     def __init__(
-        self, name: str, trouble: Trouble = lambda n, tile: None, seats: int = 1, distant: bool = True
+        self, name: str, trouble: Trouble = lambda n, tile: None, slots: int = 1, untrusted: bool = True
     ) -> None:
-        self.name, self.trouble, self.seats, self.distant = name, trouble, seats, distant
+        self.name, self.trouble, self.slots, self.untrusted = name, trouble, slots, untrusted
         self.calls = 0
         self.tiles: list[Rectangle] = []
         self.lies = False
@@ -47,7 +47,7 @@ class Shaky:
         self.lock = threading.Lock()
         self.begun = threading.Event()
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
+    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
         with self.lock:
             number, self.calls = self.calls, self.calls + 1
         self.begun.set()
@@ -94,10 +94,10 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
 PARTS = [Part(0, tile) for tile in cut(SIDE, SIDE, 4 * SIDE)]
 
 
-def run(places: Sequence[Place], referee: Referee | None = None, store: Store | None = None) -> Notes:
+def run(places: Sequence[Backend], verifier: Verifier | None = None, store: PartStore | None = None) -> Notes:
     """Renders the scene; each pixel must come out once, and right."""
     notes = Notes()
-    pieces = Scheduler([SCENE], places, store, notes, referee).run(PARTS)
+    pieces = Scheduler([SCENE], places, store, notes, verifier).run(PARTS)
     assert sum(area(part.tile) for part in pieces) == notes.pixels == SIDE * SIDE
     for part, piece in pieces.items():
         assert piece == draw_part(open_chain(), SCENE, part.tile)
@@ -105,7 +105,7 @@ def run(places: Sequence[Place], referee: Referee | None = None, store: Store | 
 
 
 def test_several_seats_share_the_parts() -> None:
-    places = [Shaky("a", seats=3), Shaky("b")]
+    places = [Shaky("a", slots=3), Shaky("b")]
     assert run(places).warnings == []
     assert sum(place.calls for place in places) == len(PARTS)
 
@@ -116,12 +116,12 @@ def test_a_slow_place_gets_fewer_parts() -> None:
     def wait(n: int, tile: Rectangle) -> None:
         assert done.wait(60)
 
-    def work(n: int, tile: Rectangle) -> None:
+    def render(n: int, tile: Rectangle) -> None:
         # all but the one part that the slow place may have begun
         if n + 1 >= len(PARTS) - 1:
             done.set()
 
-    slow, quick = Shaky("slow", wait), Shaky("quick", work)
+    slow, quick = Shaky("slow", wait), Shaky("quick", render)
     run([slow, quick])
     assert slow.calls <= 2 < quick.calls
 
@@ -191,7 +191,7 @@ def test_a_busy_place_is_asked_when_it_says(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_what_a_contract_refuses_ends_it() -> None:
-    place = Shaky("a", lambda n, tile: RenderError("the contract refused: NoViewDirection()"), seats=2)
+    place = Shaky("a", lambda n, tile: RenderError("the contract refused: NoViewDirection()"), slots=2)
     with pytest.raises(RenderError, match="NoViewDirection"):
         run([place, Shaky("b", after(place))])
 
@@ -199,14 +199,14 @@ def test_what_a_contract_refuses_ends_it() -> None:
 def test_what_a_contract_is_said_to_refuse() -> None:
     """It is true if it refuses here too; else the place is left out."""
 
-    class Agreeing(Referee):
+    class Agreeing(Verifier):
         def draw(self, scene: Scene, tile: Rectangle) -> Drawing:
             raise RenderError("the contract refused: NoViewDirection()")
 
     liar = Shaky("liar", lambda n, tile: RenderError("the contract refused: NoViewDirection()"))
     with pytest.raises(RenderError, match=r"^the contract refused: NoViewDirection\(\)$"):
         run([liar], Agreeing(every=False))
-    notes = run([liar, Shaky("honest", after(liar))], Referee(every=False))
+    notes = run([liar, Shaky("honest", after(liar))], Verifier(every=False))
     (warning,) = notes.warnings
     assert re.fullmatch(
         r"the liar answers wrongly for the tile of 40 x 4 pixels at \(0, \d+\): the contract refused: "
@@ -219,20 +219,20 @@ def test_a_place_that_lies_at_once() -> None:
     liar = Shaky("liar")
     honest = Shaky("honest", after(liar))
     liar.lies = True
-    notes = run([liar, honest], Referee(every=False))
+    notes = run([liar, honest], Verifier(every=False))
     assert len(notes.warnings) == 1
     assert "its picture is not what the contracts draw; it is left out" in notes.warnings[0]
     assert liar.calls == 1
     with pytest.raises(RenderError, match=r"answers wrongly for the tile of .*; there is no other place to render it$"):
-        run([liar], Referee(every=False))
+        run([liar], Verifier(every=False))
 
 
 def test_gas_that_is_not_true() -> None:
     """The picture is right: it is taken, and the gas is told of once."""
-    boaster = Shaky("boaster", seats=2)
+    boaster = Shaky("boaster", slots=2)
     boaster.gas_told = 5
     notes = Notes()
-    pieces = Scheduler([SCENE], [boaster], None, notes, Referee(every=True)).run(PARTS)
+    pieces = Scheduler([SCENE], [boaster], None, notes, Verifier(every=True)).run(PARTS)
     assert {piece.gas for piece in pieces.values()} == {5}
     (warning,) = notes.warnings
     assert re.match(r"the boaster counts 5 gas for the tile of 40 x 4 .*, which takes [\d,]{6,} here: its gas", warning)
@@ -242,25 +242,25 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
     """Nothing that it did since it was last known to be right is kept."""
     found_out = threading.Event()
 
-    class OnlyFirstAndLast(Referee):
+    class OnlyFirstAndLast(Verifier):
         asked = 0
 
-        def wants(self, first: bool) -> bool:
+        def selects(self, first: bool) -> bool:
             self.asked += 1
             if self.asked > len(PARTS) // 2:
                 found_out.set()
             return first or self.asked > len(PARTS) // 2
 
     class Turncoat(Shaky):
-        def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
+        def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
             self.lies = self.calls > 0
-            return super().work(seat, scene, tile)
+            return super().render(slot, scene, tile)
 
     def wait(n: int, tile: Rectangle) -> None:
         assert found_out.wait(60)
 
     liar, honest = Turncoat("liar"), Shaky("honest", wait)
-    store = Store(tmp_path / "parts", [SCENE])
+    store = PartStore(tmp_path / "parts", [SCENE])
     notes = run([liar, honest], OnlyFirstAndLast(every=False), store)
     assert len(notes.warnings) == 1
     assert "parts are rendered again by others" in notes.warnings[0]
@@ -270,8 +270,8 @@ def test_a_place_that_begins_to_lie(tmp_path: Path) -> None:
 
 def test_half_a_picture_is_no_picture() -> None:
     class Cutter(Shaky):
-        def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
-            piece = super().work(seat, scene, tile)
+        def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+            piece = super().render(slot, scene, tile)
             return replace(piece, bmp=piece.bmp[: len(piece.bmp) // 2])
 
     with pytest.raises(RenderError, match=r"^the cutter answers wrongly for the tile .*: the contract "):
@@ -286,9 +286,9 @@ def test_halves_of_an_earlier_run_are_taken(tmp_path: Path) -> None:
 
     folder = tmp_path / "parts"
     first, again = Shaky("first", large), Shaky("again", large)
-    run([first], store=Store(folder, [SCENE]))
+    run([first], store=PartStore(folder, [SCENE]))
     assert len(first.tiles) == 2 * len(PARTS)
-    run([again], store=Store(folder, [SCENE]))
+    run([again], store=PartStore(folder, [SCENE]))
     assert again.tiles == []
 
 
@@ -296,7 +296,7 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     def full(path: Path, data: bytes) -> None:
         raise OSError(28, "No space left on device")
 
-    store = Store(tmp_path / "parts", [SCENE])
+    store = PartStore(tmp_path / "parts", [SCENE])
     monkeypatch.setattr("shackled.whole_file.write_whole", full)
     with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)

@@ -10,7 +10,18 @@ from attrs import evolve
 from shackled import InputError, RenderError, Scene, load
 from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
-from shackled.parallel import PLAN, Listener, Part, Store, Where, cut, draw_part, folder_of, remove_parts, render_frames
+from shackled.parallel import (
+    PLAN,
+    Listener,
+    Part,
+    PartStore,
+    Where,
+    cut,
+    draw_part,
+    folder_of,
+    remove_parts,
+    render_frames,
+)
 from shackled.scene import Rectangle, full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)
@@ -19,26 +30,26 @@ PIECE = draw_part(open_chain(), SCENE, PARTS[0].tile)
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Store:
-    return Store(tmp_path / "cube.png.parts", [SCENE])
+def store(tmp_path: Path) -> PartStore:
+    return PartStore(tmp_path / "cube.png.parts", [SCENE])
 
 
-def test_parts_are_found_again(store: Store) -> None:
+def test_parts_are_found_again(store: PartStore) -> None:
     assert store.read(PARTS[0]) is None
     store.write(PARTS[0], PIECE)
-    assert Store(store.folder, [SCENE]).read(PARTS[0]) == PIECE
+    assert PartStore(store.folder, [SCENE]).read(PARTS[0]) == PIECE
     assert store.read(PARTS[1]) is None
     store.forget(PARTS[0])
     assert store.read(PARTS[0]) is None
 
 
-def test_parts_of_another_picture_are_not_taken(store: Store) -> None:
+def test_parts_of_another_picture_are_not_taken(store: PartStore) -> None:
     store.write(PARTS[0], PIECE)
-    assert Store(store.folder, [evolve(SCENE, invert=True)]).read(PARTS[0]) is None
+    assert PartStore(store.folder, [evolve(SCENE, invert=True)]).read(PARTS[0]) is None
 
 
 @pytest.mark.parametrize("damage", [b"", b"x", b"{}\n", bytes(500)], ids=repr)
-def test_what_is_damaged_is_not_there(store: Store, damage: bytes) -> None:
+def test_what_is_damaged_is_not_there(store: PartStore, damage: bytes) -> None:
     store.write(PARTS[0], PIECE)
     (file,) = store.folder.glob("*.part")
     for data in (damage, file.read_bytes()[:-1], file.read_bytes() + b"x"):
@@ -46,7 +57,7 @@ def test_what_is_damaged_is_not_there(store: Store, damage: bytes) -> None:
         assert store.read(PARTS[0]) is None
 
 
-def test_a_flipped_bit_is_not_taken(store: Store) -> None:
+def test_a_flipped_bit_is_not_taken(store: PartStore) -> None:
     """Of a pixel: the file is a whole part otherwise, and would be another picture."""
     store.write(PARTS[0], PIECE)
     (file,) = store.folder.glob("*.part")
@@ -56,11 +67,11 @@ def test_a_flipped_bit_is_not_taken(store: Store) -> None:
     assert store.read(PARTS[0]) is None
 
 
-def test_plans(store: Store) -> None:
+def test_plans(store: PartStore) -> None:
     assert store.read_plan() is None
     store.write_plan(PARTS)
     assert store.read_plan() == PARTS
-    assert Store(store.folder, [evolve(SCENE, invert=True)]).read_plan() is None
+    assert PartStore(store.folder, [evolve(SCENE, invert=True)]).read_plan() is None
     for plan in (PARTS[1:], [*PARTS, PARTS[0]], [*PARTS, Part(1, Rectangle(0, 0, 32, 20))]):
         store.write_plan(plan)
         assert store.read_plan() is None
@@ -68,7 +79,7 @@ def test_plans(store: Store) -> None:
     assert store.read_plan() is None
 
 
-def test_only_its_own_files_are_removed(store: Store) -> None:
+def test_only_its_own_files_are_removed(store: PartStore) -> None:
     store.write(PARTS[0], PIECE)
     store.write_plan(PARTS)
     other = store.folder / "note.txt"
@@ -84,7 +95,7 @@ def test_only_its_own_files_are_removed(store: Store) -> None:
 def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
     (tmp_path / "a.png.parts").write_text("", "utf-8")
     with pytest.raises(InputError, match=r"a.png.parts is a file, not a folder to write to"):
-        Store(folder_of(tmp_path / "a.png"), [SCENE])
+        PartStore(folder_of(tmp_path / "a.png"), [SCENE])
     remove_parts(folder_of(tmp_path / "a.png"))
     assert (tmp_path / "a.png.parts").is_file()
 
@@ -102,7 +113,7 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
         drawn.append(tile)
         return draw_part(open_chain(), scene, tile)
 
-    monkeypatch.setattr("shackled.parallel._place.draw_part", counted)
+    monkeypatch.setattr("shackled.parallel._backends.draw_part", counted)
     monkeypatch.setattr(Listener, "warned", lambda self, text: said.append(text))
     said: list[str] = []
     resumed = False
@@ -140,7 +151,7 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
         drawn.append(tile)
         return draw_part(open_chain(), scene, tile)
 
-    monkeypatch.setattr("shackled.parallel._place.draw_part", narrow)
+    monkeypatch.setattr("shackled.parallel._backends.draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
     with pytest.raises(KeyboardInterrupt):
         render_frames([SCENE], Where(gas_limit=10**9), keep=keep)
@@ -152,7 +163,7 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_what_was_being_written_is_taken_away_too(tmp_path: Path) -> None:
     """When the machine goes down, a file may be there that was not finished."""
-    store = Store(tmp_path / "parts", [SCENE])
+    store = PartStore(tmp_path / "parts", [SCENE])
     part = Part(0, Rectangle(0, 0, 16, 10))
     store.write(part, draw_part(open_chain(), SCENE, part.tile))
     (name,) = store.folder.iterdir()

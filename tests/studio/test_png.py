@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from tools.ledger import call_data
+from tools.png_code import CODE_LENGTHS, PIXEL, code_header, codes, encode_png, literal, match
 
 from pictures import chain
 from shackled import RenderError
 from shackled.image import encode_bmp
-from shackled.reference.png import CODE_LENGTHS, PIXEL, code_header, codes, encode_png, literal, match
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -1,6 +1,6 @@
 """The experiments of the Shackled paper on the contracts of this package, and some that it could not make.
 
-Each is a module with `run(lab) -> Report`; `EXPERIMENTS` names them in the order of the paper.
+`EXPERIMENTS` names them.
 """
 
 import lazy_loader

@@ -1,11 +1,10 @@
 from ._deploy import PyEvmDeployer, PyrevmDeployer, deployment_gas
 from ._engines import open_engines, time_engine
-from ._experiments import EXPERIMENTS, check_plots, run
-from ._lab import Lab
 from ._linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
 from ._measure import call, call_renderer, cost, gas
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, original, original_gas
-from ._report import Report, millions, table, wrapped
+from ._report import ExperimentReport, millions, table, wrapped
+from ._runner import EXPERIMENTS, Runner, check_plots
 
 __all__ = [
     "CODE_SIZES",
@@ -15,10 +14,10 @@ __all__ = [
     "LOOKS",
     "SIDES",
     "SQUARE_SIDE",
-    "Lab",
+    "ExperimentReport",
     "PyEvmDeployer",
     "PyrevmDeployer",
-    "Report",
+    "Runner",
     "call",
     "call_renderer",
     "check_plots",
@@ -30,7 +29,6 @@ __all__ = [
     "open_engines",
     "original",
     "original_gas",
-    "run",
     "squares",
     "table",
     "time_engine",

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..scene import Projection
-from ._lab import Lab
 from ._measure import cost, picture
 from ._original import original_gas
 from ._plots import ORIGINAL, OURS, powers_of_two
-from ._report import Report, millions, ratio, table
+from ._report import ExperimentReport, millions, ratio, table
+from ._runner import Runner
 from .scenes import cube
 
 if TYPE_CHECKING:
@@ -28,11 +28,11 @@ PROJECTIONS: dict[Projection, str] = {"perspective": "persp", "orthographic": "o
 SHOWN = 128
 
 
-def run(lab: Lab) -> Report:
-    """The same cube on ever larger canvases."""
-    sides = QUICK_SIDES if lab.quick else SIDES
+def run(runner: Runner) -> ExperimentReport:
+    """Measure one cube on canvases of growing size."""
+    sides = QUICK_SIDES if runner.quick else SIDES
     scenes = {(projection, side): cube(side, projection) for projection in PROJECTIONS for side in sides}
-    costs = dict(zip(scenes, lab.map("canvas", cost, scenes.values()), strict=True))
+    costs = dict(zip(scenes, runner.map("canvas", cost, scenes.values()), strict=True))
     gas = {key: found.gas for key, found in costs.items()}
     theirs = {(projection, side): original_gas(f"cube_{PROJECTIONS[projection]}_{side}") for projection, side in scenes}
     rows = [
@@ -53,7 +53,7 @@ def run(lab: Lab) -> Report:
         axes.set(yscale="log", xlabel="side of the canvas, pixels", ylabel="gas")
         axes.legend()
 
-    return Report(
+    return ExperimentReport(
         "Gas against the canvas",
         ["projection", "side", "triangles", "lit_pixels", "gas", "original_gas"],
         rows,
@@ -89,7 +89,7 @@ def _text(sides: tuple[int, ...], gas: Series, theirs: dict[tuple[Projection, in
 
 
 def _gallery(sides: tuple[int, ...]) -> PillowImage.Image:
-    """A row for each projection, up to the 128 pixels of the paper, each enlarged to one size."""
+    """Return a row of pictures for each projection, up to the 128 pixels of the paper, enlarged to one size."""
     shown = [side for side in sides if side <= SHOWN]
     rows = [np.hstack([_picture(projection, side) for side in shown]) for projection in PROJECTIONS]
     return PillowImage.fromarray(np.vstack(rows))

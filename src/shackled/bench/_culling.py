@@ -1,4 +1,4 @@
-"""What it saves to leave out faces that turn away, and whether it can be seen."""
+"""What backface culling saves, and whether it changes the picture."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from attrs import evolve
 from ..datasets import require
 from ..datasets.common import builtin
 from ..scene import resize
-from ._lab import Lab
 from ._measure import cost, picture
 from ._original import PAPER_CULLED, PAPER_CULLING_RATIO, PAPER_UNCULLED, original
 from ._plots import FOURTH, OURS
-from ._report import Report, millions, table
+from ._report import ExperimentReport, millions, table
+from ._runner import Runner
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,14 +43,14 @@ class Pair:
 
     @property
     def looks_alike(self) -> bool:
-        """Whether at most 1 in 1000 pixels shows the difference."""
+        """Return whether at most 1 in 1000 pixels differs."""
         return self.different * 1000 <= SIDE * SIDE
 
 
-def run(lab: Lab) -> Report:
-    """The common objects that come with the package, as they are but for culling."""
+def run(runner: Runner) -> ExperimentReport:
+    """Measure the common objects of the package with and without culling."""
     names = [piece.name for piece in builtin.pieces()]
-    pairs = lab.map("culling", measure, names[:QUICK] if lab.quick else names)
+    pairs = runner.map("culling", measure, names[:QUICK] if runner.quick else names)
 
     def draw(figure: Figure) -> None:
         axes = figure.add_subplot()
@@ -65,13 +65,13 @@ def run(lab: Lab) -> Report:
         axes.legend()
 
     head = [field.name for field in fields(Pair)]
-    return Report(
+    return ExperimentReport(
         "Backface culling", head, [astuple(p) for p in pairs], _text(pairs), draw, (6.4, 1 + 0.25 * len(pairs))
     )
 
 
 def measure(name: str) -> Pair:
-    """One object."""
+    """Measure one object."""
     scene = resize(require(name).make(), SIDE)
     culled, open_ = (evolve(scene, objects=[evolve(o, cull=cull) for o in scene.objects]) for cull in (True, False))
     a, b = cost(culled), cost(open_)
@@ -117,7 +117,7 @@ def _cells(culled: float, unculled: float, digits: int) -> list[str]:
 
 
 def _original_pairs(prefix: str) -> list[tuple[int, int]]:
-    """Gas with and without culling of the models that the original was measured with; not of one that has no backs."""
+    """Return the original's gas with and without culling of the models that have back faces."""
     found = original()
     return [
         (figures.gas, found[name.replace("_cull", "_nocull")].gas)

@@ -1,4 +1,4 @@
-"""What it takes to put the contracts on a chain."""
+"""Gas and size of the contracts."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from ..artifacts import RENDERER, artifact
 from ..chain import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain
 from ..deploy import STANDARD
 from ..ethereum import intrinsic_gas
-from ._lab import Lab
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from ._plots import ORIGINAL, OURS
-from ._report import Cell, Report, millions, table
+from ._report import Cell, ExperimentReport, millions, table
+from ._runner import Runner
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 CREATION = 32000
 
 
-def run(lab: Lab) -> Report:
-    """Every contract that `shackled deploy` puts on a chain."""
+def run(runner: Runner) -> ExperimentReport:
+    """Measure every contract that `shackled deploy` deploys."""
     names = sorted(STANDARD, key=lambda name: (name not in RENDERER, name))
-    gas = dict(zip(names, lab.map("deploy", deployment_gas, names), strict=True))
+    gas = dict(zip(names, runner.map("deploy", deployment_gas, names), strict=True))
     sizes = {name: (len(artifact(name).runtime), len(artifact(name).creation)) for name in names}
     rows: list[list[Cell]] = [[name, *sizes[name], gas[name]] for name in names]
 
@@ -54,7 +54,7 @@ def run(lab: Lab) -> Report:
     lines = [[name, f"{sizes[name][0]:,}", f"{sizes[name][1]:,}", millions(gas[name], 3)] for name in names]
     theirs = [[f"original: {name}", f"{size:,}", "", ""] for name, size in CODE_SIZES.items()]
     theirs.append(["original: together", f"{sum(CODE_SIZES.values()):,}", "", millions(DEPLOYMENT_GAS, 1)])
-    return Report(
+    return ExperimentReport(
         "Deployment",
         ["contract", "code_bytes", "creation_bytes", "gas"],
         rows,
@@ -65,15 +65,15 @@ def run(lab: Lab) -> Report:
 
 
 def deployment_gas(contract: str) -> int:
-    """Gas of the whole transaction that deploys a contract."""
+    """Measure the gas of the transaction that deploys a contract."""
     return (PyrevmDeployer() if find_spec("pyrevm") else PyEvmDeployer()).gas_of(contract)
 
 
 class PyrevmDeployer(PyrevmChain):
-    """Asks pyrevm."""
+    """Measures in pyrevm."""
 
     def gas_of(self, contract: str) -> int:
-        """Gas of the transaction."""
+        """Return the gas of the transaction."""
         code = self.creation(contract)
         evm = self._evm()
         evm.deploy("0x" + SENDER.hex(), code, None, DEFAULT_GAS_LIMIT)
@@ -82,10 +82,10 @@ class PyrevmDeployer(PyrevmChain):
 
 
 class PyEvmDeployer(PyEvmChain):
-    """Asks py-evm, which counts all but what a transaction costs before it is executed."""
+    """Measures in py-evm, which does not count intrinsic gas."""
 
     def gas_of(self, contract: str) -> int:
-        """Gas of the transaction."""
+        """Return the gas of the transaction."""
         from eth.constants import CREATE_CONTRACT_ADDRESS
 
         code = self.creation(contract)

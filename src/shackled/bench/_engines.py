@@ -1,4 +1,4 @@
-"""The same calls in every EVM at hand."""
+"""Time the same calls in every installed EVM."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ..chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from ..datasets import teapot
 from ..errors import RenderError
 from ..scene import Look, Scene, encode, stage
-from ._lab import Lab
 from ._plots import FOURTH, ORIGINAL, OURS, THIRD
-from ._report import Cell, Report, millions, table
+from ._report import Cell, ExperimentReport, millions, table
+from ._runner import Runner
 from .scenes import cube, equal_triangles
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: The embedded engines: how figures and how people call them.
+#: The embedded EVMs: their names in figures and in text.
 ENGINES = {"pyrevm": "pyrevm", "pyevm": "py-evm"}
-#: Calls are made again while they have taken less than this together, in seconds; the shortest counts.
+#: A call is repeated until the calls have taken this many seconds together; the shortest counts.
 ENOUGH = 1.0
 
 
@@ -36,13 +36,13 @@ class Run:
     output: bytes
 
 
-def run(lab: Lab) -> Report:
-    """A few scenes in each. Nothing else is measured at the same time, so that the times mean something."""
-    scenes = all_scenes(lab.quick)
-    engines = open_engines(lab.rpc)
+def run(runner: Runner) -> ExperimentReport:
+    """Time a few scenes in each EVM, one call after the other, so that the times are comparable."""
+    scenes = all_scenes(runner.quick)
+    engines = open_engines(runner.rpc)
     runs: dict[tuple[str, str], Run] = {}
     for engine, chain in engines.items():
-        found = lab.map(engine, partial(time_engine, chain), scenes.values(), alone=True)
+        found = runner.map(engine, partial(time_engine, chain), scenes.values(), alone=True)
         runs |= {(engine, name): each for name, each in zip(scenes, found, strict=True)}
     for name in scenes:
         if len({(runs[engine, name].gas, runs[engine, name].output) for engine in engines}) != 1:
@@ -57,13 +57,13 @@ def run(lab: Lab) -> Report:
         axes.set(xscale="log", yscale="log", xlabel="gas of the picture, millions", ylabel="seconds")
         axes.legend()
 
-    return Report(
+    return ExperimentReport(
         "Engines", ["engine", "scene", "gas", "seconds"], rows, _text(list(engines), list(scenes), runs), draw
     )
 
 
 def all_scenes(quick: bool) -> dict[str, Scene]:
-    """By name, from the cheapest to the dearest."""
+    """Return the scenes by name, from the cheapest to the most expensive."""
     if quick:
         return {"cube, 8 x 8": cube(8)}
     return {
@@ -98,7 +98,7 @@ def time_engine(chain: ContractChain | NodeChain, scene: Scene) -> Run:
     """Time the shortest of some calls, after a first one that sets the contracts up."""
     data = encode(artifact("Renderer").selectors["render"], scene)
     result = chain.call("Renderer", data)
-    assert result.gas is not None, "the node does not tell the gas of a call"
+    assert result.gas is not None, "the node reports no gas"
     seconds: list[float] = []
     while sum(seconds) < ENOUGH:
         started = time.perf_counter()

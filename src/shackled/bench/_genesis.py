@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..datasets import require
-from ._lab import Lab
 from ._measure import cost
 from ._original import original
 from ._plots import INK, ORIGINAL, OURS, THIRD
-from ._report import Report, millions, table
+from ._report import ExperimentReport, millions, table
+from ._runner import Runner
 from .fits import Column, r2_of
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ QUICK_PIECES = range(0, 1024, 128)
 
 
 @dataclass(frozen=True)
-class Piece:
+class PieceCost:
     """Faces of the mesh; triangles that survive culling; covered pixels; whether only edges are drawn."""
 
     number: int
@@ -36,9 +36,9 @@ class Piece:
     gas: int
 
 
-def run(lab: Lab) -> Report:
-    """Every piece as it is."""
-    found = lab.map("genesis", measure, QUICK_PIECES if lab.quick else PIECES)
+def run(runner: Runner) -> ExperimentReport:
+    """Measure every piece."""
+    found = runner.map("genesis", measure, QUICK_PIECES if runner.quick else PIECES)
     gas = np.array([piece.gas for piece in found], float)
     theirs = [figures for name, figures in original().items() if name.startswith("genesis_")]
 
@@ -55,7 +55,7 @@ def run(lab: Lab) -> Report:
         middle.set(title=f"Shackled now, {len(found)} pieces", xlabel="triangles", ylabel="gas, millions")
         right.set(title="x: wireframe, not fitted", xlabel="lit pixels")
 
-    return Report(
+    return ExperimentReport(
         "Genesis: gas against triangles",
         ["piece", "triangles", "drawn", "lit_pixels", "wireframe", "gas"],
         [[p.number, p.faces, p.drawn, p.lit_pixels, int(p.wireframe), p.gas] for p in found],
@@ -65,16 +65,16 @@ def run(lab: Lab) -> Report:
     )
 
 
-def measure(number: int) -> Piece:
-    """One piece."""
+def measure(number: int) -> PieceCost:
+    """Measure one piece."""
     scene = require(f"genesis/{number}").make()
     found = cost(scene)
     wireframe = any(o.wireframe for o in scene.objects)
-    return Piece(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
+    return PieceCost(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
 def line(x: ArrayLike, y: ArrayLike) -> tuple[float, float, float]:
-    """Slope and constant by numpy.polyfit, as the paper has it, and R2."""
+    """Return slope and constant by numpy.polyfit, as the paper does, and R2."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     slope, constant = np.polyfit(x, y, 1)
     return float(slope), float(constant), r2_of(y, slope * x + constant)
@@ -89,7 +89,7 @@ def _panel(axes: Axes, x: list[int], y: list[float], color: str) -> None:
     axes.set(xlim=(0, None), ylim=(0, None))
 
 
-def _text(found: list[Piece], gas: Column, theirs: list[tuple[int, int, int]]) -> str:
+def _text(found: list[PieceCost], gas: Column, theirs: list[tuple[int, int, int]]) -> str:
     solid = [piece for piece in found if not piece.wireframe]
     lines = [
         ["original", str(len(theirs)), *_line("triangles", [f[0] for f in theirs], [f[2] for f in theirs])],

@@ -1,4 +1,4 @@
-"""Whether gas grows in straight lines: with triangles, with pixels, with both."""
+"""Whether gas grows linearly: with triangles, with pixels, with both."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..scene import Light, Material, Scene
-from ._lab import Lab
 from ._measure import cost
 from ._original import original
 from ._plots import FOURTH, OURS, THIRD
-from ._report import Report, table
+from ._report import ExperimentReport, table
+from ._runner import Runner
 from .fits import Column, fit, line
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
 
@@ -37,16 +37,16 @@ MARKS = dict(zip(LOOKS, "os^", strict=True))
 Row = tuple[str, int, int, int]
 
 
-def run(lab: Lab) -> Report:
-    """Squares cut ever finer, cubes on ever larger canvases; and the scenes that the original was measured with."""
-    divisions, sides = (DIVISIONS[::8], SIDES[:3]) if lab.quick else (DIVISIONS, SIDES)
+def run(runner: Runner) -> ExperimentReport:
+    """Measure squares of more and more triangles, cubes on larger and larger canvases, and the original's scenes."""
+    divisions, sides = (DIVISIONS[::8], SIDES[:3]) if runner.quick else (DIVISIONS, SIDES)
     tasks: list[tuple[str, Scene]] = []
     for look in LOOKS:
         tasks += [(f"{look} squares", scene) for scene in squares(look, divisions)]
         tasks += [(f"{look} cubes", scene) for scene in cubes(look, sides)]
-    tasks += [("equal triangles", equal_triangles(n)) for n in (range(1, 4) if lab.quick else range(1, 17))]
+    tasks += [("equal triangles", equal_triangles(n)) for n in (range(1, 4) if runner.quick else range(1, 17))]
     tasks += [("cubes of the original", cube(side)) for side in sides]
-    costs = lab.map("linear", cost, [scene for _, scene in tasks])
+    costs = runner.map("linear", cost, [scene for _, scene in tasks])
     rows = [
         (series, scene.triangles, scene.width * scene.height, found.gas)
         for (series, scene), found in zip(tasks, costs, strict=True)
@@ -65,7 +65,9 @@ def run(lab: Lab) -> Report:
         right.set(xlabel="pixels of the canvas of a cube", xlim=(0, None), ylim=(0, None))
         left.legend()
 
-    return Report("Straight lines", ["series", "triangles", "pixels", "gas"], rows, _text(rows), draw, (7.6, 3.3))
+    return ExperimentReport(
+        "Straight lines", ["series", "triangles", "pixels", "gas"], rows, _text(rows), draw, (7.6, 3.3)
+    )
 
 
 def squares(look: str, divisions: Sequence[int] = DIVISIONS) -> list[Scene]:
@@ -81,7 +83,7 @@ def cubes(look: str, sides: Sequence[int] = SIDES) -> list[Scene]:
 
 
 def columns_of(rows: list[Row], *series: str) -> tuple[str, Column, Column, Column]:
-    """Triangles, pixels and gas of some series."""
+    """Return triangles, pixels and gas of some series, behind the name of the first."""
     columns = np.array([row[1:] for row in rows if row[0] in series], float).T
     return series[0], columns[0], columns[1], columns[2]
 

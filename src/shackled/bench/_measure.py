@@ -1,4 +1,4 @@
-"""What one call costs. Gas is exact, so that one call is enough."""
+"""Measure the gas of a call. It is exact, so that one call is enough."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ..scene import Rectangle, Scene, encode
 
 
 @dataclass(frozen=True)
-class Cost:
-    """Of a render: execution gas; triangles that survive culling and clipping, pixels that any of them covers."""
+class RenderCost:
+    """The cost of a render: execution gas; triangles after culling and clipping; pixels that any of them covers."""
 
     gas: int
     triangles: int
@@ -44,9 +44,9 @@ def gas(scene: Scene, function: str = "render", tile: Rectangle | None = None) -
     return call_renderer(scene, function, tile).gas
 
 
-def cost(scene: Scene) -> Cost:
+def cost(scene: Scene) -> RenderCost:
     """Measure what the picture of a scene costs."""
-    return Cost(gas(scene), *evm().count(scene))
+    return RenderCost(gas(scene), *evm().count(scene))
 
 
 def picture(scene: Scene) -> NDArray[np.uint8]:

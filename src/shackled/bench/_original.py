@@ -1,6 +1,6 @@
-"""What the original Shackled contracts cost, measured again, and what their paper says.
+"""The gas of the original Shackled contracts, measured again, and figures of their paper.
 
-original.csv has the execution gas of the scenes; the rest is below. Nothing of it is taken from their code.
+original.csv has the execution gas of the scenes. None of their code is used.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ class Measured:
 
 @cache
 def original() -> dict[str, Measured]:
-    """By the name of the scene."""
+    """Return what was measured on the original contracts, by the name of the scene."""
     text = files(__package__).joinpath("original.csv").read_text("utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     return {row.pop("scene"): Measured(**{k: int(v) for k, v in row.items()}) for row in csv.DictReader(lines)}
 
 
 def original_gas(name: str) -> int | None:
-    """Execution gas of a scene; None where it was not measured."""
+    """Return the execution gas of a scene on the original contracts; None where it was not measured."""
     found = original().get(name)
     return None if found is None else found.gas
 
@@ -52,7 +52,7 @@ CODE_SIZES = {
 DEPLOYMENT_GAS = 20_600_000
 #: Characters of what a call returns, at 128 x 128 pixels.
 DATA_URI_SIZE, SVG_URI_SIZE = 65630, 87906
-#: What the SVG costs more than the data URI, from the cheapest to the dearest picture.
+#: What the SVG costs more than the data URI, from the cheapest to the most expensive picture.
 SVG_GAS = (12_600_000, 25_600_000)
 
 # ---- the paper ----

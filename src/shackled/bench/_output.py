@@ -1,14 +1,14 @@
-"""What a picture takes as BMP, data URI and SVG."""
+"""Size and gas of BMP, data URI and SVG."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._lab import Lab
 from ._measure import call_renderer
 from ._original import DATA_URI_SIZE, SVG_GAS, SVG_URI_SIZE
 from ._plots import FOURTH, OURS, THIRD, powers_of_two
-from ._report import Cell, Report, millions, table
+from ._report import Cell, ExperimentReport, millions, table
+from ._runner import Runner
 from .scenes import cube
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ COLORS = {"BMP": OURS, "data URI": THIRD, "SVG": FOURTH}
 KNOWN = 128
 
 
-def run(lab: Lab) -> Report:
-    """The cube on each canvas in each format."""
-    sides = QUICK_SIDES if lab.quick else SIDES
+def run(runner: Runner) -> ExperimentReport:
+    """Measure the cube on each canvas in each format."""
+    sides = QUICK_SIDES if runner.quick else SIDES
     tasks = [(side, name) for side in sides for name in FORMATS]
-    found = dict(zip(tasks, lab.map("output", measure, tasks), strict=True))
+    found = dict(zip(tasks, runner.map("output", measure, tasks), strict=True))
     rows: list[list[Cell]] = [
         [side, name, size, gas, gas - found[side, "BMP"][0]] for (side, name), (gas, size) in found.items()
     ]
@@ -62,7 +62,7 @@ def run(lab: Lab) -> Report:
         f" {DATA_URI_SIZE:,}, and the SVG, whose base64 holds base64 again, {SVG_URI_SIZE:,}; the frame alone costs"
         f" {millions(SVG_GAS[0], 1)} to {millions(SVG_GAS[1], 1)}.\n\n"
     )
-    return Report(
+    return ExperimentReport(
         "Output",
         ["side", "format", "bytes", "gas", "gas_beyond_bmp"],
         rows,
@@ -73,7 +73,7 @@ def run(lab: Lab) -> Report:
 
 
 def measure(task: tuple[int, str]) -> tuple[int, int]:
-    """Gas and size."""
+    """Return gas and size of a picture."""
     side, name = task
     result = call_renderer(cube(side), FORMATS[name])
     return result.gas, int.from_bytes(result.output[32:64], "big")

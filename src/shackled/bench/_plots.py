@@ -33,7 +33,7 @@ STYLE: dict[Any, Any] = {
 
 
 def plot(draw: Callable[[Figure], None], shape: tuple[float, float]) -> bytes:
-    """A PNG without background of what `draw` draws in a figure of width and height in inches."""
+    """Return the PNG, without background, of what `draw` draws; shape: width and height in inches."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -49,7 +49,7 @@ def plot(draw: Callable[[Figure], None], shape: tuple[float, float]) -> bytes:
 
 
 def powers_of_two(axes: Axes, values: list[int]) -> None:
-    """Names the values on a logarithmic axis of sides or counts."""
+    """Label the values on a logarithmic axis of sides or counts."""
     axes.set_xscale("log", base=2)
     axes.set_xticks(values, [str(value) for value in values])
     axes.minorticks_off()

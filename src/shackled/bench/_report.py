@@ -1,4 +1,4 @@
-"""What an experiment found, the files that it becomes, and the tables in them."""
+"""The results of an experiment, the files that it writes, and their tables."""
 
 from __future__ import annotations
 
@@ -21,13 +21,11 @@ Cell = str | int | float | None
 
 
 @dataclass(frozen=True)
-class Report:
-    """What an experiment found.
+class ExperimentReport:
+    """The results of an experiment.
 
-    head, rows: of the CSV file, figures as they were measured; None leaves a cell empty.
-    text: Markdown, what the figures say and a table of them.
-    draw: draws the plot. shape: its width and height in inches.
-    pictures: what was rendered, by the ends of file names.
+    head, rows: of the CSV file; None leaves a cell empty. text: Markdown that explains the figures, with a table. draw:
+    draws the plot. shape: its width and height in inches. pictures: rendered pictures, by the suffix of the file name.
     """
 
     title: str
@@ -39,7 +37,7 @@ class Report:
     pictures: Mapping[str, PillowImage.Image] = field(default_factory=dict)
 
     def save(self, name: str, folder: Path) -> list[Path]:
-        """Writes NAME.csv, NAME.md, NAME.png and the pictures; returns their paths."""
+        """Write NAME.csv, NAME.md, NAME.png and the pictures; return their paths."""
         from ._plots import plot
 
         files = {
@@ -57,7 +55,7 @@ class Report:
         return [folder / file for file in files]
 
     def csv(self) -> str:
-        """The figures, a line each."""
+        """Return the rows as CSV."""
         stream = io.StringIO()
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(self.head)

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image as PillowImage
 
-from ._lab import Lab
 from ._measure import cost, picture
 from ._original import original_gas
 from ._plots import ORIGINAL, OURS
-from ._report import Report, millions, ratio, table
-from .fits import Column, Fit, fit, quadratic_share
+from ._report import ExperimentReport, millions, ratio, table
+from ._runner import Runner
+from .fits import Column, LinearFit, fit, quadratic_share
 from .scenes import equal_triangles
 
 if TYPE_CHECKING:
@@ -23,10 +23,10 @@ COUNTS = tuple(range(1, 17))
 QUICK_COUNTS = (1, 2, 3, 4)
 
 
-def run(lab: Lab) -> Report:
-    """1 to 16 of them."""
-    counts = QUICK_COUNTS if lab.quick else COUNTS
-    costs = lab.map("triangles", cost, [equal_triangles(count) for count in counts])
+def run(runner: Runner) -> ExperimentReport:
+    """Measure pictures of 1 to 16 triangles."""
+    counts = QUICK_COUNTS if runner.quick else COUNTS
+    costs = runner.map("triangles", cost, [equal_triangles(count) for count in counts])
     gas = np.array([found.gas for found in costs], float)
     theirs = np.array([original_gas(f"tris_{count:02}") for count in counts], float)
     x = np.array(counts, float)
@@ -47,7 +47,7 @@ def run(lab: Lab) -> Report:
         [str(count), f"{found.lit_pixels:,}", millions(b, 0), millions(found.gas, 3), ratio(b, found.gas)]
         for count, found, b in zip(counts, costs, theirs, strict=True)
     ]
-    return Report(
+    return ExperimentReport(
         "Gas against equal triangles",
         ["triangles", "lit_pixels", "gas", "original_gas"],
         [[count, found.lit_pixels, found.gas, int(b)] for count, found, b in rows],
@@ -58,7 +58,7 @@ def run(lab: Lab) -> Report:
     )
 
 
-def _line(by: Fit) -> str:
+def _line(by: LinearFit) -> str:
     constant, slope = by.coefficients
     return f"{constant:,.0f} + {slope:,.0f} a triangle (R2 {by.r2:.6f})"
 
@@ -76,7 +76,7 @@ def _panel(axes: Axes, x: Column, y: Column, color: str, title: str, label: str)
 
 
 def _gallery(counts: tuple[int, ...]) -> PillowImage.Image:
-    """Four pictures a row."""
+    """Return the pictures, four in a row."""
     pictures = [picture(equal_triangles(count)) for count in counts]
     rows = [np.hstack(pictures[at : at + 4]) for at in range(0, len(pictures), 4)]
     return PillowImage.fromarray(np.vstack(rows))

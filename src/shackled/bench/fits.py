@@ -1,4 +1,4 @@
-"""Straight lines through measurements."""
+"""Fit linear functions to measurements."""
 
 from __future__ import annotations
 
@@ -12,35 +12,35 @@ Column = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Fit:
+class LinearFit:
     """Least squares: gas = sum of coefficients times columns; the first coefficient is the constant."""
 
     coefficients: list[float]
     r2: float
 
 
-def fit(columns: Sequence[ArrayLike], gas: ArrayLike) -> Fit:
-    """The best fit with a constant."""
+def fit(columns: Sequence[ArrayLike], gas: ArrayLike) -> LinearFit:
+    """Fit a linear function with a constant by least squares."""
     values = np.asarray(gas, np.float64)
     matrix = np.stack([np.ones_like(values), *(np.asarray(column, np.float64) for column in columns)], axis=1)
     scale = np.abs(matrix).max(axis=0)
     solution = np.linalg.lstsq(matrix / scale, values, rcond=None)[0]
-    return Fit((solution / scale).tolist(), r2_of(values, matrix / scale @ solution))
+    return LinearFit((solution / scale).tolist(), r2_of(values, matrix / scale @ solution))
 
 
 def r2_of(values: Column, fitted: Column) -> float:
-    """The share of the variance that is explained."""
+    """Return the share of the variance that a fit explains."""
     rest, around = values - fitted, values - values.mean()
     return float(1 - (rest @ rest) / (around @ around))
 
 
 def quadratic_share(columns: list[Column], gas: Column) -> float:
-    """What part of the gas of the last scene a term with the square of the first column takes, if there is one."""
+    """Return the share of the gas of the last scene that a term with the square of the first column takes in a fit."""
     with_square = fit([*columns, columns[0] ** 2], gas)
     return float(with_square.coefficients[-1] * columns[0][-1] ** 2 / gas[-1])
 
 
-def line(name: str, quantities: Sequence[str], by: Fit) -> list[str]:
+def line(name: str, quantities: Sequence[str], by: LinearFit) -> list[str]:
     """Write a row of a table: what was fitted, the gas by the fit, R2."""
     constant, *slopes = by.coefficients
     terms = [f"{slope:+,.1f} {quantity}" for slope, quantity in zip(slopes, quantities, strict=True)]

@@ -31,7 +31,7 @@ SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 
 
 def cube(side: int, projection: Projection = "perspective") -> Scene:
-    """A cube of which three sides are seen, as large in the picture on any canvas of side x side pixels.
+    """Make a cube of which three sides are seen, of the same size in the picture on any canvas.
 
     The original's orthographic camera shows 1000 units a pixel, so that its cube must grow with the canvas.
     """
@@ -44,7 +44,7 @@ def cube(side: int, projection: Projection = "perspective") -> Scene:
 
 
 def equal_triangles(count: int) -> Scene:
-    """1 to 16 triangles of the same shape in four rows, 128 x 128 pixels."""
+    """Make 1 to 16 triangles of the same shape in four rows, 128 x 128 pixels."""
     triangle = np.array([(0, 0, 0), (460, 0, 0), (230, 460, 0)])
     places = [(560 * (i % 4) - 1070, 610 - 560 * (i // 4), 0) for i in range(count)]
     positions = np.concatenate([triangle + place for place in places])
@@ -57,33 +57,33 @@ def _as_original(mesh: Mesh, side: int, distance: int = DISTANCE, camera: Camera
     return Scene([placed], camera or Camera(), [ORIGINAL_LIGHT], NIGHT, width=side, height=side)
 
 
-# ---- scenes of our own ----
+# ---- other scenes ----
 
 
 def turned_cube(size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
-    """A cube of which three sides are seen, turned by the contract."""
+    """Make a cube of which three sides are seen, rotated by the contract."""
     turned = Object(cube_mesh(), (0, 0, -DISTANCE), from_euler((35, 30, 10)), material=material)
     return Scene([turned], Camera(), lights, NIGHT, width=size, height=size)
 
 
 def square(divisions: int, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
-    """A square before the camera, in 2 * divisions^2 triangles."""
+    """Make a square in front of the camera, of 2 * divisions^2 triangles."""
     return before_camera(square_mesh(divisions), size, material, lights)
 
 
 def before_camera(mesh: Mesh, size: int, material: Material = GLOSSY, lights: Sequence[Light] = (SUN,)) -> Scene:
-    """The mesh in front of the default camera."""
+    """Place a mesh in front of the default camera."""
     return Scene([Object(mesh, (0, 0, -DISTANCE), material=material)], Camera(), lights, NIGHT, width=size, height=size)
 
 
 def cube_mesh(half: int = 500) -> Mesh:
-    """A cube about the origin, 12 triangles, coloured by its corners."""
+    """Make a cube about the origin, of 12 triangles, coloured by its corners."""
     corners = np.array(CORNERS)
     return Mesh(half * corners, _cube_faces(), (corners + 1) // 2 * 255)
 
 
 def square_mesh(divisions: int, half: int = 840) -> Mesh:
-    """A square that faces +z, cut into 2 * divisions^2 triangles; 840 is a multiple of most numbers up to 24."""
+    """Make a square that faces +z, of 2 * divisions^2 triangles; 840 is a multiple of most numbers up to 24."""
     at = np.rint(np.linspace(-half, half, divisions + 1))
     x, y = (axis.ravel() for axis in np.meshgrid(at, at))
     grid = np.arange(x.size).reshape(divisions + 1, divisions + 1)

@@ -14,28 +14,27 @@ from ..whole_file import check_output_folder
 def bench(
     names: Annotated[
         list[str] | None,
-        typer.Argument(
-            help="Experiments; without any, all are made, or listed if there is no -o.", metavar="[NAME]..."
-        ),
+        typer.Argument(help="Experiments to run. Default: all; without -o they are listed.", metavar="[NAME]..."),
     ] = None,
     output: Annotated[
-        str | None, typer.Option("--output", "-o", help="The folder for CSV, plots and tables.", metavar="DIR")
+        str | None, typer.Option("--output", "-o", help="Folder for CSV, plots and tables.", metavar="DIR")
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="All experiments, as without a NAME.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="A few small scenes, to see that it works.")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="Run all experiments.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Run a few small scenes, as a check.")] = False,
     processes: Annotated[
-        int | None, typer.Option("--processes", min=1, help="How many; else one for each core.", metavar="N")
+        int | None,
+        typer.Option("--processes", min=1, help="Worker processes. Default: one for each core.", metavar="N"),
     ] = None,
     rpc: Annotated[
-        str | None, typer.Option("--rpc", help="A node that `engines` measures too, as http://...", metavar="URL")
+        str | None, typer.Option("--rpc", help="Node that `engines` measures too, as http://...", metavar="URL")
     ] = None,
 ) -> None:
-    """Make the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Lab, check_plots, run
+    """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
+    from ..bench import EXPERIMENTS, Runner, check_plots
 
     if not names and not everything and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
-        print("\nshackled bench NAME ... -o DIR makes them, shackled bench -o DIR all.")
+        print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR runs all.")
         return
     chosen = list(EXPERIMENTS) if everything or not names else list(dict.fromkeys(names))
     for name in chosen:
@@ -45,6 +44,6 @@ def bench(
         raise InputError("the experiments need a folder to write to: -o DIR")
     folder = check_output_folder(Path(output))
     check_plots()
-    with Lab(quick, processes, rpc) as lab:
-        written = [path for name in chosen for path in run(name, lab).save(name, folder)]
+    with Runner(quick, processes, rpc) as runner:
+        written = [path for name in chosen for path in runner.run(name).save(name, folder)]
     print("\n".join(str(path) for path in written))

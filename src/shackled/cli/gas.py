@@ -31,42 +31,45 @@ def gas(
     *,
     look: dict[str, Any],
     chain: Annotated[
-        str | None, option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+        str | None,
+        option("--chain", f"EVM that measures: {', '.join(CHAINS)}. Default: the fastest installed.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
         typer.Option(
             "--rpc",
-            help="A node that counts the gas too, and on which the search is made.",
+            help="Node on which to make the search, and that counts the gas as well.",
             metavar="URL",
             envvar="SHACKLED_RPC",
             show_default=False,
         ),
     ] = None,
     address: Annotated[
-        str | None, option("--address", "Of a renderer on the node's chain, to be called.", "ADDRESS")
+        str | None, option("--address", "Address of a renderer that is deployed on the node's chain.", "ADDRESS")
     ] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "How long the node may take for a call; else 120.", "SECONDS")
+        float | None, option("--rpc-timeout", "Timeout of a call of the node. Default: 120.", "SECONDS")
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
         option(
-            "--profile", "Gas by function and line too, and as a flame graph: .svg, or .json for speedscope.", "FILE"
+            "--profile",
+            "Print gas by function and line; write a flame graph: .svg, or .json for speedscope.",
+            "FILE",
         ),
     ] = None,
     stages: Annotated[
-        bool, option("--stages/--no-stages", "Gas by stage, which takes a slow EVM (py-evm) some seconds, or not.")
+        bool, option("--stages/--no-stages", "Measure gas by stage, which takes some seconds in py-evm.")
     ] = True,
-    gas_price: Annotated[float, option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
+    gas_price: Annotated[float, option("--gas-price", "Gas price of a transaction. Default: 1.", "GWEI")] = 1.0,
+    eth_price: Annotated[float | None, option("--eth-price", "Price of an ether in US dollars.", "USD")] = None,
     lower: Annotated[
-        int, option("--lower", "Where the search begins: gas that does not suffice; else 0.", "GAS", "Search")
+        int, option("--lower", "Lower bound of the search: gas that does not suffice. Default: 0.", "GAS", "Search")
     ] = 0,
     upper: Annotated[
         int | None,
-        option("--upper", "Gas that does suffice; else it is doubled until it does.", "GAS", "Search"),
+        option("--upper", "Upper bound of the search. Default: doubled until it suffices.", "GAS", "Search"),
     ] = None,
 ) -> None:
     """Measure the gas of a picture: exactly, by a search over gas limits, by stage and by line, and where it fits."""
@@ -75,7 +78,7 @@ def gas(
     if eth_price is not None:
         _check_price(eth_price, "--eth-price", "US dollars an ether")
     if path is not None and not stages:
-        raise InputError("--profile is made of what --no-stages leaves out: give one of them")
+        raise InputError("--profile needs what --no-stages leaves out: give only one of them")
     traced = stages and can_trace()
     if path is not None and not traced:
         raise InputError(f"--profile needs {TRACER}")
@@ -97,7 +100,7 @@ def gas(
         return
     print_report(report, gas_price, eth_price)
     if node is not None and counted is not None:
-        words = "does not tell the gas" if counted.gas is None else f"counts {counted.gas:,} gas"
+        words = "reports no gas" if counted.gas is None else f"counts {counted.gas:,} gas"
         print(f"the {node.name}, on which the search was made, {words}")
     if path is not None and report.profile is not None:
         print_profile(report.profile)
@@ -110,7 +113,7 @@ def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> N
         return open_node(rpc.split()[0], address, timeout)
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None:
-            raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+            raise InputError(f"{name} is for a node: give --rpc as well, or leave it out")
     return None
 
 

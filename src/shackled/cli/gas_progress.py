@@ -1,4 +1,4 @@
-"""What `shackled gas` shows on stderr while it measures: the bracket as it narrows, then the trace."""
+"""Show the progress of `shackled gas` on stderr: the bracket as it narrows, then the trace."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from rich.progress import Progress as Bars
 from rich.table import Table
 from rich.text import Text
 
-from ..gas import Step
+from ..gas import SearchStep
 
 #: Steps that are shown at a time.
 ROWS = 12
@@ -23,15 +23,15 @@ class Progress:
     """Shows steps and progress; nothing if it is quiet, a line for each step where stderr is no terminal."""
 
     def __init__(self, quiet: bool) -> None:
-        """`quiet` shows on a terminal only."""
+        """Start nothing yet. quiet: show progress on a terminal only."""
         self._console = Console(stderr=True)
         self._quiet = quiet
-        self._steps: list[Step] = []
+        self._steps: list[SearchStep] = []
         self._bars = Bars(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), console=self._console)
         self._live: Live | None = None
 
     def __enter__(self) -> Progress:
-        """Starts."""
+        """Start the display."""
         if self._console.is_terminal:
             self._live = Live(console=self._console)
             self._live.start()
@@ -40,12 +40,12 @@ class Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Leaves what was shown last."""
+        """Stop the display and leave its last content."""
         if self._live is not None:
             self._live.stop()
 
-    def step(self, step: Step) -> None:
-        """A step of the search."""
+    def step(self, step: SearchStep) -> None:
+        """Show a step of the search."""
         self._steps.append(step)
         if self._live is not None:
             self._live.update(self._view())
@@ -54,7 +54,7 @@ class Progress:
             print(f"call {len(self._steps):2}: {step.limit:>14,} {verdict}; {bracket(step)}", file=sys.stderr)
 
     def traced(self, used: int, total: int) -> None:
-        """How much gas the trace has used."""
+        """Show the progress of the trace, in gas."""
         if self._live is not None:
             if not self._bars.tasks:
                 self._bars.add_task("tracing", total=total)
@@ -71,11 +71,11 @@ class Progress:
         return Group(table, self._bars) if self._bars.tasks else Group(table)
 
 
-def bracket(step: Step) -> str:
-    """What is known after a step."""
+def bracket(step: SearchStep) -> str:
+    """Return what is known after a step, for messages."""
     return f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
 
 
-def _bar(step: Step) -> Text:
-    """What is not known yet: a character for each call that it takes to halve it away."""
+def _bar(step: SearchStep) -> Text:
+    """Return a bar with a character for each call that remains."""
     return Text("█" * (BAR if step.upper is None else min(BAR, (step.upper - step.lower - 1).bit_length())))

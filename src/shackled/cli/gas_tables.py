@@ -1,4 +1,4 @@
-"""What `shackled gas` prints for people."""
+"""Print the tables of `shackled gas`."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from ..gas import Profile, Report, limits
+from ..gas import GasReport, Profile, limits
 
 BAR = 24
 #: How many functions and lines are worth a row.
 ROWS = 20
 
 
-def print_report(report: Report, gas_price: float, eth_price: float | None) -> None:
-    """Gas, search, stages, price, and where it fits."""
+def print_report(report: GasReport, gas_price: float, eth_price: float | None) -> None:
+    """Print gas, search, stages, price, and where the call fits."""
     console = _console()
     for label, value in _figures(report, gas_price, eth_price).items():
         console.print(f"{label:12} {value}", highlight=False, markup=False, soft_wrap=True)
@@ -33,7 +33,7 @@ def print_report(report: Report, gas_price: float, eth_price: float | None) -> N
 
 
 def print_profile(profile: Profile) -> None:
-    """Gas by function, and by line."""
+    """Print the gas by function and by line."""
     console = _console()
     functions = Table("function", "its own gas", "", "with calls", box=None, header_style="bold")
     _right(functions, 1, 2, 3)
@@ -54,7 +54,7 @@ def _console() -> Console:
     return Console(file=sys.stdout, width=None if sys.stdout.isatty() else 160)
 
 
-def _figures(report: Report, gas_price: float, eth_price: float | None) -> dict[str, str]:
+def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> dict[str, str]:
     exact, found, margin = report.exact, report.search, report.margin
     bracket = next(step for step in found.steps if step.upper is not None)
     last = found.steps[-1]
@@ -94,7 +94,7 @@ def _stages(profile: Profile) -> Table:
     return table
 
 
-def _fits(report: Report) -> Table:
+def _fits(report: GasReport) -> Table:
     table = Table("where it fits", "limit", "of it", "", "source", "date", box=None, header_style="bold")
     _right(table, 1, 2)
     table.columns[4].overflow = "fold"

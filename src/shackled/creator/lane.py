@@ -268,7 +268,14 @@ class Lane:
             return self._closed or (job is not None and job.stopped)
 
         call = partial(
-            worker.call, perform, task, arguments, uploads or {}, seconds=self._seconds, told=told, unwanted=unwanted
+            worker.call,
+            perform,
+            task,
+            arguments,
+            uploads or {},
+            seconds=self._seconds,
+            on_progress=told,
+            cancelled=unwanted,
         )
         return await loop.run_in_executor(self._threads, call)
 

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from ..workers import tell
+from ..workers import report_progress
 from .limits import Limits
 
 MakeDesk = Callable[[Limits, Callable[[int, int], None]], Any]
@@ -27,7 +27,7 @@ class MissingUploadError(Exception):
 def prepare(make_desk: MakeDesk, limits: Limits, guarded: bool) -> None:
     """Make the desk of this process. guarded: whether it reads untrusted files; it then opens no other file."""
     global _desk
-    _desk = make_desk(limits, tell)
+    _desk = make_desk(limits, report_progress)
     if guarded:
         from .guard import prepare_guard
 

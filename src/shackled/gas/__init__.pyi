@@ -1,15 +1,14 @@
 from ._blocks import blocks, functions
-from ._exact import KEPT, counting, floor_gas, margin, measure, needed_for, render_call
+from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
 from ._flame_graph import MARGIN, WIDTH, flame_graph
-from ._limits import Limit, limits
 from ._profile import Profile, profile
-from ._report import Report, make_report
+from ._report import GasReport, make_report
 from ._runs import engine_calls
-from ._search import FIRST_LIMIT, Step, search, suffices
+from ._search import FIRST_LIMIT, SearchStep, search, suffices
 from ._source_map import source_map
 from ._speedscope import speedscope
 from ._stages import STAGES
-from ._trace import TRACER, Frame, can_trace, trace
+from ._trace import TRACER, CallFrame, can_trace, trace
 
 __all__ = [
     "FIRST_LIMIT",
@@ -18,11 +17,11 @@ __all__ = [
     "STAGES",
     "TRACER",
     "WIDTH",
-    "Frame",
+    "CallFrame",
+    "GasReport",
     "Limit",
     "Profile",
-    "Report",
-    "Step",
+    "SearchStep",
     "blocks",
     "can_trace",
     "counting",

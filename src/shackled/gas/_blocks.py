@@ -1,4 +1,4 @@
-"""Where the gas of one function goes: its basic blocks, how often each is passed, and its instructions."""
+"""The gas of one function: its basic blocks, how often each is executed, and its instructions."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..artifacts import artifact
 from ._source_map import source_map
-from ._trace import Frame
+from ._trace import CallFrame
 
 _ADD_TO_SIGNEXTEND = ("ADD", "MUL", "SUB", "DIV", "SDIV", "MOD", "SMOD", "ADDMOD", "MULMOD", "EXP", "SIGNEXTEND")
 _LT_TO_SAR = ("LT", "GT", "SLT", "SGT", "EQ", "ISZERO", "AND", "OR", "XOR", "NOT", "BYTE", "SHL", "SHR", "SAR")
@@ -50,10 +50,10 @@ _JUMPDEST, _ENDS = 0x5B, {0x00, 0x56, 0x57, 0xF3, 0xFD, 0xFE}
 
 @dataclass(frozen=True)
 class Block:
-    """Instructions that are always passed one after the other.
+    """A basic block: instructions that are always executed together.
 
-    begin: the position of the first. count: how often they were passed. instructions: as people write them, what is
-    pushed in hexadecimal digits.
+    begin: the position of the first. count: how often the block was executed. instructions: as text, pushed values in
+    hexadecimal digits.
     """
 
     begin: int
@@ -62,15 +62,15 @@ class Block:
     instructions: tuple[str, ...]
 
 
-def functions(root: Frame, contract: str) -> list[tuple[str, int]]:
-    """Return the functions of a contract that were called below a frame, with their own gas, the dearest first."""
+def functions(root: CallFrame, contract: str) -> list[tuple[str, int]]:
+    """Return the functions of a contract called below a frame, with their own gas, the most expensive first."""
     gas: Counter[str] = Counter()
     for frame in _frames(root, contract):
         gas[_name(frame)] += frame.gas()
     return gas.most_common()
 
 
-def blocks(root: Frame, contract: str, function: str) -> list[Block]:
+def blocks(root: CallFrame, contract: str, function: str) -> list[Block]:
     """Return the blocks of a function that were run, in the order of the code, with the gas of each."""
     costs: Counter[int] = Counter()
     for frame in _frames(root, contract):
@@ -86,16 +86,16 @@ def blocks(root: Frame, contract: str, function: str) -> list[Block]:
     return found
 
 
-def _frames(root: Frame, contract: str) -> list[Frame]:
+def _frames(root: CallFrame, contract: str) -> list[CallFrame]:
     return [frame for frame in root.frames() if frame.contract == contract]
 
 
-def _name(frame: Frame) -> str:
+def _name(frame: CallFrame) -> str:
     return source_map(frame.contract).entries.get(frame.entry, frame.contract)
 
 
 def _split(code: bytes) -> list[list[tuple[int, int, str]]]:
-    """Position, operation and text of each instruction, by blocks."""
+    """Return position, operation and text of each instruction, by blocks."""
     found: list[list[tuple[int, int, str]]] = [[]]
     at = 0
     while at < len(code):

@@ -1,8 +1,11 @@
-"""The gas of a picture, exactly, and what a call must be given for it."""
+"""Exact gas of a picture, the gas limit that its call needs, and documented limits: see limits.toml."""
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 
 from ..artifacts import artifact
 from ..chain import Chain, ContractChain
@@ -15,12 +18,12 @@ KEPT = 64
 
 
 @dataclass(frozen=True)
-class Exact:
-    """What a render costs.
+class ExactGas:
+    """The gas of a render.
 
-    gas: of the execution. intrinsic_gas: what a transaction costs before it. engine_gas: the part of `gas` that the
-    Renderer's calls of its engines use; dearest_call: that of the one that uses most. floor_gas: the least that a
-    transaction with this data costs, by EIP-7623.
+    gas: of the execution. intrinsic_gas: of the transaction before it. engine_gas: the part of `gas` that calls of
+    engines use; dearest_call: that of the most expensive call. floor_gas: the least that a transaction with this data
+    costs, by EIP-7623.
     """
 
     gas: int
@@ -31,7 +34,7 @@ class Exact:
 
     @property
     def transaction_gas(self) -> int:
-        """What a transaction is charged."""
+        """Return the gas that a transaction is charged."""
         return max(self.intrinsic_gas + self.gas, self.floor_gas)
 
     def limit(self, searched: int) -> int:
@@ -51,16 +54,16 @@ def render_call(scene: Scene) -> bytes:
     return encode(artifact("Renderer").selectors["render"], scene)
 
 
-def measure(scene: Scene, chain: ContractChain) -> Exact:
-    """Renders the scene, and its part in the engines."""
+def measure(scene: Scene, chain: ContractChain) -> ExactGas:
+    """Measure the gas of a render, and of its calls of the engines."""
     data = render_call(scene)
     result = chain.call("Renderer", data)
     gas = [call.result.gas for call in engine_calls(scene, chain)]
-    return Exact(result.gas, result.intrinsic_gas, sum(gas), max(gas), floor_gas(data))
+    return ExactGas(result.gas, result.intrinsic_gas, sum(gas), max(gas), floor_gas(data))
 
 
 def floor_gas(data: bytes) -> int:
-    """Return what a transaction with this data costs at least, since Prague."""
+    """Return the least gas that a transaction with this data costs since Prague: EIP-7623."""
     return 21000 + 10 * (4 * len(data) - 3 * data.count(0))
 
 
@@ -73,9 +76,8 @@ def needed_for(gas: int) -> int:
 class Margin:
     """Why a limit of exactly the gas that is used does not suffice.
 
-    kept: gas that must be left when an engine is called for the dearest run of objects, because a 64th of what is there
-        is not handed on.
-    after: gas that the Renderer uses behind that call, which comes out of what was kept.
+    kept: gas that must be left when an engine is called for the most expensive run, because a 64th is not passed on.
+    after: gas that the Renderer uses after that call, which comes out of what was kept.
     """
 
     kept: int
@@ -83,11 +85,33 @@ class Margin:
 
     @property
     def gas(self) -> int:
-        """By how much the limit exceeds what is used."""
+        """Return the difference between the limit that is needed and the gas that is used."""
         return self.kept - self.after
 
 
-def margin(exact: Exact, searched: int) -> Margin:
+def margin(exact: ExactGas, searched: int) -> Margin:
     """Return the account of the difference between what a call uses and the least limit that it needs."""
     kept = needed_for(exact.dearest_call) - exact.dearest_call
     return Margin(kept, kept - (searched - exact.gas))
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The gas that one request may use.
+
+    kind: "transaction" or "call". date: of the source.
+    """
+
+    name: str
+    gas: int
+    kind: str
+    source: str
+    date: str
+    remark: str = ""
+
+
+@cache
+def limits() -> tuple[Limit, ...]:
+    """Return all known limits, the smallest first."""
+    data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
+    return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))

@@ -1,4 +1,4 @@
-"""A profile as a picture: an SVG flame graph, from stages at the top through functions down to lines."""
+"""Draw a profile as an SVG flame graph: stages at the top, then functions, then lines."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class _Box:
 
 
 def flame_graph(profile: Profile, name: str) -> str:
-    """Return the SVG document. A box is as wide as its gas; pointing at one says how much that is.
+    """Return the SVG document. The width of a box is its gas; its tooltip shows the figure.
 
-    Calls that are common to all of a stage, such as that of the Engine, are left out.
+    Calls that all of a stage have in common, such as that of the Engine, are left out.
     """
     root = _Box()
     common = _common_calls(profile)
@@ -64,7 +64,7 @@ def flame_graph(profile: Profile, name: str) -> str:
 
 
 def _common_calls(profile: Profile) -> dict[str, int]:
-    """Return how many of the first calls are the same for all of a stage: they would be rows of one box each."""
+    """Return the number of leading calls that all of a stage have in common."""
     first: dict[str, tuple[str, ...]] = {}
     for cost in profile.costs:
         # the function itself stays
@@ -77,7 +77,7 @@ def _common_calls(profile: Profile) -> dict[str, int]:
 def _draw(
     parts: list[str], name: str, box: _Box, left: float, top: float, scale: float, total: int, hue: int, depth: int
 ) -> int:
-    """Adds a box and what is inside; how many rows that takes."""
+    """Append a box and those inside it; return the number of rows."""
     width = box.gas * scale
     if width < NARROWEST:
         return depth

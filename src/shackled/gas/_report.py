@@ -1,4 +1,4 @@
-"""All that is known of the gas of one picture."""
+"""All figures of the gas of one picture."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from typing import Any
 
 from ..chain import ContractChain
 from ..scene import Scene
-from ._exact import Exact, Margin, margin, measure, render_call
-from ._limits import limits
+from ._exact import ExactGas, Margin, limits, margin, measure, render_call
 from ._profile import Profile, profile
-from ._search import Caller, Search, Step, search, suffices
+from ._search import Caller, Search, SearchStep, search, suffices
 
 GWEI_PER_ETHER = 10**9
 
 
 @dataclass(frozen=True)
-class Report:
+class GasReport:
     """What a picture costs.
 
-    triangles, lit_pixels: as `Chain.count` gives them. profile: None if none was wanted. chain: where it was measured.
+    triangles, lit_pixels: as `Chain.count` counts them. profile: None if it was not wanted. chain: the name of the
+    chain that measured it.
     """
 
     scene: Scene
-    exact: Exact
+    exact: ExactGas
     search: Search
     triangles: int
     lit_pixels: int
@@ -33,16 +33,16 @@ class Report:
 
     @property
     def margin(self) -> Margin:
-        """Why a call needs a higher limit than it uses gas."""
+        """Return why a call needs a higher limit than it uses gas."""
         return margin(self.exact, self.search.gas)
 
     @property
     def request_limit(self) -> int:
-        """The gas limit that a transaction or an eth_call needs: both count what is paid before the execution."""
+        """Return the gas limit that a transaction or an eth_call needs, intrinsic gas included."""
         return self.exact.limit(self.search.gas)
 
     def per(self, count: int) -> float | None:
-        """Gas for each of so many; None for none."""
+        """Return the gas for each of so many; None for none."""
         return self.exact.gas / count if count else None
 
     def ether(self, gas_price: float) -> float:
@@ -98,20 +98,20 @@ def make_report(
     lower: int = 0,
     upper: int | None = None,
     stages: bool = True,
-    on_step: Callable[[Step], None] | None = None,
+    on_step: Callable[[SearchStep], None] | None = None,
     on_trace: Callable[[int, int], None] | None = None,
     searched: Caller | None = None,
-) -> Report:
-    """Measures a render, searches for its gas between two limits, and traces it.
+) -> GasReport:
+    """Measure a render, search for its gas limit between two bounds, and trace it.
 
-    on_step: is told every step of the search. on_trace: is told now and then how much gas the trace has used, of how
-    much. searched: where the search is made, if not where the rest is measured. InputError if stages are wanted and
-    py-evm is not installed.
+    on_step: called after each step of the search. on_trace: called during the trace with the gas that it has used and
+    the total. searched: where to search; None is `chain`. Raises InputError if stages are wanted and py-evm is not
+    installed.
     """
     exact = measure(scene, chain)
     data = render_call(scene)
     found = search(suffices(searched or chain, "Renderer", data), lower, upper, on_step)
     triangles, lit_pixels = chain.count(scene)
-    tell = None if on_trace is None else lambda used: on_trace(used, exact.gas)
-    costs = profile(scene, tell) if stages else None
-    return Report(scene, exact, found, triangles, lit_pixels, costs, chain.name)
+    report = None if on_trace is None else lambda used: on_trace(used, exact.gas)
+    costs = profile(scene, report) if stages else None
+    return GasReport(scene, exact, found, triangles, lit_pixels, costs, chain.name)

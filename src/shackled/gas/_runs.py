@@ -1,5 +1,6 @@
-"""The calls that the Renderer makes of its engines, one for each run of objects: the twin of Runs.sol and of what the
-Renderer does with it.
+"""Repeat the calls that the Renderer makes of its engines, one for each run of objects.
+
+Mirrors contracts/src/uniforms/Runs.sol and the Renderer's use of it.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ HEAD = 0x40
 
 @dataclass(frozen=True)
 class EngineCall:
-    """A call of an engine, and what came of it."""
+    """A call of an engine, and its result."""
 
     engine: str
     data: bytes
@@ -52,7 +53,7 @@ class _Object:
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
-    """Return all that the Renderer makes to render a scene, made once more."""
+    """Repeat and return all calls of engines that a render makes."""
     whole = Rectangle(0, 0, scene.width, scene.height)
     data = _uniforms(scene, whole, chain)
     if len(_runs(data)) == 1 or scene.width * scene.height <= BAND_PIXELS:
@@ -89,7 +90,7 @@ def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
 
 
 def _runs(data: bytes) -> list[list[_Object]]:
-    """Runs of objects that one engine draws after another; an empty one if there is nothing to draw."""
+    """Return runs of objects that one engine draws; an empty one if there is nothing to draw."""
     objects, position = [], _load(data, _place(OBJECTS_BEGIN))
     for number in range(_load(data, _place(OBJECT_COUNT))):
         mode, flags = (_load(data, position + word - OBJECT_BYTES) for word in (OBJECT_MODE, OBJECT_FLAGS))

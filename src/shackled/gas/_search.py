@@ -1,4 +1,4 @@
-"""How much gas a call needs, from nothing but whether a limit sufficed: a search by halves between two gas limits."""
+"""Find the gas that a call needs by bisection, from nothing but whether a limit suffices."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ FIRST_LIMIT = 1 << 20
 
 
 class Caller(Protocol):
-    """Whatever makes calls of contracts and raises OutOfGasError where the limit does not suffice."""
+    """Makes calls of contracts, and raises OutOfGasError where the limit does not suffice."""
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> object:
-        """Calls a contract, by the name of its artifact."""
+        """Call a contract, by the name of its artifact."""
 
 
 @dataclass(frozen=True)
-class Step:
-    """One call: the limit that was tried, whether it sufficed, and what is known after it.
+class SearchStep:
+    """One call: the limit that was tried, whether it sufficed, and the bracket after it.
 
-    lower: the largest limit that is known not to suffice, or the lower limit of the search. upper: the smallest that
-    is known to; None while there is none.
+    lower: the largest limit that is known not to suffice, or the lower bound of the search. upper: the smallest limit
+    that is known to suffice; None while there is none.
     """
 
     limit: int
@@ -36,14 +36,14 @@ class Step:
 
 @dataclass(frozen=True)
 class Search:
-    """What a search found: the least gas limit that suffices, and the calls that led there."""
+    """The result of a search: the least gas limit that suffices, and the calls that were made."""
 
     gas: int
-    steps: tuple[Step, ...]
+    steps: tuple[SearchStep, ...]
 
     @property
     def calls(self) -> int:
-        """How many calls were made."""
+        """Return the number of calls."""
         return len(self.steps)
 
 
@@ -51,19 +51,19 @@ def search(
     enough: Callable[[int], bool],
     lower: int = 0,
     upper: int | None = None,
-    report: Callable[[Step], None] | None = None,
+    report: Callable[[SearchStep], None] | None = None,
     most: int = DEFAULT_GAS_LIMIT,
 ) -> Search:
     """Return the least limit above `lower` that is enough.
 
-    enough: makes the call with this limit; what is enough stays enough with more. lower: taken not to suffice.
-    upper: a limit that should; None doubles until one does, up to `most`. report: is told every step.
-    InputError if the limits are the wrong way round, OutOfGasError if the upper one does not suffice.
+    enough: makes the call with this limit. lower: taken not to suffice. upper: a limit that should; None doubles until
+    one does, up to `most`. report: called after every step. Raises InputError if the bounds are in the wrong order,
+    OutOfGasError if the upper one does not suffice.
     """
     last = most if upper is None else upper
     if not 0 <= lower < last:
         raise InputError(f"the search needs limits 0 <= lower < upper, not {lower:,} and {last:,}")
-    steps: list[Step] = []
+    steps: list[SearchStep] = []
     known: int | None = None
 
     def attempt(limit: int) -> bool:
@@ -73,7 +73,7 @@ def search(
             known = limit
         else:
             lower = limit
-        steps.append(Step(limit, sufficed, lower, known))
+        steps.append(SearchStep(limit, sufficed, lower, known))
         if report is not None:
             report(steps[-1])
         return sufficed
@@ -91,7 +91,7 @@ def search(
 
 
 def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
-    """Return whether a call succeeds with a gas limit. Raises ChainError if it fails for another reason."""
+    """Return a function that tells whether a call succeeds with a gas limit; it raises ChainError on other failures."""
 
     def call(limit: int) -> bool:
         try:

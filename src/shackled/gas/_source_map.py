@@ -1,4 +1,4 @@
-"""Where in the sources each instruction of a contract comes from."""
+"""Map the instructions of a contract to its sources."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _PUSH1, _PUSH32 = 0x60, 0x7F
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the sources: its name with that of its contract or file, and its place in bytes."""
+    """A function of the sources: its name with that of its contract or file, and its range of bytes."""
 
     name: str
     begin: int
@@ -25,7 +25,7 @@ class Function:
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceFile:
     """A file of the sources."""
 
     name: str
@@ -38,17 +38,17 @@ class Source:
         return bisect_right(self.line_begins, place)
 
     def function(self, begin: int, end: int) -> str | None:
-        """Return the function that holds these bytes."""
+        """Return the function that contains these bytes."""
         return next((f.name for f in self.functions if f.begin <= begin and end <= f.end), None)
 
 
 @dataclass(frozen=True)
-class Place:
+class SourceLocation:
     """Where an instruction comes from.
 
-    function: None if it is the compiler's own, such as reading the ABI. line: from 1. jump: "i" where a function is
-    entered, "o" where one is left, "-" otherwise. block: whether the place is a whole block of inline assembly, which
-    the compiler does not divide.
+    function: None if it is the compiler's own, such as decoding the ABI. line: from 1. jump: "i" where a function is
+    entered, "o" where one is left, "-" otherwise. block: whether the location is a whole block of inline assembly,
+    which the compiler does not divide.
     """
 
     file: str
@@ -60,10 +60,10 @@ class Place:
 
 @dataclass(frozen=True)
 class SourceMap:
-    """The places of a contract's instructions, and the functions that begin at them, by position in the code."""
+    """The locations of a contract's instructions, and the functions that begin at them, by position in the code."""
 
     contract: str
-    places: dict[int, Place]
+    places: dict[int, SourceLocation]
     entries: dict[int, str]
     entry_lines: dict[int, int]
 
@@ -72,7 +72,7 @@ class SourceMap:
 def source_map(contract: str) -> SourceMap:
     """Return the map of a contract, by the name of its artifact."""
     data = _data()["contracts"][contract]
-    places: dict[int, Place] = {}
+    places: dict[int, SourceLocation] = {}
     spans: dict[int, tuple[int, int, int]] = {}
     fields = ["0", "0", "-1", "-"]
     entries = data["map"].split(";")
@@ -83,12 +83,12 @@ def source_map(contract: str) -> SourceMap:
         begin, length, number = map(int, fields[:3])
         source = _sources().get(number)
         if source is None:
-            places[at] = Place("", None, 0, fields[3], False)
+            places[at] = SourceLocation("", None, 0, fields[3], False)
             continue
         spans[at] = number, begin, begin + length
         block = source.text.startswith(b"assembly", begin)
         function = source.function(begin, begin + length)
-        places[at] = Place(source.name, function, source.line(begin), fields[3], block)
+        places[at] = SourceLocation(source.name, function, source.line(begin), fields[3], block)
     names, lines = {}, {}
     for name, at in data["entries"].items():
         names[at], lines[at] = _entry(name, spans.get(at))
@@ -113,7 +113,7 @@ def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
 
 
 def _instructions(code: bytes) -> list[int]:
-    """Return the positions of the instructions, without what is pushed."""
+    """Return the positions of the instructions, without pushed values."""
     places, at = [], 0
     while at < len(code):
         places.append(at)
@@ -128,8 +128,8 @@ def _data() -> dict[str, Any]:
 
 
 @cache
-def _sources() -> dict[int, Source]:
-    """Return the sources that the compiler was given, by its numbers for them."""
+def _sources() -> dict[int, SourceFile]:
+    """Return the source files by the compiler's numbers."""
     texts: dict[str, dict[str, str]] = {}
     for group in {artifact(contract).group for contract in _data()["contracts"]}:
         request = json.loads(files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8"))
@@ -140,5 +140,5 @@ def _sources() -> dict[int, Source]:
         text = texts[source["name"]].get("content", "").encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))
-        sources[int(number)] = Source(source["name"], text, functions, begins)
+        sources[int(number)] = SourceFile(source["name"], text, functions, begins)
     return sources

@@ -1,11 +1,11 @@
-"""A profile in the format of speedscope, a viewer of flame graphs: https://www.speedscope.app."""
+"""Export a profile to speedscope, a viewer of flame graphs: https://www.speedscope.app."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from .. import __version__
-from ._profile import Cost, Profile
+from ._profile import LineCost, Profile
 
 SCHEMA = "https://www.speedscope.app/file-format-schema.json"
 
@@ -35,7 +35,7 @@ def speedscope(profile: Profile, name: str) -> dict[str, Any]:
     }
 
 
-def _frames(cost: Cost) -> list[tuple[str, str, int]]:
+def _frames(cost: LineCost) -> list[tuple[str, str, int]]:
     return [(cost.stage, "", 0), *((call, "", 0) for call in cost.calls), (cost.place, cost.file, cost.line)]
 
 

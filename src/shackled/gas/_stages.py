@@ -1,4 +1,4 @@
-"""The stages of a picture, and which sources belong to them."""
+"""The stages of a picture, and the source files of each."""
 
 from __future__ import annotations
 

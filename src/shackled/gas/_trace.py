@@ -1,4 +1,4 @@
-"""A call, instruction by instruction: what each cost, in which function, called from where, at work for which stage."""
+"""Trace a call instruction by instruction: the gas by call stack, stage and position."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ _STRIDE = 1 << 16
 
 
 @dataclass(eq=False)
-class Frame:
-    """A function with the calls that led to it; the same for every call by the same way.
+class CallFrame:
+    """A function with its callers; one frame for all calls by the same way.
 
-    contract: the name of its artifact. entry: the position at which it begins; 0 is the contract itself.
-    costs: gas by stage and position of the instruction, without that of calls.
+    contract: the name of its artifact. entry: the position at which it begins; 0 is the contract itself. costs: gas by
+    stage and position of the instruction, without that of calls.
     """
 
     contract: str
     entry: int
-    parent: Frame | None
+    parent: CallFrame | None
     costs: defaultdict[str, defaultdict[int, int]] = field(
         default_factory=lambda: defaultdict(lambda: defaultdict(int))
     )
-    calls: dict[tuple[str, int], Frame] = field(default_factory=dict)
+    calls: dict[tuple[str, int], CallFrame] = field(default_factory=dict)
 
-    def call(self, contract: str, entry: int) -> Frame:
+    def call(self, contract: str, entry: int) -> CallFrame:
         """Return the frame of a function that is called here."""
         key = contract, entry
         if key not in self.calls:
-            self.calls[key] = Frame(contract, entry, self)
+            self.calls[key] = CallFrame(contract, entry, self)
         return self.calls[key]
 
-    def frames(self) -> list[Frame]:
-        """This frame and all below it."""
+    def frames(self) -> list[CallFrame]:
+        """Return this frame and all below it."""
         return [self, *(frame for each in self.calls.values() for frame in each.frames())]
 
     def gas(self) -> int:
@@ -60,10 +60,10 @@ def can_trace() -> bool:
     return find_spec("eth") is not None
 
 
-def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[Frame, CallResult]:
-    """Makes a call in py-evm; the frame of the contract, and the result.
+def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[CallFrame, CallResult]:
+    """Make a call in py-evm; return the frame of the contract, and the result.
 
-    report: is told now and then how much gas has been used. InputError if py-evm is not installed.
+    report: called from time to time with the gas that has been used. Raises InputError if py-evm is not installed.
     """
     if not can_trace():
         raise InputError(f"gas by stage and line needs {TRACER}")
@@ -75,18 +75,18 @@ def trace(contract: str, data: bytes, report: Callable[[int], None] | None = Non
 
 
 class _Tracer(PyEvmChain):
-    """Keeps what the last call cost."""
+    """Records the gas of the last call."""
 
     def __init__(self, report: Callable[[int], None] | None) -> None:
         super().__init__()
-        self.root: Frame | None = None
+        self.root: CallFrame | None = None
         self._report = report
 
     def _state(self) -> Any:
         state = super()._state()
         self.root = None
         #: Who is calling, for which stage; and the gas of the call that ended last.
-        self._caller: tuple[Frame | None, str] = None, REST
+        self._caller: tuple[CallFrame | None, str] = None, REST
         self._called = 0
         tracer, base = self, state.computation_class
 
@@ -113,11 +113,11 @@ class _Tracer(PyEvmChain):
         stages = stages_of(mapped)
         jumps = {at: place.jump for at, place in mapped.places.items() if place.jump in "io"}
         caller, stage = self._caller
-        frame = Frame(contract, 0, None) if caller is None else caller.call(contract, 0)
+        frame = CallFrame(contract, 0, None) if caller is None else caller.call(contract, 0)
         if self.root is None:
             self.root = frame
-        #: Frame and stage of each call that is open, and where it should return to.
-        returns: list[tuple[Frame, str, int]] = []
+        #: CallFrame and stage of each call that is open, and where it should return to.
+        returns: list[tuple[CallFrame, str, int]] = []
         costs = frame.costs[stage]
         code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
         start = before = meter.gas_remaining

@@ -1,13 +1,9 @@
-from ._cluster import ClusterPlace
+from ._backends import Backend, ChainBackend, Part, ProcessBackend, Verifier, draw_part
+from ._cluster import ClusterBackend
 from ._estimate import estimate
-from ._job import COMPARED_GAS, Finished, choose_referee, plan, render_frames
-from ._listener import Listener, Outline
-from ._part import Part, draw_part
-from ._place import ChainPlace, Place
-from ._processes import ProcessPlace
-from ._referee import Referee
-from ._scheduler import FAILURES, Scheduler
-from ._store import PLAN, Store, folder_of, remove_parts
+from ._job import COMPARED_GAS, Finished, choose_verifier, plan, render_frames
+from ._scheduler import FAILURES, Listener, Outline, Scheduler
+from ._store import PLAN, PartStore, folder_of, remove_parts
 from ._tiles import SMALLEST, area, covers, cut, grid, halves
 from ._where import VERIFY, Where
 
@@ -17,20 +13,20 @@ __all__ = [
     "PLAN",
     "SMALLEST",
     "VERIFY",
-    "ChainPlace",
-    "ClusterPlace",
+    "Backend",
+    "ChainBackend",
+    "ClusterBackend",
     "Finished",
     "Listener",
     "Outline",
     "Part",
-    "Place",
-    "ProcessPlace",
-    "Referee",
+    "PartStore",
+    "ProcessBackend",
     "Scheduler",
-    "Store",
+    "Verifier",
     "Where",
     "area",
-    "choose_referee",
+    "choose_verifier",
     "covers",
     "cut",
     "draw_part",

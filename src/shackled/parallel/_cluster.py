@@ -1,4 +1,8 @@
-"""Machines: the workers of a dask.distributed cluster, each with an embedded EVM."""
+"""A backend of the workers of a dask.distributed cluster, each with an embedded EVM.
+
+`python -m shackled.parallel._cluster WORKERS` starts a cluster on this machine, prints its address, and ends with its
+standard input. It runs in a process of its own, since dask runs the main script again in each worker.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..chain import Drawing, open_chain
 from ..errors import InputError, RenderError, ShackledError
 from ..scene import Rectangle, Scene
-from ._evm import draw_limited, limited
+from ._backends import draw_limited, limited
 from ._store import contracts_digest
 
 if TYPE_CHECKING:
@@ -21,16 +25,16 @@ if TYPE_CHECKING:
 
 #: Seconds within which a scheduler must answer.
 PATIENCE = 15
-#: The parts that are on their way to each worker, so that none has to wait for the next.
+#: Parts that are queued for each worker, so that none is idle between two.
 AHEAD = 2
-#: Seconds that a cluster of our own has to stop by itself.
+#: Seconds for a local cluster to stop, before it is killed.
 STOPPING = 10
-#: What dask says when the connection to its scheduler has broken.
+#: Parts of dask's messages when the connection to its scheduler has broken.
 LOST = ("connection-lost", "ConnectionResetError", "CommClosedError")
 
 
-class ClusterPlace:
-    """A cluster: one that runs at an address, or one of this machine, which ends with the job."""
+class ClusterBackend:
+    """A cluster at an address, or a local one, which ends with the job."""
 
     def __init__(
         self,
@@ -38,12 +42,13 @@ class ClusterPlace:
         jobs: int,
         chain: str | None = None,
         gas: int | None = None,
-        distant: bool = False,
+        untrusted: bool = False,
     ) -> None:
-        """address: of a scheduler, as tcp://host:8786; None starts `jobs` workers here. chain, gas: as `ProcessPlace`.
-        distant: whether what its workers draw may be wrong, although they are found to have the contracts that we have.
+        """Connect to a cluster, and check that its workers have the same contracts.
 
-        InputError if dask.distributed is not installed, or a worker does not fit; RenderError if no cluster is there.
+        address: of a scheduler, as tcp://host:8786; None starts `jobs` local workers. chain, gas: as `ProcessBackend`.
+        Raises InputError if dask.distributed is missing, here or in a worker, or a worker has other contracts;
+        RenderError if no cluster answers.
         """
         try:
             from distributed import Client
@@ -54,11 +59,11 @@ class ClusterPlace:
 
         class QuietClient(Client):  # type: ignore[misc,unused-ignore]
             def __del__(self) -> None:
-                """We close it, and one that could not be opened is not waited for."""
+                """Do not wait for a client that could not be opened."""
 
-        self.gas, self._chain, self.distant = gas, chain, distant
+        self.gas, self._chain, self.untrusted = gas, chain, untrusted
         limited(chain, gas)
-        # what it reports of a lost connection, with a traceback, comes out as an error here
+        # a lost connection is raised as an error here: do not log its traceback as well
         self._logger = logging.getLogger("distributed.client")
         self._level = self._logger.level
         self._logger.setLevel(logging.CRITICAL)
@@ -78,16 +83,16 @@ class ClusterPlace:
             raise RenderError(
                 f"no dask scheduler answers at {address or 'a port of this machine'}: {_line(error)}"
             ) from None
-        self.seats = AHEAD * workers
+        self.slots = AHEAD * workers
         self._name = f"dask cluster, {open_chain(chain).name}, {workers} worker" + ("s" if workers != 1 else "")
 
     @property
     def name(self) -> str:
-        """What it is, for people."""
+        """Return the kind of cluster and the number of workers."""
         return self._name
 
-    def work(self, seat: int, scene: Scene, tile: Rectangle) -> Drawing:
-        """Renders a part on whichever worker is free."""
+    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render a part on any free worker."""
         from distributed import KilledWorker
 
         try:
@@ -108,14 +113,14 @@ class ClusterPlace:
         return answer
 
     def close(self) -> None:
-        """Leaves the cluster, which drops what it still has to do for us; one of our own is stopped."""
+        """Disconnect, which cancels queued parts, and stop a local cluster."""
         if hasattr(self, "_client"):
             with suppress(Exception):
                 self._client.close(timeout=5)  # type: ignore[no-untyped-call]
         self._logger.setLevel(self._level)
         local, self._local = self._local, None
         if local is not None:
-            # the end of its input ends it
+            # it ends with its standard input
             local.stdin.close()  # type: ignore[union-attr]
             try:
                 local.wait(STOPPING)
@@ -125,9 +130,9 @@ class ClusterPlace:
             local.stdout.close()  # type: ignore[union-attr]
 
     def _start(self, jobs: int) -> str:
-        """The address of a cluster of our own, in a process that ends with this one."""
+        """Start a local cluster in a process that ends with this one; return its address."""
         self._local = subprocess.Popen(
-            [sys.executable, "-m", f"{__package__}._local_cluster", str(jobs)],
+            [sys.executable, "-m", __name__, str(jobs)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -140,7 +145,7 @@ class ClusterPlace:
         return address
 
     def _check(self) -> int:
-        """How many workers there are; InputError if one cannot render what we do."""
+        """Return the number of workers; raise InputError if one lacks the contracts."""
         try:
             self._client.wait_for_workers(1, timeout=PATIENCE)
             facts = self._client.run(_facts_function())
@@ -148,7 +153,7 @@ class ClusterPlace:
             raise RenderError(f"the dask cluster has no workers: {_line(error)}") from None
         except Exception as error:
             raise InputError(
-                f"a worker of the cluster cannot run our code; has it the same Python? {_line(error)}"
+                f"a worker of the cluster cannot run this code; has it the same Python? {_line(error)}"
             ) from None
         for worker, found in facts.items():
             if found is None:
@@ -159,7 +164,7 @@ class ClusterPlace:
 
 
 def _facts_function() -> Any:
-    """A function that is sent whole, as it must run where shackled may be missing."""
+    """Return a function that dask pickles by value, since it must run where shackled may be missing."""
 
     def facts() -> str | None:
         try:
@@ -173,8 +178,8 @@ def _facts_function() -> Any:
 
 
 def _greet(address: str) -> None:
-    """Shakes hands with a scheduler. An error, whatever it may be, if none is there: a client would wait for ever for
-    something else that says nothing.
+    """Connect to a scheduler once; raise an error if none answers. A client would wait for ever for a server that
+    accepts connections and is no scheduler.
     """
     from distributed.comm.core import connect
     from distributed.security import Security
@@ -193,14 +198,28 @@ def _greet(address: str) -> None:
             ended.append(error)
 
     ended: list[Exception | None] = []
-    # a notebook has a loop in its thread already
+    # in a thread, since a notebook already runs an event loop in its own
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
     thread.join(2 * PATIENCE)
     error = ended[0] if ended else TimeoutError()
     if error is not None:
-        raise OSError("it says nothing") if isinstance(error, TimeoutError) else error
+        raise OSError("it does not answer") if isinstance(error, TimeoutError) else error
 
 
 def _line(error: BaseException) -> str:
     return " ".join((str(error) or type(error).__name__).split())[:200]
+
+
+def _run_cluster() -> None:
+    from distributed import LocalCluster
+
+    with LocalCluster(  # type: ignore[no-untyped-call]
+        n_workers=int(sys.argv[1]), threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0"
+    ) as cluster:
+        print(cluster.scheduler_address, flush=True)
+        sys.stdin.read()
+
+
+if __name__ == "__main__":
+    _run_cluster()

@@ -1,4 +1,4 @@
-"""What a picture will cost, told before it is made: small pictures of the same scene tell the gas of a large one."""
+"""Estimate the gas of a large picture from small pictures of the same scene."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from ..scene import Rectangle, Scene
 
 Pixels = NDArray[np.uint8]
 
-#: The longer sides of the small pictures, in pixels: large enough that most faces cover some.
+#: The longer sides of the small pictures, in pixels: large enough that most faces cover a pixel.
 SIDES = (128, 256)
-#: The part of the gas of a call that is planned with.
+#: The part of a gas limit that plans use.
 USED = 0.9
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """area: pixels of the picture. fixed: gas of the picture beside its pixels. call: what of that each call costs,
-    however small its tile: to find out which faces of the scene it shows. pixel: gas of each pixel, on average.
-    density: how many times as much a pixel may cost in a strip of the picture where much is drawn.
-    intrinsic: gas to send the scene.
+    """The parts of an estimate.
+
+    area: pixels of the picture. fixed: gas of the picture without its pixels. call: the part of `fixed` that each call
+    costs, however small its tile, to find the faces that it shows. pixel: mean gas of a pixel. density: the cost of a
+    pixel in the densest strip of the picture, divided by the mean. intrinsic: gas to send the scene.
     """
 
     area: int
@@ -36,14 +37,14 @@ class Estimate:
     intrinsic: int
 
     def gas(self, pixels: int, calls: int = 1) -> int:
-        """Execution gas of a picture in so many calls of equal size."""
+        """Return the execution gas of a picture that is rendered in so many calls of equal size."""
         return round(self.fixed + (calls - 1) * self.call + calls * memory_gas(pixels // calls) + self.pixel * pixels)
 
     def pixels_within(self, gas: int) -> int:
-        """The pixels of a strip of the picture that fits into that much gas wherever it is, what is paid to send the
-        scene included; 0 if none does.
+        """Return the most pixels of a strip that fits into a gas limit anywhere in the picture, intrinsic gas included;
+        0 if none does.
         """
-        # vertices and faces are where pixels are covered
+        # vertices and faces cost gas where pixels are covered
         pixel = (self.pixel + max(0.0, self.fixed - self.call) / self.area) * self.density
         fitting, beyond = 0, 1 << 22
         while beyond - fitting > 1:
@@ -54,7 +55,7 @@ class Estimate:
 
 
 def estimate(scene: Scene, chain: ContractChain) -> Estimate:
-    """The cost of a scene, on a chain that is fast: it draws small pictures."""
+    """Estimate the cost of a scene; draws small pictures on a chain, which should be a fast one."""
     small, large = (evolve(scene, width=width, height=height) for width, height in _sizes(scene))
     drawings = [chain.draw(each) for each in (small, large)]
     pixels = [each.width * each.height for each in (small, large)]
@@ -73,19 +74,19 @@ def estimate(scene: Scene, chain: ContractChain) -> Estimate:
 
 
 def _density(drawn: Pixels, empty: Pixels) -> float:
-    """How much more of the densest rows is covered than of the whole picture."""
+    """Return the share of covered pixels in the densest row, divided by that of the picture."""
     rows = (drawn != empty).any(axis=2).mean(axis=1)
     return float(rows.max() / rows.mean()) if rows.any() else 1.0
 
 
 def memory_gas(pixels: int) -> int:
-    """What the memory of engine and renderer costs for so many pixels of 3 bytes, which each of them holds."""
+    """Return the gas of the memory that engine and renderer each need for so many pixels of 3 bytes."""
     words = 3 * pixels // 32
     return 2 * (3 * words + words * words // 512)
 
 
 def _sizes(scene: Scene) -> list[tuple[int, int]]:
-    """Canvases of the same shape, none larger than that of the scene."""
+    """Return two canvas sizes of the same shape, none larger than that of the scene."""
     longer = max(scene.width, scene.height)
     sides = SIDES if longer >= SIDES[1] else ((longer + 1) // 2, longer)
     return [(max(1, round(scene.width * s / longer)), max(1, round(scene.height * s / longer))) for s in sides]

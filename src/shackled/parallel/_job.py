@@ -1,4 +1,4 @@
-"""From frames to pictures: cut into parts, rendered wherever they may be, put together."""
+"""Render frames: cut them into parts, render the parts on backends, assemble the pictures."""
 
 from __future__ import annotations
 
@@ -13,31 +13,31 @@ import numpy as np
 from ..chain import Drawing, PyrevmChain, open_chain
 from ..image import Image, decode_bmp, encode_bmp
 from ..scene import Rectangle, Scene
+from ._backends import SAMPLE, Backend, Part, Verifier
 from ._estimate import Estimate, estimate
-from ._listener import Listener, Outline
-from ._part import Part
-from ._place import Place
-from ._referee import SAMPLE, Referee
-from ._scheduler import Scheduler
-from ._store import Store
+from ._scheduler import Listener, Outline, Scheduler
+from ._store import PartStore
 from ._tiles import cut, grid
 from ._where import Where
 
-#: Parts for each seat, so that all have something to do until the end, as long as they cost at most so much more gas.
-PARTS_PER_SEAT = 4
+#: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
+PARTS_PER_SLOT = 4
 MOST_EXTRA = 0.3
-#: Pixels of a part, or a row where that is more, at least: smaller ones mostly cost what each call costs.
+#: The least pixels of a part, or a row where that is more: in smaller ones the fixed cost of a call dominates.
 LEAST_PIXELS = 1024
-#: Pixels of a part at most: about 50 MB for its pixels and what is worked out about them.
+#: The most pixels of a part: about 50 MB for its pixels and buffers.
 MOST_PIXELS = 1 << 22
-#: Pictures of nodes that take less gas are compared whole: here that takes a second or two. PIXELS: where no gas is
-#: known, as only NumPy is there to draw them.
+#: Pictures that take less gas are compared whole, which takes a second or two. PIXELS: the same where gas is unknown,
+#: because only the NumPy reference can draw them.
 COMPARED_GAS, COMPARED_PIXELS = 500_000_000, 1 << 20
 
 
 @dataclass(frozen=True)
 class Finished:
-    """images: the frames. calls: how many made them. shares: how many of them each place made, by its name."""
+    """The result of a job.
+
+    images: the frames. calls: how many parts were rendered. shares: how many of them by each backend, by its name.
+    """
 
     images: list[Image]
     calls: int
@@ -51,23 +51,23 @@ def render_frames(
     listener: Listener | None = None,
     keep: Path | None = None,
 ) -> Finished:
-    """Renders frames, all of one size.
+    """Render frames of equal size.
 
-    keep: a folder in which finished parts are kept until the job is done; whoever uses the pictures removes it.
+    keep: a folder for finished parts, so that an interrupted job can be continued; the caller removes it.
     """
     listener = listener or Listener()
     started = time.perf_counter()
     with ExitStack() as stack:
         stack.callback(listener.ended)
-        places = where.open(listener)
-        for place in places:
-            stack.callback(place.close)
-        expected = _estimate(frames[0], places, where)
-        tiles = plan(frames[0], len(frames), places, expected, where.tile)
+        backends = where.open(listener)
+        for backend in backends:
+            stack.callback(backend.close)
+        expected = _estimate(frames[0], backends, where)
+        tiles = plan(frames[0], len(frames), backends, expected, where.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
-        referee, compared = choose_referee(frames[0], places, expected, where.verify)
-        # a single part may have to be cut too
-        store = Store(keep, frames, compared) if keep is not None else None
+        verifier, compared = choose_verifier(frames[0], backends, expected, where.verify)
+        # a single part may be cut later
+        store = PartStore(keep, frames, compared) if keep is not None else None
         if store is not None and len(parts) > 1:
             parts = _planned(store, parts, where)
         pixels = frames[0].width * frames[0].height
@@ -75,10 +75,10 @@ def render_frames(
         listener.planned(Outline(len(parts), len(frames), pixels * len(frames), gas))
         if not compared and where.verify is None and len(parts) > 1:
             listener.warned(
-                f"of what nodes draw of a picture as large as this only samples are compared (one part in {SAMPLE}): "
-                "`verify` all compares every pixel"
+                f"only a sample of the parts of so large a picture is verified (one in {SAMPLE}): "
+                "`verify` all verifies every part"
             )
-        scheduler = Scheduler(frames, places, store, listener, referee)
+        scheduler = Scheduler(frames, backends, store, listener, verifier)
         try:
             pieces = scheduler.run(parts)
         except BaseException:
@@ -92,49 +92,49 @@ def render_frames(
 
 
 def plan(
-    scene: Scene, frames: int, places: Sequence[Place], expected: Estimate | None, tile: tuple[int, int] | None
+    scene: Scene, frames: int, backends: Sequence[Backend], expected: Estimate | None, tile: tuple[int, int] | None
 ) -> list[Rectangle]:
-    """The tiles of each frame."""
+    """Return the tiles of each frame. tile: their size if it is fixed."""
     width, height = scene.width, scene.height
     if tile is not None:
         return list(grid(width, height, *tile))
     pixels = MOST_PIXELS
-    for place in places:
-        if place.gas is not None and expected is not None:
-            pixels = min(pixels, expected.pixels_within(place.gas))
-    # what does not fit by this reckoning is tried in the smallest tiles that make sense
+    for backend in backends:
+        if backend.gas is not None and expected is not None:
+            pixels = min(pixels, expected.pixels_within(backend.gas))
+    # if the estimate says that nothing fits, try the smallest useful tiles
     pixels = max(pixels, width, LEAST_PIXELS)
-    seats = sum(place.seats for place in places)
-    wanted = 1 if frames >= seats else -(-PARTS_PER_SEAT * seats // frames)
+    slots = sum(backend.slots for backend in backends)
+    wanted = 1 if frames >= slots else -(-PARTS_PER_SLOT * slots // frames)
     if expected is not None and wanted > 1:
         spare = MOST_EXTRA * expected.gas(width * height) / max(1.0, expected.call)
-        wanted = max(min(wanted, 1 + int(spare)), -(-seats // frames))
+        wanted = max(min(wanted, 1 + int(spare)), -(-slots // frames))
     return cut(width, height, pixels, wanted)
 
 
-def _estimate(scene: Scene, places: Sequence[Place], where: Where) -> Estimate | None:
-    """What a frame will cost; None where that would take as long as the frame itself."""
+def _estimate(scene: Scene, backends: Sequence[Backend], where: Where) -> Estimate | None:
+    """Estimate the cost of a frame; return None where that would take as long as the frame itself."""
     chain = open_chain(None)
-    if not isinstance(chain, PyrevmChain) or any(place.name.startswith("NumPy") for place in places):
+    if not isinstance(chain, PyrevmChain) or any(backend.name.startswith("NumPy") for backend in backends):
         return None
     return estimate(scene, chain)
 
 
-def choose_referee(
-    scene: Scene, places: Sequence[Place], expected: Estimate | None, verify: str | None
-) -> tuple[Referee | None, bool]:
-    """Who compares what places draw that may be wrong, and whether every part is right in the end."""
-    if not any(place.distant for place in places):
+def choose_verifier(
+    scene: Scene, backends: Sequence[Backend], expected: Estimate | None, verify: str | None
+) -> tuple[Verifier | None, bool]:
+    """Return the verifier of untrusted backends, or None; and whether every part is known to be right in the end."""
+    if not any(backend.untrusted for backend in backends):
         return None, True
     if verify is None:
         pixels = scene.width * scene.height
         cheap = pixels <= COMPARED_PIXELS if expected is None else expected.gas(pixels) < COMPARED_GAS
         verify = "all" if cheap else "some"
-    return (None if verify == "none" else Referee(verify == "all")), verify == "all"
+    return (None if verify == "none" else Verifier(verify == "all")), verify == "all"
 
 
-def _planned(store: Store, parts: list[Part], where: Where) -> list[Part]:
-    """The parts of an earlier run of the same job, or else those."""
+def _planned(store: PartStore, parts: list[Part], where: Where) -> list[Part]:
+    """Return the parts of an earlier run of the same job, or else those given."""
     earlier = store.read_plan()
     if earlier is not None and where.tile is None:
         return earlier
@@ -143,7 +143,7 @@ def _planned(store: Store, parts: list[Part], where: Where) -> list[Part]:
 
 
 def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str, seconds: float) -> Image:
-    """The picture of a frame from its parts."""
+    """Return the picture of a frame, assembled from its parts."""
     own = {part.tile: piece for part, piece in pieces.items() if part.frame == number}
     pixels = np.zeros((scene.height, scene.width, 3), np.uint8)
     for tile, piece in own.items():
@@ -164,7 +164,7 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str
 
 
 def _bmp(pixels: np.ndarray, pieces: list[Drawing]) -> bytes:
-    """The file: the one that the contract made, or, of tiles, the same as it would have made."""
+    """Return the BMP file of the contract, or of several tiles the same bytes as it would have made."""
     if len(pieces) == 1:
         return pieces[0].bmp
     return encode_bmp(pixels)
@@ -175,7 +175,7 @@ def _sum(numbers: Sequence[int | None]) -> int | None:
     return sum(known) if len(known) == len(numbers) else None
 
 
-def _name(places: Sequence[Place]) -> str:
-    if len(places) == 1:
-        return places[0].name
-    return f"{len(places)} nodes: {', '.join(place.name.removeprefix('node ') for place in places)}"
+def _name(backends: Sequence[Backend]) -> str:
+    if len(backends) == 1:
+        return backends[0].name
+    return f"{len(backends)} nodes: {', '.join(backend.name.removeprefix('node ') for backend in backends)}"

@@ -1,7 +1,7 @@
-"""Spreads parts over places.
+"""Distribute parts over backends.
 
-Each seat of a place takes the next part when it is free, so that slow places get fewer. What a place cannot do goes
-back to the others; a place that fails again and again, or answers wrongly, is left out.
+Each slot of a backend takes the next part when it is free, so that slow backends get fewer. A part that a backend
+cannot render returns to the queue; a backend that fails repeatedly, or answers wrongly, is dropped.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import random
 import threading
 import time
+import warnings
 from collections import deque
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -27,36 +28,61 @@ from ..errors import (
     WrongChainError,
 )
 from ..scene import Scene
-from ._listener import Listener
-from ._part import Part, check_part
-from ._place import Place
-from ._referee import Referee
-from ._store import Store
+from ._backends import Backend, Part, Verifier, check_part
+from ._store import PartStore
 from ._tiles import area, halves
 
-#: How often in a row a place may fail, be busy, and, while there are others, find parts too large.
+#: How often in a row a backend may fail, be busy, and, while there are others, find parts too large.
 FAILURES, BUSY, MISSES = 3, 10, 6
-#: The same for parts that take too long: while it is waited for one, nobody else can do it.
+#: The same for timeouts: until a part has timed out, no other backend can render it.
 TIMEOUTS = 2
-#: The first pause of a place that failed or is busy, and the longest, in seconds.
+#: The first and the longest pause of a backend that failed or is busy, in seconds.
 PAUSE, LONGEST_PAUSE = 0.25, 30.0
-#: What a place says when a smaller part may do.
+#: Errors after which a smaller part may succeed.
 TOO_MUCH = (OutOfGasError, TooLargeError, NodeTimeoutError)
 
 
+@dataclass(frozen=True)
+class Outline:
+    """The size of a job. gas: an estimate of what it will use; None if there is none."""
+
+    parts: int
+    frames: int
+    pixels: int
+    gas: int | None
+
+
+class Listener:
+    """Receives the progress of a job; this one shows warnings only. Threads may call it, one at a time."""
+
+    def planned(self, outline: Outline) -> None:
+        """Handle the start of the job."""
+
+    def advanced(self, pixels: int) -> None:
+        """Handle finished pixels, of this or an earlier run; fewer than 0 if some have to be rendered again."""
+
+    def warned(self, text: str) -> None:
+        """Handle a failure that does not end the job."""
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
+
+    def ended(self) -> None:
+        """Handle the end of the job, finished or not."""
+
+
 class WrongAnswer(RenderError):
-    """A place drew something else than the contracts draw."""
+    """An answer differs from what the contracts draw."""
 
 
 @dataclass(eq=False)
-class Bench:
-    """A place with what was seen of it.
+class BackendState:
+    """A backend and what is known of it.
 
-    capacity: the pixels of a part that it can do, as far as is known. failures, busy, misses: in a row.
-    unchecked: the parts that it did and that nobody checked. until: when it may be asked again.
+    capacity: the most pixels of a part that may succeed. failures, busy, misses: how often in a row.
+    until: monotonic time of the end of its pause. checked: whether its first part has been compared. done: how many
+    finished parts count. left: whether it was dropped. unchecked: finished parts that were not compared.
     """
 
-    place: Place
+    backend: Backend
     capacity: int = 1 << 62
     failures: int = 0
     busy: int = 0
@@ -74,37 +100,37 @@ class Scheduler:
     def __init__(
         self,
         frames: Sequence[Scene],
-        places: Sequence[Place],
-        store: Store | None = None,
+        backends: Sequence[Backend],
+        store: PartStore | None = None,
         listener: Listener | None = None,
-        referee: Referee | None = None,
+        verifier: Verifier | None = None,
     ) -> None:
-        """referee: None checks nothing."""
+        """Start nothing yet. store: keeps finished parts. verifier: None compares nothing."""
         self._frames = frames
-        self._benches = [Bench(place) for place in places]
-        self._store, self._listener, self._referee = store, listener or Listener(), referee
+        self._states = [BackendState(backend) for backend in backends]
+        self._store, self._listener, self._verifier = store, listener or Listener(), verifier
         self._changed = threading.Condition(threading.RLock())
         self._pending: deque[Part] = deque()
         self._flying = 0
         self._results: dict[Part, Drawing] = {}
         self._error: BaseException | None = None
         self._stopped = False
-        self._told: set[Bench] = set()
+        self._warned: set[BackendState] = set()
         self._comparing = ThreadPoolExecutor(1)
 
     def run(self, parts: Sequence[Part]) -> dict[Part, Drawing]:
-        """The finished parts; those given may have been cut further. An error ends all of it."""
+        """Render parts and return the finished ones, some of them cut further; an error ends the job."""
         with self._changed:
             self._put_first(parts)
-        seats = [(bench, seat) for bench in self._benches for seat in range(bench.place.seats)]
-        # daemons: a node that does not answer shall not keep the process from ending
-        threads = [threading.Thread(target=self._sit, args=each, daemon=True) for each in seats]
+        slots = [(state, slot) for state in self._states for slot in range(state.backend.slots)]
+        # daemons, so that a node that does not answer does not keep the process from ending
+        threads = [threading.Thread(target=self._serve, args=each, daemon=True) for each in slots]
         try:
             for thread in threads:
                 thread.start()
             with self._changed:
                 while not self._over():
-                    # with a time, so that Ctrl-C comes through on every platform
+                    # with a timeout, so that Ctrl-C works on every platform
                     self._changed.wait(0.5)
                 if self._error is not None:
                     raise self._error
@@ -117,142 +143,142 @@ class Scheduler:
 
     @property
     def shares(self) -> dict[str, int]:
-        """How many parts each place did, of those that count."""
+        """Return how many finished parts each backend rendered, by name."""
         found: dict[str, int] = {}
-        for bench in self._benches:
-            # one host may be asked with several keys
-            found[bench.place.name] = found.get(bench.place.name, 0) + bench.done
+        for state in self._states:
+            # nodes of one host have the same name
+            found[state.backend.name] = found.get(state.backend.name, 0) + state.done
         return found
 
     @property
-    def used(self) -> list[Place]:
-        """The places, but for those that were left out before they did anything that counts."""
-        return [bench.place for bench in self._benches if bench.done or not bench.left]
+    def used(self) -> list[Backend]:
+        """Return the backends without those that were dropped and contributed nothing."""
+        return [state.backend for state in self._states if state.done or not state.left]
 
     def _over(self) -> bool:
         return self._stopped or self._error is not None or not (self._pending or self._flying)
 
-    def _sit(self, bench: Bench, seat: int) -> None:
-        """What the thread of a seat does."""
-        while (part := self._take(bench)) is not None:
+    def _serve(self, state: BackendState, slot: int) -> None:
+        """Run the thread of a slot."""
+        while (part := self._take(state)) is not None:
             piece, failure = None, None
             try:
-                piece = bench.place.work(seat, self._frames[part.frame], part.tile)
+                piece = state.backend.render(slot, self._frames[part.frame], part.tile)
             except BaseException as error:
-                failure = self._judged(bench, part, error)
-            if piece is not None and bench.checked and self._referee is not None:
-                # beside the next call of this seat; the first part of a place is compared before it gets another
-                with suppress(RuntimeError):  # all is over
-                    self._comparing.submit(self._settle, bench, part, piece, None)
+                failure = self._judged(state, part, error)
+            if piece is not None and state.checked and self._verifier is not None:
+                # in parallel with the next call; the first part of a backend is compared before it gets another
+                with suppress(RuntimeError):  # the job has ended
+                    self._comparing.submit(self._settle, state, part, piece, None)
             else:
-                self._settle(bench, part, piece, failure)
+                self._settle(state, part, piece, failure)
 
-    def _settle(self, bench: Bench, part: Part, piece: Drawing | None, failure: BaseException | None) -> None:
-        """Takes in what a seat did."""
+    def _settle(self, state: BackendState, part: Part, piece: Drawing | None, failure: BaseException | None) -> None:
+        """Record the result of a call."""
         checked = False
-        if piece is not None and bench.place.distant:
+        if piece is not None and state.backend.untrusted:
             try:
-                checked = self._check(bench, part, piece)
+                checked = self._check(state, part, piece)
             except BaseException as error:
-                failure = self._judged(bench, part, error)
+                failure = self._judged(state, part, error)
         with self._changed:
             self._flying -= 1
             try:
                 if self._stopped:
                     return
                 if failure is not None:
-                    self._failed(bench, part, failure)
-                elif piece is None or (bench.left and not checked):
+                    self._failed(state, part, failure)
+                elif piece is None or (state.left and not checked):
                     self._pending.appendleft(part)
                 else:
-                    self._finished(bench, part, piece, checked)
+                    self._finished(state, part, piece, checked)
             except BaseException as error:
-                # of a listener, or of the disk
+                # raised by a listener, or by the disk
                 self._error = error
             finally:
                 self._changed.notify_all()
 
-    def _take(self, bench: Bench) -> Part | None:
-        """The next part for a place; None if there is nothing more to do for it."""
+    def _take(self, state: BackendState) -> Part | None:
+        """Wait for the next part of a backend; return None when there is none left for it."""
         with self._changed:
-            while not self._over() and not bench.left:
-                pause = bench.until - time.monotonic()
-                part = None if pause > 0 else self._next(bench)
+            while not self._over() and not state.left:
+                pause = state.until - time.monotonic()
+                part = None if pause > 0 else self._next(state)
                 if part is not None:
                     self._flying += 1
                     return part
                 self._changed.wait(pause if pause > 0 else None)
             return None
 
-    def _next(self, bench: Bench) -> Part | None:
-        """The first part that a place can do; if there are only larger ones, a piece of the first."""
+    def _next(self, state: BackendState) -> Part | None:
+        """Take the first part within the capacity of a backend, or else half of the first one."""
         for part in self._pending:
-            if area(part.tile) <= bench.capacity:
+            if area(part.tile) <= state.capacity:
                 self._pending.remove(part)
                 return part
         while self._pending:
             part = self._pending.popleft()
             smaller = halves(part.tile)
-            if area(part.tile) <= bench.capacity or len(smaller) == 1:
+            if area(part.tile) <= state.capacity or len(smaller) == 1:
                 return part
             self._put_first([Part(part.frame, tile) for tile in smaller])
         return None
 
-    def _check(self, bench: Bench, part: Part, piece: Drawing) -> bool:
-        """Whether a part was compared. WrongAnswer if it is not what it should be."""
+    def _check(self, state: BackendState, part: Part, piece: Drawing) -> bool:
+        """Return whether a part was compared; raise WrongAnswer if it is wrong."""
         scene = self._frames[part.frame]
         try:
             check_part(piece, part.tile)
         except ChainError as error:
             raise WrongAnswer(str(error)) from None
         with self._changed:
-            first, bench.checked = not bench.checked, True
-        if self._referee is None or not self._referee.wants(first):
+            first, state.checked = not state.checked, True
+        if self._verifier is None or not self._verifier.selects(first):
             return False
-        right = self._referee.draw(scene, part.tile)
+        right = self._verifier.draw(scene, part.tile)
         if piece.bmp != right.bmp:
             raise WrongAnswer("its picture is not what the contracts draw")
         if None not in (piece.gas, right.gas) and piece.gas != right.gas:
-            self._tell_of_gas(bench, part, piece.gas, right.gas)
+            self._warn_of_gas(state, part, piece.gas, right.gas)
         return True
 
-    def _tell_of_gas(self, bench: Bench, part: Part, told: int | None, right: int | None) -> None:
-        """Warns, once of each place: the picture is right, but the gas is another than under the rules of Cancun."""
+    def _warn_of_gas(self, state: BackendState, part: Part, counted: int | None, right: int | None) -> None:
+        """Warn once for each backend that the picture is right but its gas is not that of the rules of Cancun."""
         with self._changed:
-            if bench not in self._told:
-                self._told.add(bench)
+            if state not in self._warned:
+                self._warned.add(state)
                 self._listener.warned(
-                    f"the {bench.place.name} counts {told:,} gas for {self._title(part)}, which takes {right:,} here: "
-                    "its gas is not that of the rules of Cancun"
+                    f"the {state.backend.name} counts {counted:,} gas for {self._title(part)}, which takes {right:,} "
+                    "here: its gas is not that of the rules of Cancun"
                 )
 
     def _title(self, part: Part) -> str:
-        """Which part it is, for people."""
+        """Return the name of a part for messages."""
         tile, frame = part.tile, self._frames[part.frame]
         of = f"frame {part.frame}" if len(self._frames) > 1 else ""
         if (tile.width, tile.height) == (frame.width, frame.height):
             return of or "the picture"
         return f"the tile of {tile.width} x {tile.height} pixels at ({tile.x}, {tile.y})" + (of and f" of {of}")
 
-    def _judged(self, bench: Bench, part: Part, error: BaseException) -> BaseException:
-        """What a place says, or WrongAnswer if it says of the contracts what they do not say here."""
+    def _judged(self, state: BackendState, part: Part, error: BaseException) -> BaseException:
+        """Return the error of a call, or WrongAnswer where the contracts do not fail here."""
         genuine = isinstance(error, NodeError | OutOfGasError | WrongAnswer) or not isinstance(error, ChainError)
-        if genuine or self._referee is None or not bench.place.distant:
+        if genuine or self._verifier is None or not state.backend.untrusted:
             return error
         try:
-            self._referee.draw(self._frames[part.frame], part.tile)
+            self._verifier.draw(self._frames[part.frame], part.tile)
         except Exception:
             return error
         return WrongAnswer(str(error))
 
     def _put_first(self, parts: Sequence[Part]) -> None:
-        """Takes parts from the store, or else puts them at the head of the queue."""
+        """Restore parts from the store, or put them at the head of the queue."""
         for part in reversed(parts):
             if not self._restored(part):
                 self._pending.appendleft(part)
 
     def _restored(self, part: Part) -> bool:
-        """Whether an earlier run finished a part."""
+        """Restore a part that an earlier run finished; return whether there is one."""
         piece = self._store.read(part) if self._store is not None else None
         if piece is None:
             return False
@@ -260,51 +286,52 @@ class Scheduler:
         self._listener.advanced(area(part.tile))
         return True
 
-    def _finished(self, bench: Bench, part: Part, piece: Drawing, checked: bool) -> None:
-        bench.failures = bench.busy = bench.misses = 0
-        bench.done += 1
-        if bench.place.distant and not checked:
-            bench.unchecked.append(part)
+    def _finished(self, state: BackendState, part: Part, piece: Drawing, checked: bool) -> None:
+        state.failures = state.busy = state.misses = 0
+        state.done += 1
+        if state.backend.untrusted and not checked:
+            state.unchecked.append(part)
         if self._store is not None:
             self._store.write(part, piece)
         self._results[part] = piece
         self._listener.advanced(area(part.tile))
 
-    def _failed(self, bench: Bench, part: Part, error: BaseException) -> None:
-        """Decides what becomes of a part, and of the place that did not do it."""
+    def _failed(self, state: BackendState, part: Part, error: BaseException) -> None:
+        """Requeue or cut a part that failed; pause or drop the backend."""
         if isinstance(error, TOO_MUCH):
-            self._too_much(bench, part, error)
+            self._too_much(state, part, error)
             return
         if isinstance(error, WrongAnswer):
             self._pending.appendleft(part)
-            self._leave(bench, RenderError(f"the {bench.place.name} answers wrongly for {self._title(part)}: {error}"))
+            name = state.backend.name
+            self._leave(state, RenderError(f"the {name} answers wrongly for {self._title(part)}: {error}"))
             return
         if not isinstance(error, NodeError):
             self._error = error
             return
         self._pending.appendleft(part)
         if isinstance(error, NodeBusyError):
-            bench.busy += 1
-            pause = PAUSE * 2**bench.busy if error.retry_after is None else error.retry_after
-            given_up = bench.busy > BUSY or pause > 4 * LONGEST_PAUSE
+            state.busy += 1
+            pause = PAUSE * 2**state.busy if error.retry_after is None else error.retry_after
+            given_up = state.busy > BUSY or pause > 4 * LONGEST_PAUSE
         else:
-            bench.failures += 1
-            pause = PAUSE * 2**bench.failures
-            given_up = bench.failures >= FAILURES or isinstance(error, WrongChainError)
+            state.failures += 1
+            pause = PAUSE * 2**state.failures
+            given_up = state.failures >= FAILURES or isinstance(error, WrongChainError)
         if given_up:
-            self._leave(bench, error)
+            self._leave(state, error)
         else:
-            # not all at the same moment again
+            # random, so that not all slots retry at the same time
             least = pause if isinstance(error, NodeBusyError) and error.retry_after is not None else pause / 2
-            bench.until = time.monotonic() + random.uniform(least, max(least, min(pause, LONGEST_PAUSE)) * 1.25)
+            state.until = time.monotonic() + random.uniform(least, max(least, min(pause, LONGEST_PAUSE)) * 1.25)
 
-    def _too_much(self, bench: Bench, part: Part, error: BaseException) -> None:
+    def _too_much(self, state: BackendState, part: Part, error: BaseException) -> None:
         pixels = area(part.tile)
-        bench.misses += 1
-        others = [each for each in self._benches if each is not bench and not each.left]
+        state.misses += 1
+        others = [each for each in self._states if each is not state and not each.left]
         if not isinstance(error, OutOfGasError):
-            # gas depends on what there is to see, but answers and time on the number of pixels
-            bench.capacity = min(bench.capacity, max(area(tile) for tile in halves(part.tile)))
+            # gas depends on what is visible; the size of an answer and its time depend on the number of pixels
+            state.capacity = min(state.capacity, max(area(tile) for tile in halves(part.tile)))
         able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
         parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
         if len(parts) == 1 and not others:
@@ -314,28 +341,28 @@ class Scheduler:
             )
             return
         self._put_first(parts)
-        if others and bench.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
-            self._leave(bench, error)
+        if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):
+            self._leave(state, error)
         elif able:
-            # let the others take it
-            bench.until = time.monotonic() + PAUSE * 2**bench.misses
+            # so that another backend takes it
+            state.until = time.monotonic() + PAUSE * 2**state.misses
 
-    def _leave(self, bench: Bench, error: BaseException) -> None:
-        """Leaves a place out, and forgets what it did if nobody can vouch for it."""
-        if bench.left:
+    def _leave(self, state: BackendState, error: BaseException) -> None:
+        """Drop a backend, and requeue its parts that were not compared if it answered wrongly."""
+        if state.left:
             return
-        bench.left = True
+        state.left = True
         wrong = not isinstance(error, NodeError | OutOfGasError)
-        revoked = [part for part in bench.unchecked if wrong and part in self._results]
+        revoked = [part for part in state.unchecked if wrong and part in self._results]
         for part in revoked:
             del self._results[part]
-            bench.done -= 1
+            state.done -= 1
             if self._store is not None:
                 self._store.forget(part)
             self._pending.append(part)
             self._listener.advanced(-area(part.tile))
-        if all(each.left for each in self._benches):
-            several = len(self._benches) > 1
+        if all(each.left for each in self._states):
+            several = len(self._states) > 1
             if wrong and not several:
                 error = RenderError(f"{error}; there is no other place to render it")
             self._error = RenderError(f"no place is left to render: {error}") if several else error

@@ -1,7 +1,7 @@
-"""Finished parts on the disk, so that a long job goes on where it stopped.
+"""Finished parts on disk, so that an interrupted job can be continued.
 
-Each part is a file, named by the hash of the contracts and of the call that made it, and there whole or not at all.
-What is read is verified; what is not as it was written is as good as not there.
+Each part is a file, written atomically and named by the hash of the contracts and of the call. Files are verified by
+their hash when they are read; damaged ones are ignored.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..chain import Drawing
 from ..errors import ChainError
 from ..scene import Rectangle, Scene, encode_scene, fit
 from ..whole_file import make_output_folder, write_output
-from ._part import Part, check_part
+from ._backends import Part, check_part
 from ._tiles import covers
 
 SUFFIX = ".part"
@@ -25,14 +25,14 @@ PLAN = "plan.json"
 
 
 def folder_of(output: Path) -> Path:
-    """Where the parts of a picture are kept until it is finished."""
+    """Return the folder for the parts of a picture that is to be written to `output`."""
     return output.with_name(output.name + ".parts")
 
 
 def remove_parts(folder: Path) -> None:
-    """Takes away all that a store keeps in a folder, and the folder if nothing else is in it."""
+    """Remove the files of a store, and the folder if nothing else is in it."""
     with suppress(OSError):
-        # with a dot before and more behind: what was being written when the machine went down
+        # temporary files of writes that were interrupted begin with a dot
         halves = (*folder.glob(f".*{SUFFIX}.*"), *folder.glob(f".{PLAN}.*"))
         for path in (*folder.glob(f"*{SUFFIX}"), folder / PLAN, *halves):
             path.unlink(missing_ok=True)
@@ -40,17 +40,17 @@ def remove_parts(folder: Path) -> None:
 
 
 def contracts_digest() -> bytes:
-    """A hash of the contracts that draw."""
+    """Return a hash of the contracts that draw."""
     return hashlib.sha256(b"".join(artifact(name).creation for name in RENDERER)).digest()
 
 
-class Store:
+class PartStore:
     """The finished parts of a job."""
 
     def __init__(self, folder: Path, frames: Sequence[Scene], compared: bool = True) -> None:
-        """compared: whether all parts are known to be right; those of a run in which they were not do not do then.
+        """Create the folder; raise the errors of `make_output_folder`.
 
-        Errors as of `make_output_folder`.
+        compared: whether all parts are verified; such a job does not use parts of one in which they were not.
         """
         self.folder = folder
         self._frames = frames
@@ -60,7 +60,7 @@ class Store:
         make_output_folder(folder)
 
     def read(self, part: Part) -> Drawing | None:
-        """A finished part, if it is there."""
+        """Return a finished part, or None if it is missing or damaged."""
         try:
             data = self._path(part).read_bytes()
             head, bmp = data[32:].split(b"\n", 1)
@@ -77,18 +77,18 @@ class Store:
         return piece
 
     def write(self, part: Part, piece: Drawing) -> None:
-        """Keeps a finished part. OutputError if the disk does not take it."""
+        """Write a finished part; raise OutputError if that fails."""
         numbers = [piece.gas, piece.intrinsic_gas]
         body = json.dumps(numbers).encode() + b"\n" + piece.bmp
         write_output(self._path(part), hashlib.sha256(body).digest() + body)
         self._kept += 1
 
     def forget(self, part: Part) -> None:
-        """Takes a part away that turned out to be wrong."""
+        """Delete a part that turned out to be wrong."""
         self._path(part).unlink(missing_ok=True)
 
     def read_plan(self) -> list[Part] | None:
-        """The parts into which the same job was cut before, if there is such a plan."""
+        """Return the parts into which an earlier run cut the same job, or None."""
         try:
             plan = json.loads((self.folder / PLAN).read_bytes())
             if plan["job"] != self._job():
@@ -102,12 +102,12 @@ class Store:
         return parts if all(0 <= part.frame < len(self._frames) for part in parts) else None
 
     def write_plan(self, parts: Sequence[Part]) -> None:
-        """Keeps how the job is cut."""
+        """Write the parts into which the job is cut."""
         tiles = [[p.frame, [p.tile.x, p.tile.y, p.tile.width, p.tile.height]] for p in parts]
         write_output(self.folder / PLAN, json.dumps({"job": self._job(), "parts": tiles}).encode())
 
     def leave(self) -> bool:
-        """Ends an unfinished job: whether anything is kept for the next time."""
+        """Return whether any part is kept for the next run; remove the folder if not."""
         if self._kept or any(self.folder.glob(f"*{SUFFIX}")):
             return True
         remove_parts(self.folder)

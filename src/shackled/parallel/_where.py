@@ -1,4 +1,4 @@
-"""Where pictures are rendered, and in what portions."""
+"""The backends of a job, as a user chooses them."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from dataclasses import dataclass
 from ..chain import DEFAULT_GAS_LIMIT, Chain, open_node
 from ..checks import integer
 from ..errors import ChainError, InputError, NodeError, OutOfGasError
-from ._evm import limited
-from ._listener import Listener
-from ._place import ChainPlace, Place
-from ._processes import ProcessPlace
+from ._backends import Backend, ChainBackend, ProcessBackend, limited
+from ._scheduler import Listener
 
 MOST_JOBS = 256
-#: How much of what nodes draw is compared.
+#: How much of the answers of untrusted backends is verified.
 VERIFY = ("all", "some", "none")
-#: How often a node that is busy is asked while we get to know it.
+#: Attempts of a request to a node that is busy, before the job begins.
 ATTEMPTS = 4
 
 
 @dataclass(frozen=True)
 class Where:
-    """chain: by name or itself; None takes the fastest EVM here.
-    jobs: worker processes here, calls at a time to each node, or workers of a cluster of our own; None is 1, and for a
-    cluster one for each processor.
-    rpc: addresses of nodes. address: of a renderer that is deployed there. timeout: seconds that a node may take.
-    cluster: address of a dask scheduler, "" for a cluster of our own.
-    gas_limit: what a call may use. tile: width and height of the parts of a picture; None takes what fits.
-    verify: how much of what nodes, or the machines of a cluster, draw is drawn once more here and compared: "all",
-    "some" or "none"; None compares all of the pictures of nodes that take little gas, and some of others.
+    """Where to render, and in parts of what size.
+
+    chain: a name or a chain; None takes the fastest EVM here.
+    jobs: worker processes, concurrent calls to each node, or workers of a local cluster; None is 1, and for a local
+    cluster the number of processors.
+    rpc: addresses of nodes. address: of a renderer that is deployed there. timeout: seconds for a call of a node.
+    cluster: address of a dask scheduler; "" starts a local cluster.
+    gas_limit: of a call. tile: width and height of parts; None chooses.
+    verify: how many parts that nodes or a cluster rendered are rendered again here and compared: "all", "some" or
+    "none"; None compares all parts of nodes' pictures that take little gas, and a sample of others.
     """
 
     chain: Chain | str | None = None
@@ -62,60 +62,60 @@ class Where:
             raise InputError(f"`verify` must be {', '.join(VERIFY[:-1])} or {VERIFY[-1]}, not {self.verify!r}")
         named = self.chain is None or isinstance(self.chain, str)
         if not named and (self.count > 1 or self.cluster is not None):
-            raise InputError("a chain itself cannot be given to other processes: give its name")
+            raise InputError("a chain object cannot be passed to other processes: pass its name")
 
     @property
     def count(self) -> int:
-        """How many jobs there are."""
+        """Return the number of jobs."""
         return self.jobs or (os.cpu_count() or 1 if self.cluster == "" else 1)
 
     @property
     def alone(self) -> bool:
-        """Whether a picture is one call in this process."""
+        """Return whether a picture is one call in this process."""
         several = self.count > 1 or self.rpc or self.cluster is not None
         return not (several or self.gas_limit is not None or self.tile is not None)
 
-    def open(self, listener: Listener) -> list[Place]:
-        """The places. Nodes that cannot be used are left out with a warning, as long as there are others."""
+    def open(self, listener: Listener) -> list[Backend]:
+        """Open the backends; nodes that fail are dropped with a warning, as long as others work."""
         chain = self.chain
         if self.cluster is not None:
-            from ._cluster import ClusterPlace
+            from ._cluster import ClusterBackend
 
             assert chain is None or isinstance(chain, str)
-            # of workers with the same contracts only what is asked for is compared
-            return [ClusterPlace(self.cluster or None, self.count, chain, self.gas_limit, self.verify is not None)]
+            # workers with the same contracts are trusted, unless `verify` is given
+            return [ClusterBackend(self.cluster or None, self.count, chain, self.gas_limit, self.verify is not None)]
         if self.rpc:
             return self._open_nodes(listener)
         if chain is not None and not isinstance(chain, str):
-            return [ChainPlace(chain, gas=self.gas_limit)]
+            return [ChainBackend(chain, gas=self.gas_limit)]
         if self.count > 1:
             limited(chain, self.gas_limit)
-            return [ProcessPlace(chain, self.count, self.gas_limit)]
-        return [ChainPlace(limited(chain, self.gas_limit), gas=self.gas_limit)]
+            return [ProcessBackend(chain, self.count, self.gas_limit)]
+        return [ChainBackend(limited(chain, self.gas_limit), gas=self.gas_limit)]
 
-    def _open_nodes(self, listener: Listener) -> list[Place]:
-        places: list[Place] = []
+    def _open_nodes(self, listener: Listener) -> list[Backend]:
+        backends: list[Backend] = []
         last: ChainError
         urls = list(dict.fromkeys(self.rpc))
         for url in urls:
             try:
-                places.append(self._open_node(url))
+                backends.append(self._open_node(url))
             except (NodeError, OutOfGasError) as error:
                 if len(urls) == 1:
                     raise
                 listener.warned(f"{error}; it is left out")
                 last = error
-        if not places:
+        if not backends:
             raise last
-        return places
+        return backends
 
-    def _open_node(self, url: str) -> Place:
+    def _open_node(self, url: str) -> Backend:
         node = open_node(url, self.address, self.timeout)
         node.connection.attempts = ATTEMPTS
         most = node.gas_limit
-        node.place("Renderer")  # an address with something else is refused before anything is rendered
+        node.place("Renderer")  # fail early if something else is deployed at the address
         if not most:
             raise node.too_little()
         node.connection.attempts = 1
         gas = most if self.gas_limit is None else min(most, self.gas_limit)
-        return ChainPlace(node, self.count, distant=True, gas=gas)
+        return ChainBackend(node, self.count, untrusted=True, gas=gas)

@@ -1,4 +1,4 @@
-"""The renderer once more, in Python and NumPy: what the contracts must equal byte for byte.
+"""The reference renderer, in Python and NumPy: the contracts must equal it byte for byte.
 
 Each file mirrors one of contracts/src and is meant to be read beside it. The numbers are those of the contract: Python
 integers where it computes vertices, faces and light, NumPy arrays where it walks over the pixels of a face.
@@ -17,7 +17,7 @@ __all__ = ["Picture", "count", "draw_call", "encode_bmp", "render", "selector"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """The picture of a scene, or of a part of its canvas, as the bytes of a BMP file.
+    """Render a scene, or a tile of its canvas, as the bytes of a BMP file.
 
     Raises RenderError where the contract refuses.
     """
@@ -26,17 +26,17 @@ def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
 
 
 def count(scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-    """The triangles of a scene that survive culling and clipping, and the pixels, of its canvas or of a tile, that any
-    of them covers. Nothing is shaded for it.
+    """Return the number of triangles of a scene after culling and clipping, and of the pixels of its canvas, or of a
+    tile, that any of them covers. Nothing is shaded.
     """
     return coverage.count(*read_call(encode(selector("renderCounted" if tile is None else "renderTile"), scene, tile)))
 
 
 def draw_call(data: bytes) -> Picture:
-    """The picture that a call of `render`, `renderTile` or `renderCounted` of the Renderer contract asks for."""
+    """Render what a call of `render`, `renderTile` or `renderCounted` of the Renderer asks for."""
     return draw(*read_call(data))
 
 
 def selector(function: str) -> bytes:
-    """The first four bytes of a call of a function of the Renderer contract."""
+    """Return the first four bytes of a call of a function of the Renderer."""
     return artifact("Renderer").selectors[function]

@@ -17,7 +17,7 @@ FOUND, DRAWN = 1, 2
 
 
 def draw(spans: list[Span], r: Registers) -> None:
-    """Draws spans."""
+    """Draw spans."""
     for row, first, end, attribute, step in spans:
         line = row - r.band_top
         for column in range(first, end):
@@ -29,7 +29,7 @@ def draw(spans: list[Span], r: Registers) -> None:
 
 
 def passes(attribute: int, place: tuple[int, int], r: Registers) -> bool:
-    """The depth test of both passes; whether the fragment is to be drawn now."""
+    """Make the depth test of either pass; return whether the fragment is to be drawn now."""
     old, depth = int(r.depth[place]), (attribute & MASK) >> 192 & ~3
     second = bool(r.mode & IS_BLENDED)
     if old != depth | FOUND if second else depth <= old:

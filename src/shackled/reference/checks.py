@@ -1,4 +1,4 @@
-"""Every bound that the pipeline relies on."""
+"""Check every bound that the pipeline relies on."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def check_tail(data: bytes, base: int, position: int, size: int) -> int:
 
 
 def check_scene(scene: Scene, tile: Rectangle) -> None:
-    """Everything but the vertex numbers of the faces, which the primitive assembly checks."""
+    """Check everything but the vertex numbers of the faces, which the primitive assembly checks."""
     width, height = scene.canvas.width, scene.canvas.height
     if not (1 <= width <= MAX_CANVAS and 1 <= height <= MAX_CANVAS):
         raise Reverted("CanvasSize", width=width, height=height)
@@ -92,7 +92,7 @@ def check_scene(scene: Scene, tile: Rectangle) -> None:
 
 
 def check_camera(camera: Camera) -> None:
-    """All numbers of the camera."""
+    """Check the numbers of the camera."""
     if camera.projection > ORTHOGRAPHIC:
         raise Reverted("UnknownProjection", projection=camera.projection)
     perspective = camera.projection == PERSPECTIVE
@@ -107,7 +107,7 @@ def check_camera(camera: Camera) -> None:
 
 
 def check_light(light: Light, index: int) -> None:
-    """All numbers of a light."""
+    """Check the numbers of a light."""
     if light.kind > POINT:
         raise Reverted("UnknownLight", light=index, kind=light.kind)
     if not all(map(in_range, light.vector)):
@@ -119,7 +119,7 @@ def check_light(light: Light, index: int) -> None:
 
 
 def check_object(obj: Object, index: int) -> None:
-    """All numbers of an object."""
+    """Check the numbers of an object."""
     bits, has_normals = check_mesh(obj.mesh, index)
     if not all(map(in_range, obj.position)):
         raise Reverted("PositionOutOfRange", object=index, x=obj.position[0], y=obj.position[1], z=obj.position[2])
@@ -159,11 +159,11 @@ def check_mesh(mesh: bytes, index: int) -> tuple[int, bool]:
 
 
 def check_color(value: int) -> None:
-    """0xRRGGBB."""
+    """Check that a colour is 0xRRGGBB."""
     if value > 0xFFFFFF:
         raise Reverted("NotAColor", value=value)
 
 
 def in_range(value: int) -> bool:
-    """Whether a coordinate is within 2^26 units."""
+    """Return whether a coordinate is within 2^26 units."""
     return -MAX_COORDINATE <= value <= MAX_COORDINATE

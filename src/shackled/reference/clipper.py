@@ -1,4 +1,4 @@
-"""Triangles that leave the guard band or reach behind the near plane are cut there, in homogeneous coordinates.
+"""Cut triangles that leave the guard band or reach behind the near plane, in homogeneous coordinates.
 
 Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 
@@ -43,7 +43,7 @@ class Corner:
 
 
 def read_face(mesh: Mesh, vertices: list[Vertex], face: int, registers: Registers) -> tuple[list[Corner], bool]:
-    """The three corners of a face, and whether all of it lies beyond one plane."""
+    """Return the three corners of a face, and whether the whole face lies beyond one plane."""
     outcodes = 0b11111
     corners = []
     for number in mesh.faces[face]:
@@ -54,7 +54,7 @@ def read_face(mesh: Mesh, vertices: list[Vertex], face: int, registers: Register
 
 
 def cut(corners: list[Corner], registers: Registers) -> list[Corner]:
-    """What remains of a triangle within all planes."""
+    """Return the polygon of a triangle within all planes."""
     for plane in range(PLANES):
         kept = []
         distances = [distance_inside(corner, plane, registers) for corner in corners]
@@ -78,7 +78,7 @@ def cut(corners: list[Corner], registers: Registers) -> list[Corner]:
 
 
 def distance_inside(corner: Corner, plane: int, registers: Registers) -> int:
-    """A measure of the distance from a plane: not negative inside."""
+    """Return a measure of the distance from a plane, which is not negative inside."""
     if plane == 0:
         return corner.w - registers.near
     value = corner.x if plane < 3 else corner.y
@@ -88,12 +88,12 @@ def distance_inside(corner: Corner, plane: int, registers: Registers) -> int:
 
 
 def divisor(w: int, registers: Registers) -> int:
-    """What clip coordinates are divided by."""
+    """Return the divisor of clip coordinates."""
     return 1 << 32 if registers.frame_is_orthographic else w
 
 
 def intersect(inside: Corner, outside: Corner, inner: int, outer: int) -> Corner:
-    """The point between two corners where the distance is zero."""
+    """Return the point between two corners where the distance is zero."""
     whole = inner - outer
 
     def between(a: int, b: int) -> int:
@@ -114,7 +114,7 @@ def intersect(inside: Corner, outside: Corner, inner: int, outer: int) -> Corner
 
 
 def project(corner: Corner, number: int, registers: Registers) -> Vertex:
-    """Makes a vertex from a corner."""
+    """Return the vertex of a corner."""
     w = corner.w
     x = in_guard_band(divide_signed(corner.x, divisor(w, registers)))
     y = in_guard_band(divide_signed(corner.y, divisor(w, registers)))
@@ -125,5 +125,5 @@ def project(corner: Corner, number: int, registers: Registers) -> Vertex:
 
 
 def in_guard_band(value: int) -> int:
-    """Rounding may have put a point on the border a little outside."""
+    """Clamp a coordinate to the guard band, since rounding may put a point on the border a little outside."""
     return min(max(value, 0), (1 << GUARD_BITS) - 1)

@@ -1,4 +1,4 @@
-"""The background under the objects, and fragments that are mixed with what is behind them."""
+"""Draw the background under the objects, and blend fragments with what is behind them."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ BRIGHTEST = 0x3FFFF
 
 
 def begin(blended: bool, scene: Scene, r: Registers) -> None:
-    """Sets what lies under the objects that are drawn next: the background under the opaque ones.
+    """Draw the background under the opaque objects.
 
-    Under those that are not is the picture of the opaque ones, as it is.
+    Blended objects are drawn over the picture of the opaque ones.
     """
     if not blended:
         r.image = background(scene.background, scene.canvas.height, r.tile)
 
 
 def background(colors: Background, height: int, tile: Rectangle) -> NDArray[np.uint8]:
-    """The background of a tile: (height, width, 3) blue, green, red, rows from the top."""
+    """Return the background of a tile: (height, width, 3) blue, green, red, rows from the top."""
     top, bottom = colors.top, colors.bottom
     # lanes of Q24: the change from row to row upwards, and the bottom row
     step = lane_step(top, bottom, 1 if height == 1 else height - 1)
@@ -38,7 +38,7 @@ def background(colors: Background, height: int, tile: Rectangle) -> NDArray[np.u
 
 
 def lane_step(top: int, bottom: int, rows: int) -> int:
-    """The change from row to row, lanes of Q24."""
+    """Return the change from row to row, lanes of Q24."""
     step = 0
     for i in range(3):
         difference = ((top >> (8 * i)) & 0xFF) - ((bottom >> (8 * i)) & 0xFF)
@@ -47,7 +47,7 @@ def lane_step(top: int, bottom: int, rows: int) -> int:
 
 
 def over(color: int, place: tuple[int, int], r: Registers) -> int:
-    """The colour of a fragment over what is there: color * opacity + behind * (1 - opacity).
+    """Return the colour of a fragment over what is there: color * opacity + behind * (1 - opacity).
 
     color: signed lanes of 85 bits, Q10, which are kept between 0 and 255 first.
     """

@@ -1,4 +1,4 @@
-"""What a scene covers, without its colours: the counts of `renderCounted` in a fraction of the time of a picture."""
+"""Count what a scene covers, without its colours, in a fraction of the time of a picture."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ AT_ONCE = 4096
 
 
 def count(scene: Scene, tile: Rectangle) -> tuple[int, int]:
-    """How many triangles of a scene are drawn, and how many pixels of a part of the canvas they cover."""
+    """Return how many triangles of a scene are drawn, and how many pixels of a tile they cover."""
     registers, _, geometry, drawn = assemble(scene, tile)
     spans: list[Span] = []
     for index, part in enumerate(geometry):
@@ -37,7 +37,7 @@ def count(scene: Scene, tile: Rectangle) -> tuple[int, int]:
 
 
 def set_depths(triangle: Triangle, registers: Registers) -> None:
-    """Sets what the spans of a triangle need, as if it were not lit."""
+    """Set what the spans of a triangle need, as if it were unlit."""
     r = registers
     r.mode = IS_CROSSING if triangle.outside else 0
     r.lane_bias = COLOR_BIAS
@@ -45,6 +45,6 @@ def set_depths(triangle: Triangle, registers: Registers) -> None:
 
 
 def cover(spans: list[Span], registers: Registers) -> None:
-    """Writes the depths of fragments. Where some lie over others, any of their depths stays: all say "covered"."""
+    """Write the depths of fragments. Where several fragments cover a pixel, any of their depths may stay."""
     if spans:
         Fragments(spans, registers)

@@ -1,4 +1,4 @@
-"""What a scene, its lights and its objects have beyond the fields of their structs: records."""
+"""Extension records: what a scene, its lights and its objects have beyond the fields of their structs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Records = dict[tuple[int, int], bytes]
 
 
 def check_extensions(scene: Scene) -> None:
-    """Every record, of which lights and objects are checked."""
+    """Check every record."""
     data = scene.extensions
     place, least = 0, 0
     while place != len(data):
@@ -49,7 +49,7 @@ def check_extensions(scene: Scene) -> None:
 
 
 def check_head(kind: int, index: int, size: int, count: int) -> None:
-    """The size of a record, and its index; count: of the lights or objects that have records of that kind."""
+    """Check the size and the index of a record. count: of the lights or objects that have records of that kind."""
     if size != SIZES[kind]:
         raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
     if index >= count:
@@ -57,7 +57,7 @@ def check_head(kind: int, index: int, size: int, count: int) -> None:
 
 
 def check_spot(content: bytes, index: int) -> None:
-    """All numbers of a spot light."""
+    """Check the numbers of a spot light."""
     x, y, z, inner, outer = spot_numbers(content)
     if not all(-MAX_COORDINATE <= value <= MAX_COORDINATE for value in (x, y, z)):
         raise Reverted("SpotOutOfRange", light=index, x=x, y=y, z=z)
@@ -68,7 +68,7 @@ def check_spot(content: bytes, index: int) -> None:
 
 
 def read_records(data: bytes) -> Records:
-    """The records of a scene that was checked."""
+    """Return the records of a scene that was checked."""
     records = {}
     while data:
         size = int.from_bytes(data[3:HEADER], "big")
@@ -78,5 +78,5 @@ def read_records(data: bytes) -> Records:
 
 
 def spot_numbers(content: bytes) -> tuple[int, ...]:
-    """The direction, and the cosines of the inner and the outer angle."""
+    """Return the direction (x, y, z), and the cosines of the inner and the outer angle, Q32."""
     return tuple(int.from_bytes(content[i : i + 8], "big", signed=True) for i in range(0, 40, 8))

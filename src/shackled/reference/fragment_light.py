@@ -16,7 +16,7 @@ WEIGHTED_BIAS = ((1 << 48) + (1 << 18)) * ONES
 
 
 def color_at(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
-    """Signed lanes of 85 bits, Q10, not kept between 0 and 255.
+    """Return the colour at a place: signed lanes of 85 bits, Q10, not clamped to 0..255.
 
     depth, s, t: the depth (with 8 more bits than in a vertex) and the barycentric coordinates on the screen, Q24; these
     may be negative, or above 1, outside the triangle. x, y: the ray through the place, Q24; the place itself, Q32, for
@@ -55,7 +55,7 @@ def color_at(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
 
 
 def ray_length(x: int, y: int, r: Registers) -> int:
-    """Length of the ray (x, y, 1), Q24."""
+    """Return the length of the ray (x, y, 1), Q24."""
     square = x * x + y * y + (1 << 48)
     length = r.length_at_0 + (square * r.length_slope >> 48)
     for _ in range(r.length_steps + 1):
@@ -64,7 +64,7 @@ def ray_length(x: int, y: int, r: Registers) -> int:
 
 
 def specular(square: int, r: Registers) -> int:
-    """The highlight, Q16, from the square of its cosine, Q24."""
+    """Return the highlight, Q16, from the square of its cosine, Q24."""
     if r.specular_root:
         return (r.specular_root * sqrt(min(square, 1 << 24) << 24)) >> 24
     if square <= r.specular_begin:
@@ -75,7 +75,7 @@ def specular(square: int, r: Registers) -> int:
 
 
 def highlights(normal_ray: int, x: int, y: int, r: Registers) -> int:
-    """Of directional lights, whose diffuse light is in the colour: lanes of Q10."""
+    """Return the highlights of directional lights, whose diffuse light is in the colour: lanes of Q10."""
     length = ray_length(x, y, r)
     total = 0
     for record in r.lights:
@@ -90,7 +90,9 @@ def highlights(normal_ray: int, x: int, y: int, r: Registers) -> int:
 
 
 def cone(light: LightRecord, x: int, y: int, z: int, distance: int) -> int:
-    """What of a light's strength reaches a fragment through its cone, Q16; x, y, z: from the fragment to the light."""
+    """Return the share of a light that reaches a fragment through its cone, Q16; x, y, z: from the fragment to the
+    light.
+    """
     if not light.cone:
         return 1 << 16
     cosine = -divide_signed(light.axis_x * x + light.axis_y * y + light.axis_z * z, distance)
@@ -99,7 +101,7 @@ def cone(light: LightRecord, x: int, y: int, z: int, distance: int) -> int:
 
 
 def light_of(depth: int, x: int, y: int, r: Registers) -> int:
-    """Adds up the diffuse light of lights of both kinds; returns the highlights, lanes of Q10."""
+    """Add up the diffuse light of lights of both kinds; return the highlights, lanes of Q10."""
     length = ray_length(x, y, r)
     r.fragment_light = r.ambient << 24
     is_smooth = r.mode & IS_SMOOTH
@@ -139,7 +141,7 @@ def light_of(depth: int, x: int, y: int, r: Registers) -> int:
 
 
 def interpolate_normal(s: int, t: int, x: int, y: int, r: Registers) -> None:
-    """The normal at a fragment, Q24, between those of the vertices."""
+    """Interpolate the normal of a fragment, Q24."""
     s, t = (s & MASK) >> 8, (t & MASK) >> 8
     lanes = r.normals.at_0 + r.normals.to_1 * s + r.normals.to_2 * t + NORMAL_BIAS
     r.fragment_normal_x = nx = ((lanes >> 12) & 0x7FFFFFF) - 0x4000000

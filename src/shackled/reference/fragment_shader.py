@@ -1,4 +1,4 @@
-"""From fragments to pixels: depth test, perspective-correct attributes, Blinn-Phong.
+"""Turn fragments into pixels: depth test, perspective-correct attributes, Blinn-Phong.
 
 The colour of a fragment depends on its triangle and its place only. Fragments of one triangle never overlap, so that
 all of them are tested against the depths of the picture at once; those that need light are then shaded one by one.
@@ -41,7 +41,7 @@ Span = tuple[int, int, int, int, int]
 
 
 def modulated(color: int, factor: int) -> int:
-    """Lanes of Q10 times lanes of Q40."""
+    """Multiply lanes of Q10 by lanes of Q40."""
     factor = (factor >> 24) & LANES_32
     blue = factor & 0xFFFFFFFF
     if factor == blue * ONES:
@@ -52,7 +52,7 @@ def modulated(color: int, factor: int) -> int:
 
 
 def shade_quadratic(attribute: int, light: int, registers: Registers) -> int:
-    """The colour of a fragment, lanes of Q10, from the accumulator and the products, Q68."""
+    """Return the colour of a fragment, lanes of Q10, from the accumulator and the products, Q68."""
     r = registers
     light &= MASK
     # N * N, Q68, and twice its root, Q34, by a line that is within 3 % of it and one step of Newton's method
@@ -81,7 +81,7 @@ def shade_quadratic(attribute: int, light: int, registers: Registers) -> int:
 
 
 def pack(color: int) -> tuple[int, int, int]:
-    """Lanes of Q10 as the bytes blue, green, red; lanes above 255 are 255."""
+    """Return lanes of Q10 as the bytes blue, green, red; lanes above 255 are 255."""
     color |= (((color + 0x3FFC0000 * ONES) >> 30) & ONES) * 0x3FC00
     return (color >> 10) & 0xFF, (color >> 66) & 0xFF, (color >> 122) & 0xFF
 
@@ -93,7 +93,7 @@ class Fragments:
     """
 
     def __init__(self, spans: list[Span], r: Registers) -> None:
-        """None of the spans lies over another."""
+        """Take spans that do not overlap."""
         table = np.array([span[:3] for span in spans], np.int64).reshape(-1, 3)
         starts = _limbs([span[3] for span in spans])
         steps = _limbs([span[4] for span in spans])
@@ -113,13 +113,13 @@ class Fragments:
         r.depth[self.rows, self.columns] = depth[seen]
 
     def words(self) -> Iterator[int]:
-        """The accumulators."""
+        """Return the accumulators."""
         data = self.limbs.T.astype("<u4").tobytes()
         for place in range(0, len(data), 32):
             yield int.from_bytes(data[place : place + 32], "little")
 
     def lanes(self) -> list[NDArray[np.uint64]]:
-        """Blue, green and red, Q10 in 24 bits, where the accumulators hold colours."""
+        """Return blue, green and red, Q10 in 24 bits, where the accumulators hold colours."""
         _, b, g0, g1, r0, r1, _, _ = self.limbs
         low, high = np.uint64(0xFFFFFF), np.uint64(0xFF)
         eight, sixteen, twenty_four = np.uint64(8), np.uint64(16), np.uint64(24)
@@ -129,13 +129,13 @@ class Fragments:
 
 
 def _limbs(words: list[int]) -> NDArray[np.uint64]:
-    """Words as columns of 8 numbers of 32 bits, the lowest first."""
+    """Return words as columns of 8 numbers of 32 bits, the lowest first."""
     data = b"".join((word & MASK).to_bytes(32, "little") for word in words)
     return np.frombuffer(data, "<u4").reshape(-1, 8).T.astype(np.uint64)
 
 
 def spans_between(edges: int, slopes: int, start: int, row: int, last: int, r: Registers) -> list[Span]:
-    """The fragments of the rows from `row` to before `last`, between two edges.
+    """Return the fragments of the rows from `row` to before `last`, between two edges.
 
     edges, slopes: see `rasterizer.set_up`. start: the accumulator at column 0; DX and DY are its changes.
     """
@@ -153,7 +153,7 @@ def spans_between(edges: int, slopes: int, start: int, row: int, last: int, r: R
 
 
 def clamped(span: Span, r: Registers) -> Span:
-    """The part of a span that lies in the tile."""
+    """Clamp a span to the tile."""
     row, first, end, attribute, step = span
     if first < r.column_begin:
         attribute += step * (r.column_begin - first)
@@ -162,7 +162,7 @@ def clamped(span: Span, r: Registers) -> Span:
 
 
 def draw(spans: list[Span], r: Registers) -> None:
-    """Draws fragments none of which is over another."""
+    """Draw fragments that do not overlap."""
     if not spans:
         return
     fragments = Fragments(spans, r)
@@ -186,12 +186,12 @@ def draw(spans: list[Span], r: Registers) -> None:
 
 
 def ray_of(vertex: Vertex, r: Registers) -> tuple[int, int]:
-    """The ray through a vertex, Q24."""
+    """Return the ray through a vertex, Q24."""
     return r.ray_left + (vertex.x * r.ray_step >> 8), r.ray_top + (vertex.y * r.ray_step >> 8)
 
 
 def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
-    """The attribute word of a vertex, with the light of the face on its colour, and now with its highlights."""
+    """Return the attribute word of a vertex, whose colour has the light of the face, with its highlights added."""
     if not vertex.halves:
         vertex.halves = half_vectors(vertex, r)
     for light, (half, square) in zip(r.lights, vertex.halves, strict=True):
@@ -207,12 +207,12 @@ def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
 
 
 def half_vectors(vertex: Vertex, r: Registers) -> list[tuple[int, int]]:
-    """For each light the half vector L - V, of unit vectors L to the light and V along the ray, and its square.
+    """Return for each light the half vector L - V and its square, of unit vectors L to the light and V along the ray.
 
-    In the space of the mesh: signed lanes of 86 bits, Q32, z lowest. It is off by 2^-22 at most, as rays and directions
-    are Q24. The square is told in the unit in which (N.H)^2 / (N.N * square) is a place in the table of the highlight,
-    Q24. So that rounding leads to no place behind the last entry, it is taken 2^-20 too great, more than it may be off:
-    cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of 128 and H^2 = 1, by 0.016 levels.
+    The vector is in the space of the mesh: signed lanes of 86 bits, Q32, z lowest. It is off by 2^-22 at most, as rays
+    and directions are Q24. The unit of the square is such that (N.H)^2 / (N.N * square) is a place in the table of the
+    highlight, Q24. It is taken 2^-20 too great, more than it may be off, so that rounding leads to no place behind the
+    last entry: cos^n changes by at most n/2 * 2^-20 / H^2, or, with a shininess of 128 and H^2 = 1, by 0.016 levels.
     """
     x, y = (0, 0) if r.frame_is_orthographic else ray_of(vertex, r)
     length = ray_length(x, y, r)

@@ -1,4 +1,4 @@
-"""How the lights meet a flat face."""
+"""Light flat faces."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .words import divide_signed, signed
 
 
 def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
-    """Normal and light of a flat face, from its corners in the mesh.
+    """Set normal and light of a flat face, from its corners in the mesh.
 
     Returns its mode, and the light that does not depend on the fragment, lanes of Q16: without meaning if IS_DIFFUSE,
     where fragments add up the diffuse light of all lights.
@@ -45,7 +45,7 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
 
 
 def face_length(square: int) -> int:
-    """The root of the square of a normal, within 2^-22 of it.
+    """Return the root of the square of a normal, within 2^-22 of it.
 
     With h, a multiple of 3, such that the square is m * 4^h and 1 <= m < 64, the line 0.1367 * (m + 8) is within 0.231
     of the root of m, relatively; then three steps of Newton's method. Where the normal is zero, all products are,
@@ -60,7 +60,7 @@ def face_length(square: int) -> int:
 
 
 def face_point_light(record: LightRecord, length: int, registers: Registers) -> int:
-    """How a point light meets the face; returns what it adds to the mode."""
+    """Set how a point light meets the face; return what it adds to the mode."""
     r = registers
     x = record.mesh_x - r.face_corner_x
     y = record.mesh_y - r.face_corner_y
@@ -71,7 +71,7 @@ def face_point_light(record: LightRecord, length: int, registers: Registers) -> 
 
 
 def point_reach(farthest: int, registers: Registers) -> int:
-    """The square of the distance, in sub-pixels, over which the light of point lights on the face is as good as linear.
+    """Return the square of the distance, in sub-pixels, over which point lights on the face are nearly linear.
 
     Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the
     front; where the face is seen at an angle, by more, since a pixel is a longer way on it. `farthest` is the depth of
@@ -90,7 +90,9 @@ def point_reach(farthest: int, registers: Registers) -> int:
 
 
 def set_face_normal(mesh: Mesh, face: int, registers: Registers) -> int:
-    """The normal of a face (twice its area long, in units of the mesh) and its first corner; returns its square."""
+    """Set the normal of a face (its length is twice the area, in units of the mesh) and its first corner; return its
+    square.
+    """
     p, a, b = (mesh.positions[number] for number in mesh.faces[face])
     registers.face_corner_x, registers.face_corner_y, registers.face_corner_z = (component << 32 for component in p)
     ax, ay, az = a[0] - p[0], a[1] - p[1], a[2] - p[2]

@@ -1,4 +1,4 @@
-"""The lights of a frame."""
+"""Set up the lights of a frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MIN_CONE = 1 << 14
 
 
 def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> None:
-    """Lights in camera space."""
+    """Set the lights in camera space."""
     registers.lights = []
     for index, light in enumerate(lights):
         is_point = light.kind == POINT
@@ -26,7 +26,7 @@ def set_lights(view: View, lights: tuple[Light, ...], registers: Registers) -> N
 
 
 def set_spot(view: View, content: bytes, record: LightRecord) -> None:
-    """The cone of a light. Where light fades over less than 2^-10 of the cosine, it fades over that."""
+    """Set the cone of a light. Light that fades over less than 2^-10 of the cosine fades over 2^-10."""
     x, y, z, inner, outer = spot_numbers(content)
     record.axis_x, record.axis_y, record.axis_z = (part >> 8 for part in view.to_camera(normalize((x, y, z))))
     record.cos_outer = outer >> 8

@@ -1,4 +1,4 @@
-"""How a surface that is lit answers the lights, and how finely it has to be shaded for that."""
+"""Set up a lit material: how it reflects light, and how finely it has to be shaded for that."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .words import MASK
 
 
 def set_material(view: View, scene: Scene, material: Material, registers: Registers) -> int:
-    """The registers of a material that is lit; returns what it adds to the mode of the object."""
+    """Set the registers of a material that is lit; return what it adds to the mode of the object."""
     mode = 0
     set_reach(view, scene.lights, material, registers)
     registers.ambient = scaled(scene.ambient_light, material.ambient)
@@ -44,18 +44,18 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
 
 
 def scaled(color: int, coefficient: int) -> int:
-    """Colour bytes times a coefficient (Q32), lanes of Q16 where 255 is one."""
+    """Multiply colour bytes by a coefficient (Q32): lanes of Q16 where 255 is one."""
     k = coefficient >> 16
     return sum(((color >> (8 * i)) & 0xFF) * k // 255 << (56 * i) for i in range(3))
 
 
 def is_grey(light: int) -> bool:
-    """Whether all lanes are equal."""
+    """Return whether all lanes are equal."""
     return light == (light & 0xFFFFFFFF) * ONES
 
 
 def set_reach(view: View, lights: tuple[Light, ...], material: Material, registers: Registers) -> None:
-    """The square of the distance, in sub-pixels, over which light is as good as linear."""
+    """Set the square of the distance, in sub-pixels, over which light is nearly linear."""
     focal = view.focal >> 32
     strength = material.shininess * material.specular
     point = any(light.kind == POINT for light in lights)
@@ -71,7 +71,7 @@ def set_reach(view: View, lights: tuple[Light, ...], material: Material, registe
 
 
 def smooth_reach(focal: int, coefficient: int, is_point: bool) -> int:
-    """The sum of the squares of two edges, in sub-pixels, up to which directions to a lamp may be interpolated.
+    """Return up to which sum of the squares of two edges, in sub-pixels, directions to a lamp may be interpolated.
 
     Their error is at most sum w_i w_j e_ij^2 / 2, where e is an edge by the distance of the lamp, or 5/4 of it by that
     of the eye: 5/4 is the square of how much nearer lamps may be. The sum is at most a quarter of that of two edges.

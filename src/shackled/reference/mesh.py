@@ -26,7 +26,7 @@ class Mesh:
 
 
 def open_mesh(data: bytes) -> Mesh:
-    """Unpacks a mesh, whose bytes must be complete: see `checks.check_mesh`."""
+    """Unpack a mesh that `checks.check_mesh` has checked."""
     kind = data[0]
     vertex_count, face_count = int.from_bytes(data[1:3], "big"), int.from_bytes(data[3:5], "big")
     size = 3 if kind & WIDE else 2
@@ -48,7 +48,7 @@ def open_mesh(data: bytes) -> Mesh:
 
 
 def _big_endian(digits: NDArray[np.uint8]) -> NDArray[np.int64]:
-    """Numbers from their bytes, which lie along the last axis."""
+    """Return numbers from their bytes, which lie along the last axis."""
     result = np.zeros(digits.shape[:-1], np.int64)
     for place in range(digits.shape[-1]):
         result = (result << 8) | digits[..., place]

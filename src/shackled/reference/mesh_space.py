@@ -1,4 +1,4 @@
-"""Flat faces are lit where their corners are small integers: in the space of the mesh."""
+"""Set up the space of a mesh, in which flat faces are lit, since their corners are small integers there."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DIRECTION = 1 << 40
 
 
 def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, registers: Registers) -> None:
-    """Scale, and eye and lights in the space of the mesh."""
+    """Set scale, eye and lights in the space of the mesh."""
     if obj.scale == 0:
         return
     registers.scale = obj.scale
@@ -26,7 +26,7 @@ def set_mesh_space(view: View, scene: Scene, obj: Object, rotation: Matrix, regi
         return divide_signed(x << 32, scale), divide_signed(y << 32, scale), divide_signed(z << 32, scale)
 
     def lanes(v: Vector) -> int:
-        """A unit vector, Q24, in signed lanes of 86 bits, z lowest."""
+        """Return a unit vector, Q24, in signed lanes of 86 bits, z lowest."""
         x, y, z = transposed_times(rotation, v)
         return (x >> 8 << UPPER_86_AT) + (y >> 8 << MIDDLE_86_AT) + (z >> 8)
 

@@ -36,7 +36,7 @@ class Pixels:
     colors: list[tuple[int, int, int]] = field(default_factory=list)
 
     def draw(self, r: Registers) -> None:
-        """Draws those that are nearer than what is there. None is over another."""
+        """Draw the pixels that are nearer than what is there. No two are at one place."""
         rows, columns = np.array(self.rows, np.int64) - r.band_top, np.array(self.columns, np.int64) - r.column_begin
         depths = np.array(self.depths, np.uint64)
         seen = np.flatnonzero(depths > r.depth[rows, columns])
@@ -45,7 +45,7 @@ class Pixels:
         r.image[rows, columns] = np.array(self.colors, np.uint8).reshape(-1, 3)[seen]
 
     def add(self, row: int, column: int, depth: int, color: tuple[int, int, int]) -> None:
-        """One more."""
+        """Add a pixel."""
         self.rows.append(row)
         self.columns.append(column)
         self.depths.append(depth)
@@ -53,7 +53,7 @@ class Pixels:
 
 
 def fill(edges: int, slopes: int, start: int, row: int, last: int, r: Registers) -> None:
-    """Draws the rows from `row` to before `last`, between two edges."""
+    """Draw the rows from `row` to before `last`, between two edges."""
     pixels = Pixels()
     size = r.patch_size
     if size == 1:
@@ -72,10 +72,10 @@ def fill(edges: int, slopes: int, start: int, row: int, last: int, r: Registers)
 
 
 def cells(edges: int, slopes: int, start: int, row: int, last: int, pixels: Pixels, r: Registers) -> None:
-    """A row of cells."""
+    """Draw a row of cells."""
     size = r.patch_size
     last_edges = (edges + slopes * (last - row - 1)) & MASK
-    # edges are straight: their ends tell how far they reach
+    # edges are straight: their ends bound them
     first = max(min((edges >> 48) & 0xFFFF, (last_edges >> 48) & 0xFFFF), r.column_begin) // size * size
     end = min(max(edges >> 176, last_edges >> 176), r.column_end)
     for column in range(first, end, size):
@@ -84,7 +84,7 @@ def cells(edges: int, slopes: int, start: int, row: int, last: int, pixels: Pixe
 
 
 def fit(column: int, row: int, start: int, size: int, r: Registers) -> bool:
-    """Fits a quadratic function to nine exact colours of the cell; returns whether all depths there are positive."""
+    """Fit a quadratic function to nine exact colours of a cell; return whether all depths there are positive."""
     half = size // 2
     middle_x, middle_y = column + half, row // size * size + half
 
@@ -124,7 +124,7 @@ def fit(column: int, row: int, start: int, size: int, r: Registers) -> bool:
 
 
 def sampled(attribute: int, column: int, row: int, r: Registers) -> int:
-    """The colour where the accumulator is this."""
+    """Return the colour at a value of the accumulator."""
     low = attribute & ((1 << 168) - 1)
     s = (low - (low >> 167 << 168)) >> 64
     low = attribute & ((1 << 56) - 1)
@@ -134,31 +134,31 @@ def sampled(attribute: int, column: int, row: int, r: Registers) -> int:
 
 
 def weighted(color: int, depth: int, r: Registers) -> int:
-    """Where depths differ much, a colour times its depth by the nearest, Q14."""
+    """Multiply a colour by its depth as a part, Q14, of the nearest, if depths differ much."""
     return color * ((depth << 14) // r.patch_weight) if r.patch_weight else color
 
 
 def unweighted(f: int, depth: int, r: Registers) -> int:
-    """A colour, Q58, from one times its depth, Q72, whose lanes BIAS_84 keeps positive."""
+    """Return a colour, Q58, from one times its depth, Q72, whose lanes BIAS_84 keeps positive."""
     f = ((f & MASK) >> 48 & LANES_37) - BIAS_36
     return f * divide(r.patch_weight << 34, depth) + HALF_85
 
 
 def bias(r: Registers) -> int:
-    """What a quadratic function has more than its colour.
+    """Return the bias of a quadratic function.
 
-    It is what rounds it, or what keeps it positive until it is divided by the depth.
+    It rounds the colour, or keeps it positive until it is divided by the depth.
     """
     return BIAS_84 if r.patch_weight else HALF_85
 
 
 def fit_whole(a: Vertex, b: Vertex, c: Vertex, top: int, r: Registers) -> None:
-    """Fits a quadratic function to six exact colours of the triangle."""
+    """Fit a quadratic function to six exact colours of the triangle."""
     za, zb, zc = (vertex.attributes >> 168 for vertex in (a, b, c))
     one, half = 1 << 24, 1 << 23
 
     def between(u: Vertex, v: Vertex, depth: int, s: int, t: int) -> int:
-        """The colour in the middle between two vertices on the screen."""
+        """Return the colour in the middle between two vertices on the screen."""
         x = r.ray_left + ((u.x + v.x) * r.ray_step >> 9)
         y = r.ray_top + ((u.y + v.y) * r.ray_step >> 9)
         return weighted(color_at(depth, s, t, x, y, r), depth, r)
@@ -179,7 +179,7 @@ def fit_whole(a: Vertex, b: Vertex, c: Vertex, top: int, r: Registers) -> None:
 def exact_rows(
     edges: int, slopes: int, start: int, row: int, last: int, begin: int, end: int, pixels: Pixels, r: Registers
 ) -> None:
-    """Every fragment for itself."""
+    """Shade every fragment exactly."""
     for line in range(row, last):
         first = max((edges >> 48) & 0xFFFF, begin, r.column_begin)
         exact_span(line, first, min(edges >> 176, end, r.column_end), start + first * r.dx, r.dx, pixels, r)
@@ -188,7 +188,7 @@ def exact_rows(
 
 
 def exact_span(row: int, first: int, end: int, attribute: int, step: int, pixels: Pixels, r: Registers) -> None:
-    """A piece of a row in which every fragment is shaded for itself."""
+    """Shade every fragment of a part of a row exactly."""
     for column in range(first, end):
         depth = (attribute & MASK) >> ACCUMULATOR_DEPTH_AT
         if depth > int(r.depth[row - r.band_top, column - r.column_begin]):
@@ -198,7 +198,7 @@ def exact_span(row: int, first: int, end: int, attribute: int, step: int, pixels
 
 
 def draw_exact(spans: list[Span], r: Registers) -> None:
-    """Draws spans, none of which is over another."""
+    """Draw spans that do not overlap."""
     pixels = Pixels()
     for span in spans:
         exact_span(*span, pixels, r)
@@ -207,20 +207,20 @@ def draw_exact(spans: list[Span], r: Registers) -> None:
 
 
 def pack(f: int) -> tuple[int, int, int]:
-    """Lanes of 85 bits, Q58, as the bytes blue, green, red."""
+    """Return lanes of 85 bits, Q58, as the bytes blue, green, red."""
     blue, green, red = (clamp(((f >> (85 * i + 58)) & ((1 << 27) - 1)), 27) for i in range(3))
     return blue, green, red
 
 
 def clamp(value: int, bits: int) -> int:
-    """A number of so many bits with a sign, kept between 0 and 255."""
+    """Clamp a signed number of so many bits to 0..255."""
     return 0 if value >> (bits - 1) else min(value, 255)
 
 
 def rows(
     edges: int, slopes: int, start: int, row: int, last: int, begin: int, end: int, pixels: Pixels, r: Registers
 ) -> None:
-    """Quadratic colours, row by row."""
+    """Draw quadratic colours row by row."""
     for line in range(row, last):
         y = line - r.patch_row
 
@@ -266,6 +266,6 @@ def rows(
 
 
 def lane_24(word: int, channel: int) -> int:
-    """A lane of 85 bits, Q58, as a signed number of 24 bits, Q9."""
+    """Return a lane of 85 bits, Q58, as a signed number of 24 bits, Q9."""
     value = (word >> (85 * channel + 49)) & 0xFFFFFF
     return value - (value >> 23 << 24)

@@ -1,4 +1,4 @@
-"""A picture from a scene, stage by stage."""
+"""Render a scene, stage by stage."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Geometry:
 
 
 def draw(scene: Scene, tile: Rectangle) -> Picture:
-    """Draws a part of the canvas. Raises Reverted where the contract refuses."""
+    """Draw a part of the canvas; raise Reverted where the contract refuses."""
     registers, view, geometry, triangles = assemble(scene, tile)
     for blended in (False, True):
         compositor.begin(blended, scene, registers)
@@ -67,7 +67,7 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
 
 
 def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geometry], int]:
-    """What there is before the first pixel is drawn, and the number of faces of which something is to be drawn."""
+    """Return registers, view and geometry before the first pixel is drawn, and the number of faces to draw."""
     check_scene(scene, tile)
     registers = Registers(
         tile=tile,

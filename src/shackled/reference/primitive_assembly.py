@@ -37,7 +37,7 @@ class Triangle(NamedTuple):
 
 
 def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: Registers) -> tuple[list[Triangle], int]:
-    """The triangles to draw; and how many faces are to be drawn.
+    """Return the triangles to draw, and the number of faces to draw.
 
     A face is to be drawn if a triangle that clipping leaves of it faces the viewer, or both sides are drawn, and does
     not lie beyond one border of the tile.
@@ -77,7 +77,7 @@ def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: R
 def append(
     triangles: list[Triangle], a: Vertex, b: Vertex, c: Vertex, edges: int, face: int, cull: bool, registers: Registers
 ) -> bool:
-    """Appends a triangle to the list, if it is to be drawn and there is a row that it may cover; returns the former."""
+    """Append a triangle to the list, if it is to be drawn and may cover a row; return whether it is to be drawn."""
     area = area_of(a, b, c)
     if area == 0 or (cull and area < 0) or a.outside & b.outside & c.outside:
         return False
@@ -97,5 +97,5 @@ def append(
 
 
 def area_of(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """Twice the area of a triangle on the screen, positive if it faces the viewer."""
+    """Return twice the area of a triangle on the screen, positive if it faces the viewer."""
     return (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)

@@ -42,13 +42,13 @@ class Differences(NamedTuple):
     dyy: int
 
     def at(self, x: int, y: int) -> int:
-        """The value in column `x`, `y` rows below the first."""
+        """Return the value in column `x`, `y` rows below the first."""
         along = x * self.dx + (x * (x - 1) >> 1) * self.dxx
         return self.start + along + y * (self.dy + x * self.dxy) + (y * (y - 1) >> 1) * self.dyy
 
 
 def from_nodes(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> Coefficients:
-    """The coefficients from the values at the vertices and at the middles of the edges."""
+    """Return the coefficients from the values at the vertices and at the middles of the edges."""
     # along an edge: value = a + s * (b - a) + s * (1 - s) * (4 * ab - 2 * (a + b))
     ab = 4 * ab - 2 * (a + b)
     ac = 4 * ac - 2 * (a + c)
@@ -57,7 +57,7 @@ def from_nodes(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> Coefficient
 
 
 def differences(a: Vertex, b: Vertex, c: Vertex, top: int, f: Coefficients) -> Differences:
-    """The differences of a quadratic function over a triangle, from row `top` on."""
+    """Return the differences of a quadratic function over a triangle, from row `top` on."""
     x = a.x
     xb, yb, xc, yc = b.x - x, b.y - a.y, c.x - x, c.y - a.y
     # from the first vertex to the centres of the row

@@ -1,4 +1,4 @@
-"""From triangles to fragments, by a digital differential analyzer."""
+"""Turn triangles into fragments by a digital differential analyzer."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .words import MASK, divide_signed
 
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
-    """Draws the triangles of a list."""
+    """Draw the triangles of a list."""
     for triangle in triangles:
         if max(triangle.top, registers.band_top) < min(triangle.bottom, registers.band_bottom):
             shading.prepare(triangle, mesh, registers)
@@ -43,7 +43,7 @@ def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
 
 
 def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
-    """The fragments of a triangle that is prepared."""
+    """Yield the fragments of a triangle that is prepared."""
     spans = []
     for half in halves_of(triangle, registers):
         spans += fragment_shader.spans_between(*half, registers)
@@ -51,7 +51,7 @@ def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment
 
 
 def halves_of(triangle: Triangle, registers: Registers) -> Iterator[tuple[int, int, int, int, int]]:
-    """The parts of a triangle above and below its middle vertex.
+    """Yield the parts of a triangle above and below its middle vertex.
 
     As their edges and slopes (see `set_up`), the accumulator, the first row, and the one after the last.
     """
@@ -71,7 +71,7 @@ def halves_of(triangle: Triangle, registers: Registers) -> Iterator[tuple[int, i
 
 
 def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> tuple[int, int, int]:
-    """What changes linearly over a triangle, at row `top`; sets the accumulator at column 0 and its changes.
+    """Set up what changes linearly over a triangle, at row `top`; set the accumulator at column 0 and its changes.
 
     Returns the left edge, from a to b, and the right one, from a to c, in lanes of 128 bits: columns, Q48, such that
     the integer part is the first pixel whose centre is not left of the edge; their change per row; and the first row
@@ -113,7 +113,7 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
 
 
 def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, middle: int) -> tuple[int, int]:
-    """The same at row `middle`, where the edge between b and c takes the place of the one that has ended."""
+    """Return the edges at row `middle`, where the edge between b and c takes the place of the one that has ended."""
     edges = (upper + upper_slopes * (middle - top)) & MASK
     is_right = c.word < b.word
     if is_right:

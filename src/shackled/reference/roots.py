@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 def sqrt(x: int) -> int:
-    """The square root of a word, with an error below one and below 2^-22 of it.
+    """Return the square root of a word, with an error below one and below 2^-22 of it.
 
     A line that is within 3 % of the root, then two steps of Newton's method. Where the contract remembers the magnitude
     `h` of the root before, it uses it only if it is the one that would be found here.

@@ -1,4 +1,4 @@
-"""How finely a triangle has to be shaded."""
+"""Decide how finely a triangle has to be shaded."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ SMALL = 20 << 16
 
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
-    """Chooses the way to shade a triangle, and sets what that way needs."""
+    """Choose the way to shade a triangle, and set what it needs."""
     if registers.object_mode & (IS_SPOT_LIT | IS_IN_PASSES):
         prepare_exact(triangle, mesh, registers)
     elif registers.object_mode & IS_SMOOTH:
@@ -55,7 +55,7 @@ def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
 
 
 def prepare_flat(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
-    """A flat or unlit triangle."""
+    """Prepare a flat or unlit triangle."""
     r = registers
     a, b, c = triangle.a, triangle.b, triangle.c
     mode, attributes = set_face(triangle, mesh, r)
@@ -80,7 +80,7 @@ def prepare_flat(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
 
 
 def prepare_smooth(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
-    """A smooth triangle."""
+    """Prepare a smooth triangle."""
     r = registers
     a, b, c = triangle.a, triangle.b, triangle.c
     mode = r.object_mode
@@ -100,7 +100,7 @@ def prepare_smooth(triangle: Triangle, mesh: Mesh, registers: Registers) -> None
 
 
 def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
-    """Every fragment is lit for itself, but where nothing but colour changes, and that linearly."""
+    """Prepare to light every fragment, unless only the colour changes, and that linearly."""
     r = registers
     mode, attributes = set_face(triangle, mesh, r)
     mode &= ~IS_QUADRATIC
@@ -114,12 +114,12 @@ def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
 
 
 def crossing_of(triangle: Triangle) -> int:
-    """What reaching beyond the borders of the tile means for the mode."""
+    """Return the bit of the mode for triangles that reach beyond the left or right border of the tile."""
     return IS_CROSSING if triangle.outside else 0
 
 
 def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int, list[int]]:
-    """How the fragments of a triangle are lit, and the attribute words.
+    """Set how the fragments of a triangle are lit, and the attribute words.
 
     Those of a flat face that is lit by highlights only have the rest of the light on them.
     """
@@ -133,14 +133,14 @@ def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int,
 
 
 def set_linear(attributes: list[int], mode: int, registers: Registers) -> None:
-    """The registers of a triangle whose colours change linearly."""
+    """Set the registers of a triangle whose colours change linearly."""
     r = registers
     r.mode, r.lane_bias = mode, COLOR_BIAS
     r.attribute_0, r.attribute_1, r.attribute_2 = attributes
 
 
 def set_exact(triangle: Triangle, attributes: list[int], mode: int, registers: Registers) -> None:
-    """The registers of a triangle of which each fragment is lit for itself."""
+    """Set the registers of a triangle of which every fragment is lit."""
     r = registers
     nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
     mode |= IS_PATCHED
@@ -158,22 +158,23 @@ def set_exact(triangle: Triangle, attributes: list[int], mode: int, registers: R
 
 
 def weighted(word: int, nearest: int) -> int:
-    """The attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest."""
+    """Return the attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest."""
     return (word >> 168 << 168) | ((word & LANES_24) * divide(word >> 168 << 10, nearest) >> 10 & LANES_24)
 
 
 def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """The sum of the squares of two edges, in sub-pixels."""
+    """Return the sum of the squares of two edges, in sub-pixels."""
     return (b.x - a.x) ** 2 + (c.x - a.x) ** 2 + (b.y - a.y) ** 2 + (c.y - a.y) ** 2
 
 
 def double_area(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """Twice the area, in sub-pixels."""
+    """Return twice the area, in sub-pixels."""
     return (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)
 
 
 def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) -> int:
-    """Over how much of a triangle colours are taken as quadratic functions: 0 for all, 1 if each is exact.
+    """Return the side of the cells over which colours are quadratic functions: 0 for the whole triangle, 1 for exact
+    colours.
 
     Where third derivatives are D at most, such a function is off by D * d^3 / 125 at most in a triangle of longest edge
     d with exact colours at vertices and middles of edges, and by D * d^3 / 96 in a square of side d with nine of them.
@@ -214,14 +215,14 @@ def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) 
 
 
 def depth_slope(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """How much the depth changes along a row, times twice the area."""
+    """Return the change of the depth along a row, times twice the area."""
     za, zb, zc = (vertex.attributes >> 168 for vertex in (a, b, c))
     change = (zc - za) * (b.y - a.y) - (zb - za) * (c.y - a.y)
     return change if change >= 0 else ~change
 
 
 def brightness(colors: int, registers: Registers) -> int:
-    """How many times 255 colours may be at most."""
+    """Return how many times 255 colours may be at most."""
     if registers.mode & IS_DIFFUSE == 0:
         return 1 + ((colors >> 18 | colors >> 74 | colors >> 130) & 63)
     light = registers.ambient + sum(record.diffuse for record in registers.lights)
@@ -229,7 +230,7 @@ def brightness(colors: int, registers: Registers) -> int:
 
 
 def lit(word: int, factor: int) -> int:
-    """The attribute word with the light of the face, lanes of Q16, on its colour."""
+    """Return the attribute word with its colour multiplied by the light of the face, lanes of Q16."""
     color = word & LANES_24
     blue = factor & 0xFFFFFFFF
     if factor == blue * ONES:
@@ -242,7 +243,8 @@ def lit(word: int, factor: int) -> int:
 
 
 def is_affine(attributes: list[int], triangle: Triangle) -> bool:
-    """Whether colours interpolated linearly on the screen are within four levels of the perspective-correct ones.
+    """Return whether colours interpolated linearly on the screen are within four levels of the perspective-correct
+    ones.
 
     Or within two in triangles that are large, on which the mean error of a picture depends. With weights w, depths z
     and colours c the two part by the sum of w_i w_j (z_i - z_j) (c_i - c_j) / z over the three pairs of vertices, where
@@ -273,9 +275,9 @@ def is_affine(attributes: list[int], triangle: Triangle) -> bool:
 
 
 def is_large(triangle: Triangle) -> bool:
-    """Whether a triangle is higher than 8 pixels, and its rows have more than 3 pixels in the mean.
+    """Return whether a triangle is higher than 8 pixels, and its rows have more than 3 pixels on average.
 
-    To shade others in blocks would be dear, and change little.
+    Shading others in blocks would be expensive, and change little.
     """
     a, b, c = triangle.a, triangle.b, triangle.c
     rows = triangle.bottom - triangle.top

@@ -26,18 +26,18 @@ UNBOUNDED_LIGHT, AFFINE_LIGHT, STEEP_LIGHT = 0, 1, 2
 
 
 def product(a: int, b: int) -> int:
-    """The scalar product of two vectors in lanes, one of them the other way round."""
+    """Return the scalar product of two vectors in lanes, one of them reversed."""
     return signed((a * b) << 1) >> 171
 
 
 def products(n: int, r: int, light: int, m: int, half: int) -> int:
-    """Lanes n * r, n * light, m * half, where r, light and half are the other way round; n and m are Q30, sums Q20."""
+    """Return lanes n * r, n * light, m * half, of reversed r, light and half; n and m are Q30, sums Q20."""
     square, diffuse, specular = product(n, r) >> 40, product(n, light) >> 30, product(m, half) >> 30
     return (square << 170) + (diffuse << 85) + specular
 
 
 def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
-    """The quadratic products of a triangle, which of whose edges two have squares with the sum `size`.
+    """Set the quadratic products of a triangle. size: the sum of the squares of two edges.
 
     Returns UNBOUNDED_LIGHT if they may be too far from the light of each fragment; AFFINE_LIGHT if the depths of the
     vertices are so near to each other that colours may be interpolated linearly, else STEEP_LIGHT.
@@ -92,13 +92,13 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
 
 
 def middle_vertex(a: Vertex, b: Vertex, registers: Registers) -> SmoothVertex:
-    """What there is in the middle of an edge."""
+    """Return the vertex in the middle of an edge."""
     depth = (a.attributes >> 168) + (b.attributes >> 168) >> 1
     return smooth_vertex(Vertex(0, a.x + b.x >> 1, a.y + b.y >> 1, False, False, depth << 168, a.normal), registers)
 
 
 def correction(n: int, a: SmoothVertex, b: SmoothVertex, middle: SmoothVertex) -> int:
-    """What has to be added to the products of the changes along an edge, so that they are right in its middle.
+    """Return what to add to the products of the changes along an edge, so that they are right in its middle.
 
     Four times the error there, (N_a + N_b) * (L_a + L_b - 2 L), and the same of H, which is not too short there.
     """
@@ -109,7 +109,7 @@ def correction(n: int, a: SmoothVertex, b: SmoothVertex, middle: SmoothVertex) -
 
 
 def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
-    """What the triangles around a vertex need."""
+    """Return what the triangles around a vertex need."""
     r = registers
     # the ray (x, y, 1), Q24
     x, y = ray_of(vertex, r)

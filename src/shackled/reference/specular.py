@@ -1,4 +1,4 @@
-"""The highlight of a material."""
+"""The table of highlights of a material."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .words import MASK
 
 
 def set_table(coefficient: int, shininess: int, registers: Registers) -> None:
-    """Tabulates coefficient * cos^shininess over cos^2, where it is at least half a level."""
+    """Tabulate coefficient * cos^shininess over cos^2, where it is at least half a level."""
     registers.specular_root = coefficient >> 16 if shininess == 1 else 0
     if coefficient == 0 or shininess == 1:
         # no square is greater than this
@@ -35,7 +35,7 @@ def set_table(coefficient: int, shininess: int, registers: Registers) -> None:
 
 
 def power(square: int, exponent: int) -> int:
-    """square^(exponent / 2), where square is Q24 and the result Q32."""
+    """Return square^(exponent / 2), where square is Q24 and the result Q32."""
     base = square << 8
     result = sqrt(base << 32) if exponent & 1 else 1 << 32
     exponent >>= 1
@@ -48,7 +48,7 @@ def power(square: int, exponent: int) -> int:
 
 
 def half_reach(coefficient: int, shininess: int) -> int:
-    """The square, Q40, of how much unit half vectors may differ in a triangle.
+    """Return the square, Q40, of how much unit half vectors may differ in a triangle.
 
     If they are interpolated, their direction is off by d^2/4 at most for a difference d, and cos^n is steepest with
     about 0.6 * sqrt(n): four levels of 255 are allowed, or d = 1/4.
@@ -58,7 +58,7 @@ def half_reach(coefficient: int, shininess: int) -> int:
 
 
 def is_broad(material: Material) -> bool:
-    """Whether the highlight is the cosine itself.
+    """Return whether the highlight is the cosine itself.
 
     Over its square, where the others are tabulated, it is too steep near zero to be interpolated, and each fragment
     takes the root.

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
+from ..scene import Rectangle as Rectangle
 from .vector import Quaternion, Vector
 from .words import signed
 
@@ -27,16 +28,6 @@ Member = Mapping[str, Any]
 class Canvas:
     """The whole picture in pixels."""
 
-    width: int
-    height: int
-
-
-@dataclass(frozen=True)
-class Rectangle:
-    """The part of the canvas to draw, in pixels from the top left corner."""
-
-    x: int
-    y: int
     width: int
     height: int
 

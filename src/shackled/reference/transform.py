@@ -1,4 +1,4 @@
-"""What takes the vertices of an object to the screen."""
+"""Set up the map from the vertices of an object to the screen."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .words import divide_signed
 
 
 def set_matrix(view: View, obj: Object, rotation: Matrix, registers: Registers) -> None:
-    """Combines rotation, scale, position, camera and viewport into one affine map from the mesh to clip coordinates."""
+    """Combine rotation, scale, position, camera and viewport into one affine map from the mesh to clip coordinates."""
     registers.matrix_x = clip_lanes(view, scale(view.to_camera(rotation[0]), obj.scale), 0)
     registers.matrix_y = clip_lanes(view, scale(view.to_camera(rotation[1]), obj.scale), 0)
     registers.matrix_z = clip_lanes(view, scale(view.to_camera(rotation[2]), obj.scale), 0)
@@ -29,7 +29,7 @@ def set_matrix(view: View, obj: Object, rotation: Matrix, registers: Registers) 
 
 
 def clip_lanes(view: View, v: Vector, w: int) -> int:
-    """One column of the map; `w` is its last coordinate."""
+    """Return one column of the map; `w` is its last coordinate."""
     if not view.orthographic:
         w = v[2]
     x = ((view.focal * v[0]) >> 32) + ((view.center_x * w) >> 1)
@@ -38,20 +38,20 @@ def clip_lanes(view: View, v: Vector, w: int) -> int:
 
 
 def set_normal_matrix(view: View, rotation: Matrix, registers: Registers) -> None:
-    """The rotation of normals into camera space, divided by the 511 of the mesh format."""
+    """Set the rotation of normals into camera space, divided by the 511 of the mesh format."""
     registers.normal_x = normal_lanes(view.to_camera(rotation[0]))
     registers.normal_y = normal_lanes(view.to_camera(rotation[1]))
     registers.normal_z = normal_lanes(view.to_camera(rotation[2]))
 
 
 def normal_lanes(v: Vector) -> int:
-    """A vector as lanes of Q20."""
+    """Return a vector as lanes of Q20."""
     x, y, z = (divide_signed(component, 4096 * 511) for component in v)
     return x + (y << MIDDLE_85_AT) + (z << UPPER_85_AT)
 
 
 def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None:
-    """Which rows and columns a vertex touches.
+    """Set how rows and columns are rounded to pixels.
 
     For a face these are the pixel centres from it on, for a line the pixels nearest to it.
     """

@@ -1,4 +1,4 @@
-"""What is computed once for a frame or an object, before the engine draws."""
+"""Compute what is constant for a frame or an object, before the engine draws."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .view import View, look_at
 
 
 def set_frame(scene: Scene, registers: Registers) -> View:
-    """The registers of the frame."""
+    """Set the registers of the frame."""
     tile = registers.tile
     registers.column_begin = tile.x + PIXEL_BIAS
     registers.column_end = tile.x + tile.width + PIXEL_BIAS
@@ -22,7 +22,7 @@ def set_frame(scene: Scene, registers: Registers) -> View:
 
 
 def set_object(view: View, scene: Scene, index: int, registers: Registers) -> None:
-    """The registers of an object."""
+    """Set the registers of an object."""
     obj = scene.objects[index]
     registers.opacity = opacity_of(index, registers)
     rotation = to_matrix(obj.rotation)
@@ -41,6 +41,6 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
 
 
 def opacity_of(index: int, registers: Registers) -> int:
-    """How much of what is behind it an object hides, Q24."""
+    """Return the opacity of an object, Q24."""
     content = registers.records.get((OPACITY, index))
     return OPAQUE if content is None else int.from_bytes(content, "big")

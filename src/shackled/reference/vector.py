@@ -12,22 +12,22 @@ Matrix = tuple[Vector, Vector, Vector]
 
 
 def subtract(a: Vector, b: Vector) -> Vector:
-    """a - b."""
+    """Return a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def scale(a: Vector, k: int) -> Vector:
-    """A vector times a Q32 number, rounded down."""
+    """Multiply a vector by a Q32 number, rounded down."""
     return (a[0] * k) >> 32, (a[1] * k) >> 32, (a[2] * k) >> 32
 
 
 def dot(a: Vector, b: Vector) -> int:
-    """The scalar product, with one rounding for the sum."""
+    """Return the scalar product, with one rounding for the sum."""
     return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) >> 32
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """The cross product, each product rounded down."""
+    """Return the cross product, each product rounded down."""
     return (
         (a[1] * b[2] >> 32) - (a[2] * b[1] >> 32),
         (a[2] * b[0] >> 32) - (a[0] * b[2] >> 32),
@@ -36,7 +36,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def normalize(a: Vector) -> Vector:
-    """The unit vector along `a`; zero for zero."""
+    """Return the unit vector along `a`; zero for zero."""
     x, y, z = a[0] << 60, a[1] << 60, a[2] << 60
     square = x * x + y * y + z * z
     root = sqrt(square)
@@ -50,7 +50,7 @@ def normalize(a: Vector) -> Vector:
 
 
 def to_matrix(q: Quaternion) -> Matrix:
-    """The rotation matrix of a quaternion of any length but zero."""
+    """Return the rotation matrix of a quaternion of any length but zero."""
     x, y, z, w = q
     n = x * x + y * y + z * z + w * w
 
@@ -65,5 +65,5 @@ def to_matrix(q: Quaternion) -> Matrix:
 
 
 def transposed_times(m: Matrix, v: Vector) -> Vector:
-    """The inverse rotation of `v`."""
+    """Return the inverse rotation of `v`."""
     return dot(m[0], v), dot(m[1], v), dot(m[2], v)

@@ -1,4 +1,4 @@
-"""From mesh to screen."""
+"""Transform the vertices of a mesh to the screen."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Vertex:
 
 
 def run(mesh: Mesh, registers: Registers) -> list[Vertex]:
-    """The records of all vertices of a mesh."""
+    """Return the records of all vertices of a mesh."""
     vertices = project(mesh, registers)
     if registers.object_mode & IS_SMOOTH and mesh.normals is not None:
         for vertex, (x, y, z) in zip(vertices, mesh.normals, strict=True):
@@ -77,7 +77,7 @@ def run(mesh: Mesh, registers: Registers) -> list[Vertex]:
 
 
 def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
-    """The places of the vertices on the screen, their depths and colours."""
+    """Return the vertices with their positions on the screen, depths and colours."""
     vertices = []
     near, orthographic, depth_scale = registers.near, registers.frame_is_orthographic, registers.depth_scale
     for number, (position, (red, green, blue)) in enumerate(zip(mesh.positions, mesh.colors, strict=True)):
@@ -110,7 +110,7 @@ def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
 
 
 def screen_vertex(x: int, y: int, number: int, attributes: int, registers: Registers) -> Vertex:
-    """The record of a vertex inside the guard band."""
+    """Return the record of a vertex inside the guard band."""
     left, top = registers.tile_left, registers.tile_top
     outside = (x < left) | (x > left + registers.tile_span) << 1
     outside |= (y < top) << 2 | (y > top + registers.tile_rows) << 3
@@ -125,7 +125,7 @@ def screen_vertex(x: int, y: int, number: int, attributes: int, registers: Regis
 
 
 def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int, int, int, int]:
-    """The clip coordinates and the colour of a vertex."""
+    """Return the clip coordinates and the colour of a vertex."""
     clip = clip_of(mesh.positions[number], registers)
     red, green, blue = mesh.colors[number]
     x, y = (clip & CLIP_X_MASK) - CLIP_HALF, ((clip >> CLIP_Y_AT) & CLIP_Y_MASK) - CLIP_HALF
@@ -133,7 +133,7 @@ def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int
 
 
 def clip_of(position: list[int], registers: Registers) -> int:
-    """The clip coordinates of a vertex, Q32: x * distance and y * distance (96 bits each, biased), distance."""
+    """Return the clip coordinates of a vertex, Q32: x * distance and y * distance (96 bits each, biased), distance."""
     x, y, z = position
     clip = x * registers.matrix_x + y * registers.matrix_y + z * registers.matrix_z + registers.matrix_t
     return clip & MASK

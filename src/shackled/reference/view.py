@@ -34,12 +34,12 @@ class View:
     center_y: int
 
     def to_camera(self, v: Vector) -> Vector:
-        """A direction in camera space."""
+        """Return a direction in camera space."""
         return dot(self.right, v), dot(self.down, v), dot(self.forward, v)
 
 
 def look_at(camera: Camera, width: int, height: int, registers: Registers) -> View:
-    """The basis of the camera, and the registers that depend on nothing but camera and canvas."""
+    """Return the basis of the camera, and set the registers that depend only on camera and canvas."""
     forward = normalize(subtract(camera.target, camera.eye))
     right = normalize(cross(forward, normalize(camera.up)))
     if not any(right):
@@ -63,7 +63,7 @@ def look_at(camera: Camera, width: int, height: int, registers: Registers) -> Vi
 
 
 def set_rays(view: View, width: int, height: int, registers: Registers) -> None:
-    """The ray through the centre of a pixel, and the constants for its length."""
+    """Set the ray through the centre of a pixel, and the constants for its length."""
     # where all rays are parallel, places in world units (Q32) instead
     step = (1 << 72 if view.orthographic else 1 << 64) // view.focal
     registers.ray_step = step

@@ -18,7 +18,7 @@ from .words import divide_signed
 
 
 def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
-    """Draws the edges of the triangles of a list."""
+    """Draw the edges of the triangles of a list."""
     for triangle in triangles:
         if triangle.bottom > registers.band_top and triangle.top < registers.band_bottom:
             shading.prepare_exact(triangle, mesh, registers)
@@ -32,7 +32,7 @@ def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
 
 
 def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment_shader.Span]]:
-    """The fragments of the edges of a triangle that is prepared, edge by edge."""
+    """Yield the fragments of each edge of a triangle that is prepared."""
     r = registers
     if triangle.bottom <= r.band_top or triangle.top >= r.band_bottom:
         return
@@ -48,7 +48,7 @@ def spans_of(triangle: Triangle, registers: Registers) -> Iterator[list[fragment
 def line_between(
     p: Vertex, q: Vertex, attribute_p: int, attribute_q: int, registers: Registers
 ) -> list[fragment_shader.Span]:
-    """The fragments of one edge between two vertices with these attribute words."""
+    """Return the fragments of the edge between two vertices with these attribute words."""
     dx, dy = q.x - p.x, q.y - p.y
     steep = dy * dy >= dx * dx
     # the same pixels, whichever face the line belongs to
@@ -64,7 +64,7 @@ def line_between(
 def steep_line(
     p: Vertex, q: Vertex, dx: int, dy: int, attribute: int, change: int, registers: Registers
 ) -> list[fragment_shader.Span]:
-    """One pixel in each row.
+    """Return one pixel in each row.
 
     attribute: the accumulator at the upper end. change: what its attribute word changes along the line.
     """
@@ -88,7 +88,7 @@ def steep_line(
 def flat_line(
     p: Vertex, q: Vertex, dx: int, dy: int, attribute: int, change: int, registers: Registers
 ) -> list[fragment_shader.Span]:
-    """One pixel in each column; p is the left end."""
+    """Return one pixel in each column; p is the left end."""
     r = registers
     begin, end = (p.x + 255) >> 8, (q.x + 255) >> 8
     if begin >= end:

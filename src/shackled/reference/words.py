@@ -10,19 +10,19 @@ MASK = (1 << 256) - 1
 
 
 def signed(word: int) -> int:
-    """The word (any integer, taken modulo 2^256) as a two's complement number."""
+    """Return a word (any integer, taken modulo 2^256) as a two's complement number."""
     word &= MASK
     return word - (word >> 255 << 256)
 
 
 def divide(a: int, b: int) -> int:
-    """Unsigned division of words; zero by zero and by anything that is zero modulo 2^256."""
+    """Divide words without sign; zero if the divisor is zero modulo 2^256."""
     b &= MASK
     return (a & MASK) // b if b else 0
 
 
 def divide_signed(a: int, b: int) -> int:
-    """Signed division, rounded toward zero; zero if `b` is."""
+    """Divide, rounding toward zero; zero if `b` is."""
     if b == 0:
         return 0
     quotient = abs(a) // abs(b)
@@ -30,5 +30,5 @@ def divide_signed(a: int, b: int) -> int:
 
 
 def color_lanes(color: int) -> int:
-    """0xRRGGBB spread to three lanes."""
+    """Spread 0xRRGGBB to three lanes."""
     return (color & 0xFF) | ((color & 0xFF00) << 48) | ((color & 0xFF0000) << 96)

@@ -15,12 +15,12 @@ from .trigonometry import Point3, quotient
 
 
 def clamp(value: int) -> int:
-    """As a byte."""
+    """Clamp a number to 0..255."""
     return min(255, max(0, value))
 
 
 def paint(random: Random, scheme: Scheme, prisms: Prisms) -> list[Point3]:
-    """The colours of all vertices, in their order."""
+    """Return the colours of all vertices, in their order."""
     chosen = highlights(random, scheme, prisms)
     return [
         color
@@ -30,7 +30,7 @@ def paint(random: Random, scheme: Scheme, prisms: Prisms) -> list[Point3]:
 
 
 def highlights(random: Random, scheme: Scheme, prisms: Prisms) -> set[int]:
-    """Which prisms are highlights. InputError for the one case in which the rule has no answer."""
+    """Return which prisms are highlights; raise InputError for the one case in which the rule has no answer."""
     total = len(prisms.flat)
     count = min(scheme.count, total)
     if scheme.select == RANDOM:
@@ -47,7 +47,7 @@ def highlights(random: Random, scheme: Scheme, prisms: Prisms) -> set[int]:
 
 
 def key_of(triangle: Triangle, key: int) -> int:
-    """What prisms are ordered by."""
+    """Return the key by which prisms are ordered."""
     if key == RADIUS:
         return triangle.radius
     x, y = triangle.center
@@ -55,7 +55,7 @@ def key_of(triangle: Triangle, key: int) -> int:
 
 
 def paint_prism(random: Random, paint: Paint, prisms: Prisms, k: int) -> list[Point3]:
-    """The colours of the six vertices of prism k."""
+    """Return the colours of the six vertices of prism k."""
     axis = 1 if paint.direction in (UP, DOWN) else 0
     values = [point[axis] for point in prisms.near[k]]
     if paint.across:
@@ -75,7 +75,7 @@ def paint_prism(random: Random, paint: Paint, prisms: Prisms, k: int) -> list[Po
 
 
 def gradient(paint: Paint, value: int, low: int, high: int) -> Point3:
-    """The colour at `value`; beyond `low` and `high` it goes on, but not below 0."""
+    """Return the colour at `value`; beyond `low` and `high` it is extrapolated, but not below 0."""
     place = 1 if high == low else quotient((value - low) * 1000, high - low)
     red, green, blue = (
         max(0, start + quotient((end - start) * place, 1000)) for start, end in zip(paint.start, paint.end, strict=True)
@@ -84,7 +84,7 @@ def gradient(paint: Paint, value: int, low: int, high: int) -> Point3:
 
 
 def offsets(random: Random, paint: Paint) -> list[Point3]:
-    """What is added at each of the six vertices of a prism: the same for every prism."""
+    """Return the offset of each of the six vertices of a prism: the same for every prism."""
     word, found = 0, []
     for _ in range(6):
         hue, saturation, value = (

@@ -9,7 +9,7 @@ from .trigonometry import Point3, quotient
 
 
 def rgb_to_hsv(color: Point3) -> Point3:
-    """Red, green and blue from 0; if they exceed 255, so may the value."""
+    """Convert red, green and blue from 0; if they exceed 255, so may the value."""
     r, g, b = (channel * 1000 // 255 for channel in color)
     most = max(r, g, b)
     spread = most - min(r, g, b)
@@ -28,7 +28,7 @@ def rgb_to_hsv(color: Point3) -> Point3:
 
 
 def hsv_to_rgb(hue: int, saturation: int, value: int) -> Point3:
-    """Of hue, saturation and value from 0 to 255; hue 255 is hue 0."""
+    """Convert hue, saturation and value from 0 to 255; hue 255 is hue 0."""
     turn, s, v = hue % 255 * 1000 // 255, saturation * 1000 // 255, value * 1000 // 255
     chroma = v * s // 1000
     sixth = 6 * turn

@@ -27,23 +27,23 @@ class Triangle:
 
     @property
     def center(self) -> Point:
-        """The centroid."""
+        """Return the centroid."""
         x, y = (quotient(sum(values), 3) for values in zip(*self.corners, strict=True))
         return x, y
 
     @property
     def radius(self) -> int:
-        """From the centroid to the first corner."""
+        """Return the distance from the centroid to the first corner."""
         return distance(self.center, self.corners[0])
 
     @property
     def is_up(self) -> bool:
-        """Whether one corner points upward, not two."""
+        """Return whether one corner points upward, not two."""
         return sum(y > self.center[1] for _, y in self.corners) == 1
 
     @property
     def edges(self) -> list[tuple[Point, Point]]:
-        """Three pairs of corners."""
+        """Return three pairs of corners."""
         a, b, c = self.corners
         return [(a, b), (b, c), (c, a)]
 
@@ -54,13 +54,13 @@ def distance(a: Point, b: Point) -> int:
 
 
 def equilateral(center: Point, radius: int, angle: int) -> list[Point]:
-    """The corners of a triangle, the first of them in the direction `angle` (degrees)."""
+    """Return the corners of a triangle, the first of them in the direction `angle` (degrees)."""
     turned = (rotate(radius, 0, angle + 120 * k) for k in range(3))
     return [(center[0] + x, center[1] + y) for x, y in turned]
 
 
 def contains(triangle: Triangle, point: Point) -> bool:
-    """Whether the point lies inside."""
+    """Return whether a point lies inside."""
     (x1, y1), (x2, y2), (x3, y3) = triangle.corners
     x, y = point
     area = (y2 - y3) * (x1 - x3) + (x3 - x2) * (y1 - y3)
@@ -70,7 +70,7 @@ def contains(triangle: Triangle, point: Point) -> bool:
 
 
 def is_near_line(point: Point, start: Point, end: Point) -> bool:
-    """Whether the point is less than 8 away from the line, which has no ends."""
+    """Return whether a point is less than 8 away from an infinite line."""
     (px, py), (ax, ay), (bx, by) = point, start, end
     return abs((bx - ax) * (ay - py) - (ax - px) * (by - ay)) // distance(start, end) < 8
 
@@ -83,7 +83,7 @@ class Layout:
     """
 
     def __init__(self, random: Random, structure: Structure) -> None:
-        """Lays all of them."""
+        """Lay all triangles."""
         self.random = random
         self.structure = structure
         self.unit = random.draw("depthMult", low=80, high=120)
@@ -106,11 +106,11 @@ class Layout:
 
     @property
     def triangles(self) -> list[Triangle]:
-        """Those that are kept."""
+        """Return the triangles that are kept."""
         return self.slots[: self.count]
 
     def heights(self, index: int) -> tuple[int, int]:
-        """The heights of a triangle for slot `index`: far and near."""
+        """Return the heights of a triangle for slot `index`: far and near."""
         unit = self.unit
         if self.structure.index == UNIFORM:
             return unit, -unit
@@ -121,7 +121,9 @@ class Layout:
         return factor * unit, -2 * unit
 
     def lay_adjacent(self, i: int, reference: int) -> None:
-        """Beside a side of the reference, then beside that side of the new one, and so on, ever smaller."""
+        """Lay a triangle beside a side of the reference, then one beside that side of the new one, and so on, ever
+        smaller.
+        """
         random, structure = self.random, self.structure
         side = random.draw("sideIdx", i, 0, low=0, high=2)
         scale = random.draw("scaleAdj", i, 0, low=333, high=800) if structure.sizes_vary else 1000
@@ -145,7 +147,7 @@ class Layout:
             depth += 1
 
     def lay_opposite(self, i: int, reference: int) -> None:
-        """Point to point with the reference, smaller or larger."""
+        """Lay triangles point to point with the reference, smaller or larger."""
         random, structure = self.random, self.structure
         side = random.draw("vertOppSideIdx", i, 0, low=0, high=2)
         scale = 1000
@@ -171,7 +173,7 @@ class Layout:
             depth += 1
 
     def add(self, triangle: Triangle) -> bool:
-        """Keeps a triangle if it fits, and its mirror image if that fits then; whether the triangle itself was kept."""
+        """Keep a triangle if it fits, then its mirror image if that fits; return whether the first was kept."""
         if not self.fits(triangle):
             return False
         self.store(triangle)
@@ -182,25 +184,25 @@ class Layout:
         return True
 
     def store(self, triangle: Triangle) -> None:
-        """Puts a triangle into the next slot."""
+        """Put a triangle into the next slot."""
         self.slots[self.count :] = [triangle]
         self.count += 1
 
     def mirrored(self, triangle: Triangle) -> Triangle:
-        """The mirror image; the order of its corners makes it wound alike."""
+        """Return the mirror image, with the order of its corners reversed, so that it has the same winding."""
         corners = [(-x if self.mirror_x else x, -y if self.mirror_y else y) for x, y in triangle.corners]
         if self.mirror_x != self.mirror_y:
             corners.reverse()
         return Triangle(corners, triangle.far, triangle.near)
 
     def fits(self, new: Triangle) -> bool:
-        """Whether a triangle may be added."""
+        """Return whether a triangle may be added."""
         if self.count >= self.structure.max_prisms or new.radius < self.structure.min_radius:
             return False
         return all(self.is_apart(new, old) for old in self.triangles)
 
     def is_apart(self, new: Triangle, old: Triangle) -> bool:
-        """Whether a new triangle keeps the distance that it must keep from one that is there."""
+        """Return whether a new triangle keeps the required distance from another one."""
         return (
             distance(new.center, old.center) >= new.radius // 2 + old.radius // 2
             and not any(contains(old, corner) for corner in new.corners)

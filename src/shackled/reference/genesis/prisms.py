@@ -26,7 +26,7 @@ class Prisms:
     """
 
     def __init__(self, random: Random, triangles: Sequence[Triangle]) -> None:
-        """Of at least one triangle."""
+        """Take the triangles, at least one."""
         points = [corner for triangle in triangles for corner in triangle.corners]
         size = max(max(values) - min(values) for values in zip(*points, strict=True))
         self.is_turned = random.draw("rotZ", low=0, high=1) == 1
@@ -49,18 +49,18 @@ class Prisms:
         self.faces = [(6 * k + a, 6 * k + b, 6 * k + c) for k in range(len(triangles)) for a, b, c in FACES]
 
     def flatten(self, corner: Point, size: int) -> Point:
-        """A corner, scaled and turned in the plane."""
+        """Scale a corner and turn it in the plane."""
         x, y = (quotient(value * EXTENT, size) for value in corner)
         return rotate(x, y, 30) if self.is_turned else (x, y)
 
     def tilt(self, point: Point3) -> Point3:
-        """A point, tilted about both axes."""
+        """Tilt a point about both axes."""
         if self.is_turned:
             return rotate_x(rotate_y(point, self.tilt_y), self.tilt_x)
         return rotate_y(rotate_x(point, self.tilt_x), self.tilt_y)
 
     def mean_extent(self, axis: int) -> tuple[int, int]:
-        """The lowest and the highest coordinate, each the mean of the far ends and the near ends."""
+        """Return the lowest and the highest coordinate, each the mean of the far ends and the near ends."""
         sides = [[point[axis] for end in ends for point in end] for ends in (self.near, self.far)]
         low, high = (quotient(sum(bound(side) for side in sides), 2) for bound in (min, max))
         return low, high

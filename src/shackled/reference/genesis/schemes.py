@@ -74,7 +74,7 @@ class Scheme:
 
 
 def choose_scheme(random: Random, prisms: int) -> Scheme:
-    """The scheme of a piece of so many prisms."""
+    """Choose the scheme of a piece of so many prisms."""
     value = random.draw("schemedId", low=0, high=10000)
     index, name = next((i, name) for i, (name, bound) in enumerate(BOUNDS.items()) if value <= bound)
     primary = _primary(random, index)
@@ -134,7 +134,7 @@ def _highlight(random: Random, index: int, direction: int) -> Paint:
 
 
 def _highlights(random: Random, index: int, prisms: int) -> tuple[int, int, int]:
-    """How many, by what order, and of which key."""
+    """Choose the number of highlights, their order, and its key."""
     if index == 0:
         return random.draw("hltNum", low=3, high=5), LARGEST, RADIUS
     if index == 1:

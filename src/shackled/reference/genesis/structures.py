@@ -47,7 +47,7 @@ class Structure:
 
 
 def choose_structure(random: Random) -> Structure:
-    """The structure of a piece."""
+    """Choose the structure of a piece."""
     value = random.draw("specId", low=0, high=8000)
     index, name = next((i, name) for i, (name, bound) in enumerate(BOUNDS.items()) if value <= bound)
     most = random.draw("maxPrisms", low=8, high=16)

@@ -23,13 +23,13 @@ Point3 = tuple[int, int, int]
 
 
 def quotient(a: int, b: int) -> int:
-    """a / b, cut off toward zero."""
+    """Return a / b, rounded toward zero."""
     size = abs(a) // abs(b)
     return size if (a < 0) == (b < 0) else -size
 
 
 def sine_of_angle(x: int) -> int:
-    """The sine, times ONE, of an angle in radians, times ONE, from 0."""
+    """Return the sine, times ONE, of an angle in radians, times ONE, from 0."""
     turn = 2**30 * (x % TWO_PI) // TWO_PI
     negative, falling = turn >> 29 & 1, turn >> 28 & 1
     index, fraction = turn >> 20 & 255, turn >> 4 & 0xFFFF
@@ -42,27 +42,27 @@ def sine_of_angle(x: int) -> int:
 
 
 def sine(degrees: int) -> int:
-    """The sine times ONE."""
+    """Return the sine times ONE."""
     return sine_of_angle(degrees % 360 * PI // 180)
 
 
 def cosine(degrees: int) -> int:
-    """The cosine times ONE."""
+    """Return the cosine times ONE."""
     return sine_of_angle(degrees % 360 * PI // 180 + HALF_PI)
 
 
 def rotate(x: int, y: int, degrees: int) -> Point:
-    """A point of the plane turned about the origin."""
+    """Rotate a point of the plane about the origin."""
     c, s = cosine(degrees), sine(degrees)
     return quotient(x * c - y * s, ONE), quotient(x * s + y * c, ONE)
 
 
 def rotate_x(p: Point3, degrees: int) -> Point3:
-    """A point turned about the x axis."""
+    """Rotate a point about the x axis."""
     return p[0], *rotate(p[1], p[2], degrees)
 
 
 def rotate_y(p: Point3, degrees: int) -> Point3:
-    """A point turned about the y axis; the other way round than is usual."""
+    """Rotate a point about the y axis, in the opposite of the usual direction."""
     x, z = rotate(p[0], p[2], degrees)
     return x, p[1], z

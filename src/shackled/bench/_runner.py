@@ -1,0 +1,97 @@
+"""Run experiments by name, in several processes, with a progress bar.
+
+An experiment is a module with `run(runner) -> ExperimentReport`.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
+from importlib.util import find_spec
+from types import TracebackType
+from typing import TypeVar
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from ..errors import InputError
+from ..workers import each
+from ._report import ExperimentReport
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+#: In the order of the paper.
+EXPERIMENTS = {
+    "canvas": "a cube on canvases of 8 x 8 to 512 x 512 pixels, both projections",
+    "triangles": "1 to 16 equal triangles",
+    "genesis": "the 1024 pieces of Genesis: gas against triangles",
+    "culling": "the common objects, with and without backface culling",
+    "deploy": "gas and bytes of every contract",
+    "engines": "time and gas in every installed EVM",
+    "linear": "how well straight lines fit gas against triangles and pixels",
+    "output": "size and gas of BMP, data URI and SVG",
+}
+
+
+class Runner:
+    """A context in which experiments run."""
+
+    def __init__(self, quick: bool = False, processes: int | None = None, rpc: str | None = None) -> None:
+        """Start nothing yet.
+
+        quick: whether to use a few small scenes, as a check that everything works. processes: how many; None is one
+        for each core, since embedded EVMs hold the interpreter's lock. rpc: a node that `engines` measures too.
+        """
+        self.rpc = rpc
+        self.quick = quick
+        self.processes = processes or os.cpu_count() or 1
+        self._progress = Progress(
+            TextColumn("{task.description:10}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=Console(stderr=True),
+        )
+
+    def __enter__(self) -> Runner:
+        self._progress.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._progress.stop()
+
+    def run(self, name: str) -> ExperimentReport:
+        """Run one of EXPERIMENTS."""
+        report: ExperimentReport = import_module(f"._{name}", __package__).run(self)
+        return report
+
+    def map(
+        self, label: str, function: Callable[[Item], Result], items: Iterable[Item], alone: bool = False
+    ) -> list[Result]:
+        """Return the results of a function for each item, in their order.
+
+        Function and items are pickled and sent to worker processes, unless there is only one process, or `alone`: then
+        all run one after the other in this process, for measurements of time.
+        """
+        items = list(items)
+        task = self._progress.add_task(label, total=len(items))
+        results: dict[int, Result] = {}
+        if alone or self.processes == 1:
+            found: Iterator[tuple[int, Result]] = ((place, function(item)) for place, item in enumerate(items))
+        else:
+            found = each(function, items, self.processes)
+        for place, result in found:
+            results[place] = result
+            self._progress.advance(task)
+        return [results[place] for place in range(len(items))]
+
+
+def check_plots() -> None:
+    """Raise InputError if plots cannot be drawn."""
+    if find_spec("matplotlib") is None:
+        raise InputError("the plots need matplotlib, which is not installed: pip install 'shackled[bench]'")

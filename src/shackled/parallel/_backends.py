@@ -1,0 +1,162 @@
+"""Backends: where the parts of pictures are rendered, and how their answers are verified."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from functools import cache
+from typing import Protocol
+
+from ..chain import Chain, Drawing, EmbeddedChain, PyrevmChain, open_chain, out_of_gas
+from ..errors import InputError, RenderError
+from ..scene import Rectangle, Scene
+from ..workers import Worker, WorkerEndedError
+
+#: How many processes may end over one part before the job fails.
+ATTEMPTS = 2
+#: Where a sample is verified: one part in so many, besides the first one of each backend.
+SAMPLE = 8
+
+
+@dataclass(frozen=True)
+class Part:
+    """A tile of a frame, rendered by one call; frames are numbered from 0."""
+
+    frame: int
+    tile: Rectangle
+
+
+def draw_part(chain: Chain, scene: Scene, tile: Rectangle) -> Drawing:
+    """Render a tile of a frame."""
+    whole = (tile.width, tile.height) == (scene.width, scene.height)
+    return chain.draw(scene, None if whole else tile)
+
+
+def check_part(piece: Drawing, tile: Rectangle) -> None:
+    """Raise RenderError if an answer is no picture of the size of the tile."""
+    from ..image import decode_bmp
+
+    decode_bmp(piece.bmp, tile.width, tile.height)
+
+
+@cache
+def limited(chain: str | None, gas: int | None) -> Chain:
+    """Open a chain by name, with a gas limit for each call; None keeps the limit of the chain."""
+    opened = open_chain(chain)
+    if gas is None:
+        return opened
+    if not isinstance(opened, EmbeddedChain):
+        raise InputError(f"the chain {chain!r} counts no gas: leave out `gas_limit`")
+    return type(opened)(gas)
+
+
+def draw_limited(chain: str | None, gas: int | None, scene: Scene, tile: Rectangle) -> Drawing:
+    """Render a tile of a frame in this process, on the chain that `limited` opens."""
+    return draw_part(limited(chain, gas), scene, tile)
+
+
+class Backend(Protocol):
+    """Renders parts.
+
+    slots: how many parts at a time. untrusted: whether its answers may be wrong.
+    gas: limit of a call; None where there is none.
+    """
+
+    slots: int
+    untrusted: bool
+    gas: int | None
+
+    @property
+    def name(self) -> str:
+        """Return the name that messages show."""
+
+    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render a part; slots are numbered from 0, and each renders one part at a time."""
+
+    def close(self) -> None:
+        """Stop what still runs; may be called while slots are busy, and more than once."""
+
+
+class ChainBackend:
+    """A chain: an EVM in this process, or a node with so many calls at a time."""
+
+    def __init__(self, chain: Chain, slots: int = 1, untrusted: bool = False, gas: int | None = None) -> None:
+        """Take the fields of `Backend`."""
+        self.chain, self.slots, self.untrusted, self.gas = chain, slots, untrusted, gas
+
+    @property
+    def name(self) -> str:
+        """Return the name of the chain."""
+        return self.chain.name
+
+    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render a part; raise OutOfGasError if it took more gas than the limit."""
+        piece = draw_part(self.chain, scene, tile)
+        if self.gas is not None and piece.gas is not None and piece.gas > self.gas:
+            raise out_of_gas(self.gas)
+        return piece
+
+    def close(self) -> None:
+        """Do nothing: nothing runs in the background."""
+
+
+class ProcessBackend:
+    """Worker processes of this machine, each with an EVM. They end with this process, however it ends."""
+
+    untrusted = False
+
+    def __init__(self, chain: str | None, jobs: int, gas: int | None = None) -> None:
+        """Start nothing yet.
+
+        chain: a name, as `open_chain` takes it. jobs: how many processes. gas: limit of a call.
+        """
+        self.slots, self.gas = jobs, gas
+        self._chain = chain
+        self._label = open_chain(chain).name
+        self._workers = [Worker() for _ in range(jobs)]
+        self._closed = False
+
+    @property
+    def name(self) -> str:
+        """Return the name of the chain and the number of processes."""
+        return f"{self._label}, {self.slots} processes"
+
+    def render(self, slot: int, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render a part in the process of a slot."""
+        for _ in range(ATTEMPTS):
+            try:
+                return self._workers[slot].call(draw_limited, self._chain, self.gas, scene, tile)
+            except WorkerEndedError:
+                if self._closed:
+                    break
+        raise RenderError("a worker process died twice over the same part of the picture; is there enough memory?")
+
+    def close(self) -> None:
+        """End the processes, even busy ones."""
+        self._closed = True
+        for worker in self._workers:
+            worker.close()
+
+
+class Verifier:
+    """Renders parts again in this process, to compare them with the answers of untrusted backends.
+
+    The compiled EVM renders them where it is installed, else the NumPy reference: the same bytes, and no gas.
+    """
+
+    def __init__(self, every: bool) -> None:
+        """Open the chain. every: whether each part is compared, or a random sample."""
+        self._every = every
+        self._chain = open_chain(None)
+        if isinstance(self._chain, PyrevmChain):
+            self._chain.address("Renderer")  # set up here, before several threads ask for it
+        else:
+            self._chain = open_chain("reference")
+
+    def selects(self, first: bool) -> bool:
+        """Return whether to compare a part. first: whether it is the first one of its backend."""
+        return self._every or first or random.randrange(SAMPLE) == 0
+
+    def draw(self, scene: Scene, tile: Rectangle) -> Drawing:
+        """Render the part; raise RenderError if the contracts refuse it."""
+        return draw_part(self._chain, scene, tile)
