@@ -38,7 +38,7 @@ class Network:
 
 @dataclass(frozen=True)
 class Computer:
-    """One that answers read calls. watts: what it draws beyond idling. gas_per_second: how fast it runs them."""
+    """A computer that answers read calls. watts: what it draws beyond idling. gas_per_second: its speed."""
 
     watts: float = 65
     gas_per_second: float = 500e6

@@ -1,4 +1,4 @@
-"""The gas snapshot: exact figures in git, so that every change shows its price.
+"""Take the gas snapshot: exact figures in git, so that every change shows its price.
 
     python -m benchmarks.snapshot
 

@@ -1,4 +1,4 @@
-"""Where the gas goes.
+"""Profile pictures by stage.
 
     python -m benchmarks.stages FILE ...     any mesh or scene file
 

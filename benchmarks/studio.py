@@ -1,4 +1,4 @@
-"""The gas of the Studio: storing, decoding, PNG files.
+"""Measure the gas of the Studio: storing, decoding, PNG files.
 
     python -m benchmarks.studio
 

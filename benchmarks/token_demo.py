@@ -1,4 +1,4 @@
-"""The gas of `shackled token demo`, on a real node: every action of both collections beside the original's.
+"""Measure `shackled token demo` on a real node: every action of both collections beside the original's.
 
     python -m benchmarks.token_demo
 

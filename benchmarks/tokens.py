@@ -1,4 +1,4 @@
-"""What the collections cost: exact gas of every action, in git, so that every change shows its price.
+"""Measure the collections: exact gas of every action, in git, so that every change shows its price.
 
     python -m benchmarks.tokens
 

@@ -1,1 +1,1 @@
-"""Tools for those who work on Shackled, not part of the package: building, measuring, nodes and chains for tests."""
+"""Developers' tools, not part of the package: building, measuring, nodes and chains for tests."""

@@ -1,4 +1,4 @@
-"""Foundry's anvil, a node for development, as a place where the contracts run.
+"""Run the contracts on anvil, Foundry's development node.
 
     python -m tools.anvil COMMAND ...
 
@@ -34,7 +34,7 @@ def find_anvil() -> str | None:
 
 
 class Anvil:
-    """A node that runs while the context is open, on a port that is free."""
+    """A node that runs while the context is open, on a free port."""
 
     def __init__(self, binary: str, *options: str) -> None:
         """Start the node. binary: its path. options: of its command line."""
@@ -88,7 +88,7 @@ class Anvil:
 
 
 class AnvilChain(ContractChain):
-    """A node with the contracts, which runs while the context is open. Rules and gas are those of the embedded EVMs."""
+    """A node with the contracts, which runs while the context is open. Rules and gas equal those of the embedded EVMs."""
 
     name = "node (anvil)"
 

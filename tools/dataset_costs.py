@@ -1,4 +1,4 @@
-"""Measures every piece that comes with the package: src/shackled/datasets/gas.json.
+"""Measure every piece that comes with the package: src/shackled/datasets/gas.json.
 
 python tools/dataset_costs.py            write the file
 python tools/dataset_costs.py --check    say where it is wrong

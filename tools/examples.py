@@ -1,4 +1,4 @@
-"""The contracts of examples/, compiled, and what their tokens show."""
+"""Compile the contracts of examples/ and render their tokens."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Print where the gas of one function of a contract goes: its basic blocks with counts, gas and instructions.
+"""Print the gas of one function of a contract: its basic blocks with counts, gas and instructions.
 
     python tools/gas_blocks.py teapot                              the functions of the engine, most gas first
     python tools/gas_blocks.py teapot LinearSpans.plain             the blocks of one of them

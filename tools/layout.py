@@ -1,4 +1,4 @@
-"""Write what is made of contracts/layout.toml, the table of registers and packed words.
+"""Write the files that are made of contracts/layout.toml, the table of registers and packed words.
 
 python tools/layout.py            writes Registers.sol and Words.sol (contracts/src/pipeline) and reference/layout.py
 python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
@@ -9,7 +9,7 @@ are computed, so that one line of the table adds a register, and the contracts a
 
 from __future__ import annotations
 
-import ast
+import re
 import sys
 import textwrap
 import tomllib
@@ -35,7 +35,7 @@ pragma solidity 0.8.37;
 
 @dataclass(frozen=True)
 class Constant:
-    """A number with a name; `text` says what it means, and is empty where the line before says it."""
+    """A named number; `text` explains it, and is empty where the line before does."""
 
     name: str
     value: int
@@ -216,16 +216,14 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that modules of the package import from reference/layout.py."""
-    return {
-        alias.name
-        for path in REFERENCE.parents[1].rglob("*.py")
-        if "layout import" in (text := path.read_text("utf-8"))
-        for node in ast.walk(ast.parse(text))
-        if isinstance(node, ast.ImportFrom)
-        if node.module == "reference.layout" or (node.module == "layout" and path.parent == REFERENCE.parent)
-        for alias in node.names
-    }
+    """Return the names that the package uses of reference/layout.py, imported or as `layout.NAME`."""
+    found = set()
+    for path in REFERENCE.parents[1].rglob("*.py"):
+        text = path.read_text("utf-8")
+        for line in re.findall(r"^from \.[\w.]*layout import ([^(\n]+)$", text, re.MULTILINE):
+            found.update(line.split(", "))
+        found.update(re.findall(r"\blayout\.([A-Z]\w+)", text))
+    return found
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:

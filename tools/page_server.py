@@ -1,4 +1,4 @@
-"""The Creator as it is started by its command, and a browser that looks at it."""
+"""Start the Creator by its command, and a browser that opens it."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class Started:
     process: subprocess.Popen[str]
 
     def processor_seconds(self) -> float:
-        """Return what the server and the processes that it started took of the processors; infinite where no system
-        tells.
+        """Return the processor time of the server and its child processes; infinite where the system does not report
+        it.
         """
         found: dict[int, tuple[int, int]] = {}
         for path in Path("/proc").glob("[0-9]*/stat"):

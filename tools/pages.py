@@ -1,4 +1,4 @@
-"""Figures in pages: what stands between the marks <!-- begin NAME --> and <!-- end NAME -->."""
+"""Update figures in pages: what stands between the marks <!-- begin NAME --> and <!-- end NAME -->."""
 
 from __future__ import annotations
 

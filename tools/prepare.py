@@ -1,4 +1,4 @@
-"""Set up what the Makefile needs; runs on a bare Python.
+"""Install what the Makefile needs; runs on a bare Python.
 
     python3 tools/prepare.py package    .venv with the package in it
     python3 tools/prepare.py creator    and with what the page needs

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 SIDES = (8, 16, 32, 64, 128, 256, 512)
 QUICK_SIDES = (8, 16, 32)
 PROJECTIONS: dict[Projection, str] = {"perspective": "persp", "orthographic": "orth"}
-#: Pixels of a picture in the gallery, whatever its canvas.
+#: Side of a picture in the gallery, for every canvas.
 SHOWN = 128
 
 

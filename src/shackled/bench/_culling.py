@@ -21,17 +21,17 @@ from ._runner import Runner
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: How many objects suffice in a hurry.
+#: How many objects a quick run measures.
 QUICK = 3
 SIDE = 128
 
-#: The models that the original was measured with, and how the names of their scenes begin.
+#: The models that the original was measured with, and the prefixes of the names of their scenes.
 ORIGINAL_MODELS = {"models of 400 to 1,198 triangles": "obj_", "models of about 300": "small_"}
 
 
 @dataclass(frozen=True)
 class Pair:
-    """An object with and without culling: faces, triangles that are drawn, gas, pixels that differ."""
+    """An object with and without culling: faces, drawn triangles, gas, pixels that differ."""
 
     name: str
     faces: int

@@ -17,7 +17,7 @@ from ._runner import Runner
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Gas of a transaction that creates a contract, beyond that of any.
+#: Extra gas of a transaction that creates a contract.
 CREATION = 32000
 
 

@@ -19,7 +19,7 @@ from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, tu
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: Into how many parts each side of a square is cut: 2 to 1152 triangles.
+#: Divisions of each side of a square: 2 to 1152 triangles.
 DIVISIONS = tuple(range(1, 25))
 #: Sides of the canvas on which a cube is drawn.
 SIDES = (8, 16, 32, 64, 128, 256, 512)
@@ -33,7 +33,7 @@ LOOKS: dict[str, tuple[Material, tuple[Light, ...]]] = {
 COLORS = {"unlit": THIRD, "matte": FOURTH, "glossy": OURS}
 MARKS = dict(zip(LOOKS, "os^", strict=True))
 
-#: Of a scene: what it belongs to, triangles, pixels of the canvas, gas.
+#: A scene: its series, triangles, pixels of the canvas, gas.
 Row = tuple[str, int, int, int]
 
 

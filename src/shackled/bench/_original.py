@@ -48,11 +48,11 @@ CODE_SIZES = {
     "Renderer": 11272,
     "Coords": 6307,
 }
-#: Gas of the transactions that deploy the seven of them.
+#: Gas of the transactions that deploy all seven.
 DEPLOYMENT_GAS = 20_600_000
-#: Characters of what a call returns, at 128 x 128 pixels.
+#: Characters of the answer of a call, at 128 x 128 pixels.
 DATA_URI_SIZE, SVG_URI_SIZE = 65630, 87906
-#: What the SVG costs more than the data URI, from the cheapest to the most expensive picture.
+#: Gas of the SVG beyond that of the data URI, from the cheapest to the most expensive picture.
 SVG_GAS = (12_600_000, 25_600_000)
 
 # ---- the paper ----
@@ -62,5 +62,3 @@ SVG_GAS = (12_600_000, 25_600_000)
 PAPER_CULLED, PAPER_UNCULLED, PAPER_CULLING_RATIO = 4.39e10, 1.54e11, 3.51
 #: The deployment of Shackled, in ether.
 PAPER_DEPLOYMENT_ETHER = 0.258
-#: Tonnes of carbon dioxide of both collections, in the time of proof of work.
-PAPER_TONNES = 54.6

@@ -19,7 +19,7 @@ QUICK_SIDES = (8, 16)
 
 FORMATS = {"BMP": "render", "data URI": "renderDataURI", "SVG": "renderSVG"}
 COLORS = {"BMP": OURS, "data URI": THIRD, "SVG": FOURTH}
-#: The canvas of which the original's figures are known.
+#: The canvas for which figures of the original are known.
 KNOWN = 128
 
 

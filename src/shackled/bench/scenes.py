@@ -20,7 +20,7 @@ UNLIT = Material("unlit")
 #: The light of the original's scenes: power 2,000 diffuse and 3,000 specular from a distance of 50.
 ORIGINAL_MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
 ORIGINAL_LIGHT = Light("directional", (-50, 0, 0))
-#: How far before the camera things stand.
+#: Distance of the objects from the camera.
 DISTANCE = 2500
 
 CORNERS = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]

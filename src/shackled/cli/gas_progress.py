@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ..gas import SearchStep
 
-#: Steps that are shown at a time.
+#: Steps that are shown.
 ROWS = 12
 BAR = 32
 
@@ -62,7 +62,7 @@ class Progress:
             self._live.update(self._view())
 
     def _view(self) -> Group:
-        table = Table("call", "gas limit", "", "still to halve", "bracket", box=None, header_style="dim")
+        table = Table("call", "gas limit", "", "remaining", "bracket", box=None, header_style="dim")
         table.columns[0].justify = table.columns[1].justify = "right"
         first = max(0, len(self._steps) - ROWS)
         for number, step in enumerate(self._steps[first:], first + 1):

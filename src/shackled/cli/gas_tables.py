@@ -10,7 +10,7 @@ from rich.table import Table
 from ..gas import GasReport, Profile, limits
 
 BAR = 24
-#: How many functions and lines are worth a row.
+#: How many functions and lines are shown.
 ROWS = 20
 
 
@@ -25,8 +25,8 @@ def print_report(report: GasReport, gas_price: float, eth_price: float | None) -
     console.print()
     console.print(_fits(report))
     console.print(
-        "As documented at the sources on these dates, not measured; operators change them. "
-        "Requests count what is paid before the execution.",
+        "As documented by the sources on these dates, not measured; operators change them. "
+        "The limit of a request includes the intrinsic gas.",
         style="dim",
         soft_wrap=True,
     )
@@ -35,7 +35,7 @@ def print_report(report: GasReport, gas_price: float, eth_price: float | None) -
 def print_profile(profile: Profile) -> None:
     """Print the gas by function and by line."""
     console = _console()
-    functions = Table("function", "its own gas", "", "with calls", box=None, header_style="bold")
+    functions = Table("function", "self", "", "with calls", box=None, header_style="bold")
     _right(functions, 1, 2, 3)
     for each in profile.functions()[:ROWS]:
         functions.add_row(each.name, f"{each.own:,}", _share(each.own, profile.gas), f"{each.total:,}")
@@ -50,7 +50,7 @@ def print_profile(profile: Profile) -> None:
 
 
 def _console() -> Console:
-    # what is written to a file is as wide as it needs to be
+    # a file has room for wide tables
     return Console(file=sys.stdout, width=None if sys.stdout.isatty() else 160)
 
 
@@ -69,10 +69,10 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
         f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",
         "margin": f"{margin.gas:,}, {_share(margin.gas, exact.gas)}: "
         + (
-            f"a 64th of the gas is not handed on to an engine, which needs {exact.dearest_call:,}, "
-            f"so {margin.kept:,} must be left over; the Renderer uses {margin.after:,} of that after it"
+            f"a 64th of the gas is not passed on to an engine, which needs {exact.dearest_call:,}, "
+            f"so {margin.kept:,} must be left; the Renderer uses {margin.after:,} of it after the call"
         ),
-        "intrinsic": f"{exact.intrinsic_gas:,} to send the scene: not in the figures above",
+        "intrinsic": f"{exact.intrinsic_gas:,} to send the scene, not included in the figures above",
         "each": ", ".join(
             f"{gas:,.0f} a {what}" for gas, what in zip(per, ("triangle", "lit pixel"), strict=True) if gas is not None
         ),
@@ -90,7 +90,7 @@ def _stages(profile: Profile) -> Table:
     for stage, gas in stages.items():
         bar = "█" * round(BAR * gas / most) if most else ""
         table.add_row(stage, f"{gas:,}", _share(gas, profile.gas), bar)
-    table.add_row("together", f"{profile.gas:,}", "", "", style="bold")
+    table.add_row("total", f"{profile.gas:,}", "", "", style="bold")
     return table
 
 

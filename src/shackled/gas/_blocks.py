@@ -36,7 +36,7 @@ _NAMES = {
     0xFD: "REVERT",
     0xFE: "INVALID",
 }
-#: Gas of instructions whose price is always the same, but for those of 3; the price of others is no measure.
+#: Gas of instructions of constant price; others cost 3, or their price varies.
 _PRICES = {
     **dict.fromkeys((0x02, 0x04, 0x05, 0x06, 0x07, 0x0B), 5),
     **dict.fromkeys((0x08, 0x09, 0x56), 8),

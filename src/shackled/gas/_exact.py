@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..scene import Scene, encode
 from ._runs import engine_calls
 
-#: EIP-150: of the gas left, a call is handed all but one 64th.
+#: EIP-150: a call passes on all but one 64th of the gas that is left.
 KEPT = 64
 
 
@@ -43,9 +43,9 @@ class ExactGas:
 
 
 def counting(chain: Chain) -> ContractChain:
-    """Return the chain, if it counts gas; otherwise InputError."""
+    """Return the chain if it counts gas; otherwise raise InputError."""
     if not isinstance(chain, ContractChain):
-        raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take `chain` pyrevm or pyevm")
+        raise InputError(f"the {chain.name} counts no gas: use `chain` pyrevm or pyevm")
     return chain
 
 

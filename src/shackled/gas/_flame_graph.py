@@ -10,9 +10,9 @@ from ._stages import STAGES
 
 WIDTH, ROW, MARGIN = 1200, 18, 8
 
-#: Boxes that are narrower, in pixels, are left out.
+#: Narrower boxes, in pixels, are left out.
 NARROWEST = 0.4
-#: Pixels of a character of the text, and what it leaves free in its box.
+#: Width of a character of the text, and the padding of its box, in pixels.
 CHARACTER, PADDING = 6.3, 8
 
 STYLE = (
@@ -49,7 +49,7 @@ def flame_graph(profile: Profile, name: str) -> str:
     for index, stage in enumerate(STAGES):
         if stage in root.inside:
             box = root.inside[stage]
-            # hues apart from stage to stage, pale enough for dark text in either scheme
+            # distinct hues, pale enough for dark text in light and dark mode
             hue = (18 + 137 * index) % 360
             depth = max(depth, _draw(parts, stage, box, left, head, scale, root.gas, hue, 0))
             left += box.gas * scale

@@ -69,7 +69,7 @@ class Profile:
     def functions(self) -> list[FunctionCost]:
         """Return the gas by function, those first that use most themselves."""
         own = _sums((cost.function, cost.gas) for cost in self.costs)
-        # once for each cost, however often a function is among its callers
+        # once for each cost, even if the function is recursive
         total = _sums((name, cost.gas) for cost in self.costs for name in set(cost.calls))
         return [FunctionCost(name, own[name], gas) for name, gas in sorted(total.items(), key=lambda e: -own[e[0]])]
 
@@ -100,7 +100,7 @@ def _collect(frame: CallFrame, callers: tuple[str, ...], gas: Counter[tuple[str,
         for at, each in costs.items():
             place = mapped.places.get(at)
             line = _line(frame, mapped, place)
-            # functions that were inlined have no calls of their own, but their instructions say where they are from
+            # inlined functions have no calls, but their instructions are mapped to them
             inlined = place.function if place is not None and not _is_own(frame, mapped, place) else None
             key = stage, (*calls, inlined) if inlined and inlined != name else calls, line[0], line[1]
             gas[key] += each
@@ -125,7 +125,7 @@ def _line(frame: CallFrame, mapped: SourceMap, place: SourceLocation | None) -> 
     if place is None or not place.file:
         return "", 0
     if place.block and frame.entry in mapped.entry_lines and _is_own(frame, mapped, place):
-        # of assembly only the function within it is known
+        # in assembly only the function is known
         return place.file, max(place.line, mapped.entry_lines[frame.entry])
     return place.file, place.line
 

@@ -11,27 +11,12 @@ from itertools import groupby
 
 from ..artifacts import artifact
 from ..chain import CallResult, ContractChain, returned_bytes
-from ..reference.layout import (
-    DRAWN_BEFORE,
-    FRAME_BEGIN,
-    INVERT,
-    IS_BLENDED,
-    IS_SMOOTH,
-    IS_SPOT_LIT,
-    OBJECT_BYTES,
-    OBJECT_COUNT,
-    OBJECT_FIRST,
-    OBJECT_FLAGS,
-    OBJECT_MODE,
-    OBJECTS,
-    OBJECTS_BEGIN,
-    RETURNS_DEPTHS,
-)
+from ..reference import layout
 from ..scene import WIREFRAME, Rectangle, Scene, encode
 
-#: Of Pipeline.sol.
+#: As in Pipeline.sol.
 BAND_PIXELS = 16384
-#: Words of an answer before the pixels, in bytes.
+#: Bytes of an answer before its pixels.
 HEAD = 0x40
 
 
@@ -73,14 +58,18 @@ def _uniforms(scene: Scene, tile: Rectangle, chain: ContractChain) -> bytes:
 
 def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
     data, drawn, runs = bytearray(uniforms), b"", _runs(uniforms)
-    invert = _load(uniforms, _place(INVERT))
+    invert = _load(uniforms, _place(layout.INVERT))
     for run in runs:
         is_last = run is runs[-1]
-        values = {OBJECT_COUNT: len(run), RETURNS_DEPTHS: not is_last, INVERT: invert if is_last else 0}
+        values = {
+            layout.OBJECT_COUNT: len(run),
+            layout.RETURNS_DEPTHS: not is_last,
+            layout.INVERT: invert if is_last else 0,
+        }
         if run:
-            values |= {OBJECTS: run[0].position, OBJECT_FIRST: run[0].number}
+            values |= {layout.OBJECTS: run[0].position, layout.OBJECT_FIRST: run[0].number}
         if drawn:
-            values[DRAWN_BEFORE] = len(uniforms) + HEAD
+            values[layout.DRAWN_BEFORE] = len(uniforms) + HEAD
         for register, value in values.items():
             data[_place(register) : _place(register) + 32] = int(value).to_bytes(32, "big")
         engine = run[0].engine if run else "Engine"
@@ -91,21 +80,23 @@ def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
 
 def _runs(data: bytes) -> list[list[_Object]]:
     """Return runs of objects that one engine draws; an empty one if there is nothing to draw."""
-    objects, position = [], _load(data, _place(OBJECTS_BEGIN))
-    for number in range(_load(data, _place(OBJECT_COUNT))):
-        mode, flags = (_load(data, position + word - OBJECT_BYTES) for word in (OBJECT_MODE, OBJECT_FLAGS))
-        is_blended = mode & IS_BLENDED != 0
-        by_fragments = is_blended or flags & WIREFRAME or mode & (IS_SMOOTH | IS_SPOT_LIT)
+    objects, position = [], _load(data, _place(layout.OBJECTS_BEGIN))
+    for number in range(_load(data, _place(layout.OBJECT_COUNT))):
+        mode, flags = (
+            _load(data, position + word - layout.OBJECT_BYTES) for word in (layout.OBJECT_MODE, layout.OBJECT_FLAGS)
+        )
+        is_blended = mode & layout.IS_BLENDED != 0
+        by_fragments = is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT)
         objects.append(_Object(number, position, "FragmentEngine" if by_fragments else "Engine", is_blended))
         position += _load(data, position)
     runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]
-    # stable: what is not opaque comes last
+    # a stable sort: blended objects come last
     ordered = [run for _, run in sorted(runs, key=lambda each: each[0][1])]
     return ordered or [[]]
 
 
 def _place(register: int) -> int:
-    return 4 + register - FRAME_BEGIN
+    return 4 + register - layout.FRAME_BEGIN
 
 
 def _load(data: bytes, place: int) -> int:

@@ -77,7 +77,7 @@ def source_map(contract: str) -> SourceMap:
     fields = ["0", "0", "-1", "-"]
     entries = data["map"].split(";")
     for at, entry in zip(_instructions(artifact(contract).runtime), entries, strict=False):
-        # begin:length:source:jump:..., each as in the entry before if it is empty
+        # begin:length:source:jump:..., where empty fields repeat the entry before
         for i, field in enumerate(entry.split(":")[:4]):
             fields[i] = field or fields[i]
         begin, length, number = map(int, fields[:3])
@@ -104,7 +104,7 @@ def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
     if exact is not None:
         return exact, source.line(begin)
     if name.startswith("usr$"):
-        # a function within inline assembly, whose copies have numbers
+        # a function within inline assembly; its copies are numbered
         own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
         stem = source.name.rpartition("/")[2].removesuffix(".sol")
         found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
@@ -136,7 +136,7 @@ def _sources() -> dict[int, SourceFile]:
         texts |= request["sources"]
     sources = {}
     for number, source in _data()["sources"].items():
-        # what others wrote is not kept here
+        # third-party sources are not included
         text = texts[source["name"]].get("content", "").encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))

@@ -51,7 +51,7 @@ class CallFrame:
         return sum(sum(costs.values()) for costs in self.costs.values())
 
 
-#: What tracing needs, for messages.
+#: The requirement of tracing, for messages.
 TRACER = "the package py-evm: pip install 'shackled[profile]'"
 
 
@@ -85,7 +85,7 @@ class _Tracer(PyEvmChain):
     def _state(self) -> Any:
         state = super()._state()
         self.root = None
-        #: Who is calling, for which stage; and the gas of the call that ended last.
+        #: The caller and its stage; and the gas of the call that ended last.
         self._caller: tuple[CallFrame | None, str] = None, REST
         self._called = 0
         tracer, base = self, state.computation_class
@@ -116,7 +116,7 @@ class _Tracer(PyEvmChain):
         frame = CallFrame(contract, 0, None) if caller is None else caller.call(contract, 0)
         if self.root is None:
             self.root = frame
-        #: CallFrame and stage of each call that is open, and where it should return to.
+        #: Frame and stage of each open call, and its return position.
         returns: list[tuple[CallFrame, str, int]] = []
         costs = frame.costs[stage]
         code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
@@ -140,7 +140,7 @@ class _Tracer(PyEvmChain):
             costs[at] += before - after
             before = after
             if opcode >= _FIRST_CALL:
-                # what was called has books of its own
+                # the callee counts its own gas
                 costs[at] -= self._called
             if halted:
                 break
@@ -155,7 +155,7 @@ class _Tracer(PyEvmChain):
                         frame, stage, back = returns.pop()
                 elif returns and mapped.places[target].function not in (None, mapped.entries.get(frame.entry)):
                     frame, stage, _ = returns.pop()
-                # else the common end of several functions, of the compiler's making, from where it goes on
+                # else a common end of several functions, which the compiler made
                 costs = frame.costs[stage]
             countdown -= 1
             if not countdown:

@@ -1,4 +1,4 @@
-"""Objects that are not opaque.
+"""Draw objects that are not opaque.
 
 They are drawn twice: the first pass finds the nearest fragment of each pixel, the second mixes its colour with what is
 there, once. The last two bits of a depth say how far it is.

@@ -30,8 +30,8 @@ NORMAL_LANES = 0xFFFFFFFFFFFFFC00000003FFFFFFFFFFFFE00000001FFFFFFFFFFFFF
 class Corner:
     """A corner of a polygon.
 
-    x, y, w: clip coordinates, Q32. color: lanes of Q10. normal: as in a vertex.
-    is_edge: whether the edge to the next corner is one of the face; a cut has made it if not.
+    x, y, w: clip coordinates, Q32. color: lanes of Q10. normal: as in a vertex. is_edge: whether the edge to the next
+    corner is an edge of the face, not of a cut.
     """
 
     x: int

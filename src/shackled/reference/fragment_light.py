@@ -1,4 +1,4 @@
-"""The colour of a triangle at any place.
+"""Compute the colour of a triangle at any place.
 
 Interpolated colours, correct in perspective, times diffuse light, and highlights (Blinn-Phong).
 """

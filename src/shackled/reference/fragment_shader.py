@@ -11,21 +11,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from . import layout
 from .fragment_light import ray_length, specular
-from .layout import (
-    HALF_86,
-    HALF_LEVEL,
-    HALF_Q32_86,
-    IS_CROSSING,
-    IS_GREY,
-    IS_QUADRATIC,
-    IS_STEEP,
-    LANES_24,
-    LANES_32,
-    ONES,
-    Q32_86,
-    UPPER_86_AT,
-)
 from .registers import IS_IN_PASSES, Registers
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
@@ -42,10 +29,10 @@ Span = tuple[int, int, int, int, int]
 
 def modulated(color: int, factor: int) -> int:
     """Multiply lanes of Q10 by lanes of Q40."""
-    factor = (factor >> 24) & LANES_32
+    factor = (factor >> 24) & layout.LANES_32
     blue = factor & 0xFFFFFFFF
-    if factor == blue * ONES:
-        return (color * blue >> 16) & LANES_24
+    if factor == blue * layout.ONES:
+        return (color * blue >> 16) & layout.LANES_24
     product = (blue * (color & 0xFFFFFF)) >> 16
     product |= (((factor >> 56) & 0xFFFFFFFF) * ((color >> 56) & 0xFFFFFF)) >> 16 << 56
     return product | ((factor >> 112) * (color >> 112)) >> 16 << 112
@@ -68,12 +55,12 @@ def shade_quadratic(attribute: int, light: int, registers: Registers) -> int:
         n_dot_h = signed(light << 171) >> 193
         if n_dot_h > 0:
             value = specular(divide(n_dot_h * n_dot_h, square), r)
-            highlight = (r.lights[0].color * value >> 6) & LANES_24
-    color = (attribute >> 32) & LANES_24
-    if r.mode & IS_STEEP:
-        color = (color * divide(r.nearest, attribute >> 192) >> 16) & LANES_24
-    if r.mode & IS_GREY:
-        return ((color * ((factor >> 24) & 0xFFFFFFFF) >> 16) & LANES_24) + highlight
+            highlight = (r.lights[0].color * value >> 6) & layout.LANES_24
+    color = (attribute >> 32) & layout.LANES_24
+    if r.mode & layout.IS_STEEP:
+        color = (color * divide(r.nearest, attribute >> 192) >> 16) & layout.LANES_24
+    if r.mode & layout.IS_GREY:
+        return ((color * ((factor >> 24) & 0xFFFFFFFF) >> 16) & layout.LANES_24) + highlight
     return modulated(color, factor) + highlight
 
 
@@ -82,7 +69,7 @@ def shade_quadratic(attribute: int, light: int, registers: Registers) -> int:
 
 def pack(color: int) -> tuple[int, int, int]:
     """Return lanes of Q10 as the bytes blue, green, red; lanes above 255 are 255."""
-    color |= (((color + 0x3FFC0000 * ONES) >> 30) & ONES) * 0x3FC00
+    color |= (((color + 0x3FFC0000 * layout.ONES) >> 30) & layout.ONES) * 0x3FC00
     return (color >> 10) & 0xFF, (color >> 66) & 0xFF, (color >> 122) & 0xFF
 
 
@@ -144,7 +131,7 @@ def spans_between(edges: int, slopes: int, start: int, row: int, last: int, r: R
         first, end = (edges >> 48) & 0xFFFF, edges >> 176
         if first < end:
             span = (line, first, end, start + first * r.dx, r.dx)
-            inside = clamped(span, r) if r.mode & (IS_CROSSING | IS_IN_PASSES) else span
+            inside = clamped(span, r) if r.mode & (layout.IS_CROSSING | IS_IN_PASSES) else span
             if inside[1] < inside[2]:
                 spans.append(inside)
         edges = (edges + slopes) & MASK
@@ -166,7 +153,7 @@ def draw(spans: list[Span], r: Registers) -> None:
     if not spans:
         return
     fragments = Fragments(spans, r)
-    if r.mode & IS_QUADRATIC == 0:
+    if r.mode & layout.IS_QUADRATIC == 0:
         # the accumulators hold the colours
         for channel, lane in enumerate(fragments.lanes()):
             value = lane >> np.uint64(10)
@@ -177,7 +164,7 @@ def draw(spans: list[Span], r: Registers) -> None:
     colors = []
     for word, line, column in zip(fragments.words(), fragments.rows.tolist(), fragments.columns.tolist(), strict=True):
         light = r.quadratic.at(column + r.column_begin, line + r.band_top)
-        colors.append(pack(shade_quadratic(word, light, r) + HALF_LEVEL))
+        colors.append(pack(shade_quadratic(word, light, r) + layout.HALF_LEVEL))
     if colors:
         r.image[fragments.rows, fragments.columns] = colors
 
@@ -197,12 +184,12 @@ def vertex_highlights(word: int, vertex: Vertex, r: Registers) -> int:
     for light, (half, square) in zip(r.lights, vertex.halves, strict=True):
         if light.n_dot_l > 0:
             # normal * half vector
-            product = max(signed(r.face_normal * half) >> UPPER_86_AT, 0)
+            product = max(signed(r.face_normal * half) >> layout.UPPER_86_AT, 0)
             place = divide(product * product, r.face_square * square) - r.specular_offset
             if place > 0:
                 entry = r.specular_table[place >> 24]
                 value = (entry >> 128 << 24) + (entry & (1 << 128) - 1) * (place & 0xFFFFFF)
-                word += (light.color * value >> 30) & LANES_24
+                word += (light.color * value >> 30) & layout.LANES_24
     return word
 
 
@@ -220,7 +207,7 @@ def half_vectors(vertex: Vertex, r: Registers) -> list[tuple[int, int]]:
     ray = (x * r.normal_x + y * r.normal_y + (r.normal_z << 24)) * ((1 << 56) // length)
     halves = []
     for light in r.lights:
-        half = ((((light.mesh_lanes << 56) - ray + HALF_86) & MASK) >> 48 & Q32_86) - HALF_Q32_86
+        half = ((((light.mesh_lanes << 56) - ray + layout.HALF_86) & MASK) >> 48 & layout.Q32_86) - layout.HALF_Q32_86
         change = length * ABOVE_ONE - (light.x * x + light.y * y + (light.z << 24))
         halves.append((half, divide_signed(change << 33, length * r.specular_scale)))
     return halves

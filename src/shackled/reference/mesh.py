@@ -1,4 +1,4 @@
-"""The packed mesh."""
+"""Unpack meshes."""
 
 from __future__ import annotations
 

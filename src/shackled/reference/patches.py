@@ -1,4 +1,4 @@
-"""Flat and unlit triangles whose colours are not linear on the screen.
+"""Draw flat and unlit triangles whose colours are not linear on the screen.
 
 Their colours are quadratic functions of the place, fitted to exact ones, over the whole triangle or over square cells
 of it. The cells are those of the canvas, not of the tile, so that tiles equal the whole.
@@ -28,7 +28,7 @@ SHORT_SPAN = 5
 
 @dataclass
 class Pixels:
-    """What is to be drawn: places, depths, and colours (blue, green, red)."""
+    """Pixels to draw: places, depths, and colours (blue, green, red)."""
 
     rows: list[int] = field(default_factory=list)
     columns: list[int] = field(default_factory=list)

@@ -21,10 +21,10 @@ from .view import View
 
 @dataclass(frozen=True)
 class Picture:
-    """What was drawn.
+    """A rendered tile.
 
-    pixels: (height, width, 3) bytes, red, green, blue, rows from the top.
-    triangles: how many survived culling and clipping. lit_pixels: how many pixels are covered by any.
+    pixels: (height, width, 3) bytes, red, green, blue, rows from the top. triangles: how many survived culling and
+    clipping. lit_pixels: how many pixels are covered by any.
     """
 
     pixels: NDArray[np.uint8]
@@ -34,7 +34,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Geometry:
-    """What vertex shader and primitive assembly make of an object.
+    """The output of vertex shader and primitive assembly for an object.
 
     vertices: the records of all vertices of the mesh. triangles: those to draw.
     """

@@ -1,5 +1,5 @@
-"""From vertices and faces to triangles that are to be drawn: those that face the viewer (or all), cut where they leave
-the guard band.
+"""Assemble the triangles to draw from vertices and faces: those that face the viewer (or all), clipped at the guard
+band.
 """
 
 from __future__ import annotations

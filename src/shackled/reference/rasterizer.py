@@ -4,20 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from . import blended_spans, fragment_shader, patches, shading
-from .layout import (
-    ACCUMULATOR_FRACTION,
-    ATTRIBUTE_DEPTH_AT,
-    ATTRIBUTE_S,
-    CEIL_48,
-    EDGE_FRACTION,
-    EDGE_SUBPIXEL_SHIFT,
-    GRADIENT_SHIFT,
-    IS_DEEP,
-    IS_PATCHED,
-    LANE_128,
-    RIGHT_EDGE_AT,
-)
+from . import blended_spans, fragment_shader, layout, patches, shading
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import IS_IN_PASSES, Registers
@@ -34,7 +21,7 @@ def run(triangles: list[Triangle], mesh: Mesh, registers: Registers) -> None:
                 for spans in spans_of(triangle, registers):
                     blended_spans.draw(spans, registers)
                 continue
-            if registers.mode & IS_PATCHED:
+            if registers.mode & layout.IS_PATCHED:
                 for half in halves_of(triangle, registers):
                     patches.fill(*half, registers)
                 continue
@@ -84,31 +71,31 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
     # from the first vertex to the centres of the row
     y = (top << 8) - a.y
 
-    left, right = divide_signed(xb << EDGE_FRACTION, yb), divide_signed(xc << EDGE_FRACTION, yc)
-    column = (x << EDGE_SUBPIXEL_SHIFT) + CEIL_48
-    edges = column + (y * left >> 8) + ((column + (y * right >> 8)) << RIGHT_EDGE_AT)
-    slopes = left + (right << RIGHT_EDGE_AT)
+    left, right = divide_signed(xb << layout.EDGE_FRACTION, yb), divide_signed(xc << layout.EDGE_FRACTION, yc)
+    column = (x << layout.EDGE_SUBPIXEL_SHIFT) + layout.CEIL_48
+    edges = column + (y * left >> 8) + ((column + (y * right >> 8)) << layout.RIGHT_EDGE_AT)
+    slopes = left + (right << layout.RIGHT_EDGE_AT)
 
     area = xc * yb - xb * yc
     start, dx, dy = r.lane_bias, 0, 0
-    if r.mode & IS_DEEP:
+    if r.mode & layout.IS_DEEP:
         # depths by themselves, Q32, for which barycentric coordinates are too coarse
-        z = r.attribute_0 >> ATTRIBUTE_DEPTH_AT
-        zb, zc = (r.attribute_1 >> ATTRIBUTE_DEPTH_AT) - z, (r.attribute_2 >> ATTRIBUTE_DEPTH_AT) - z
+        z = r.attribute_0 >> layout.ATTRIBUTE_DEPTH_AT
+        zb, zc = (r.attribute_1 >> layout.ATTRIBUTE_DEPTH_AT) - z, (r.attribute_2 >> layout.ATTRIBUTE_DEPTH_AT) - z
         dx = divide_signed((zc * yb - zb * yc) << 40, area)
         dy = divide_signed((zb * xc - zc * xb) << 40, area)
-        start += ((z << 32) + ((y * dy - x * dx) >> 8)) << ATTRIBUTE_DEPTH_AT
-        r.attribute_0, r.attribute_1, r.attribute_2 = 0, ATTRIBUTE_S, 1
+        start += ((z << 32) + ((y * dy - x * dx) >> 8)) << layout.ATTRIBUTE_DEPTH_AT
+        r.attribute_0, r.attribute_1, r.attribute_2 = 0, layout.ATTRIBUTE_S, 1
     # change of the barycentric coordinates per pixel, Q29
-    xb, xc = divide_signed(xb << GRADIENT_SHIFT, area), divide_signed(xc << GRADIENT_SHIFT, area)
-    yb, yc = divide_signed(yb << GRADIENT_SHIFT, area), divide_signed(yc << GRADIENT_SHIFT, area)
+    xb, xc = divide_signed(xb << layout.GRADIENT_SHIFT, area), divide_signed(xc << layout.GRADIENT_SHIFT, area)
+    yb, yc = divide_signed(yb << layout.GRADIENT_SHIFT, area), divide_signed(yc << layout.GRADIENT_SHIFT, area)
     delta_b, delta_c = r.attribute_1 - r.attribute_0, r.attribute_2 - r.attribute_0
     # from the first vertex to the centre of pixel 0 in row `top`
-    start += r.attribute_0 << ACCUMULATOR_FRACTION
+    start += r.attribute_0 << layout.ACCUMULATOR_FRACTION
     start += delta_b * ((y * xc + x * yc) >> 5) - delta_c * ((x * yb + y * xb) >> 5)
     r.start = start & MASK
-    r.dx = (8 * (delta_c * yb - delta_b * yc) + (dx << ATTRIBUTE_DEPTH_AT)) & MASK
-    r.dy = (8 * (delta_b * xc - delta_c * xb) + (dy << ATTRIBUTE_DEPTH_AT)) & MASK
+    r.dx = (8 * (delta_c * yb - delta_b * yc) + (dx << layout.ATTRIBUTE_DEPTH_AT)) & MASK
+    r.dy = (8 * (delta_b * xc - delta_c * xb) + (dy << layout.ATTRIBUTE_DEPTH_AT)) & MASK
     return edges & MASK, slopes & MASK, middle
 
 
@@ -118,15 +105,15 @@ def lower_edges(upper: int, upper_slopes: int, b: Vertex, c: Vertex, top: int, m
     is_right = c.word < b.word
     if is_right:
         b, c = c, b
-    slope = divide_signed((c.x - b.x) << EDGE_FRACTION, c.y - b.y)
-    column = ((b.x << EDGE_SUBPIXEL_SHIFT) + CEIL_48 + (((middle << 8) - b.y) * slope >> 8)) & MASK
-    left_slope = upper_slopes & LANE_128
-    left_slope -= left_slope >> 127 << RIGHT_EDGE_AT
+    slope = divide_signed((c.x - b.x) << layout.EDGE_FRACTION, c.y - b.y)
+    column = ((b.x << layout.EDGE_SUBPIXEL_SHIFT) + layout.CEIL_48 + (((middle << 8) - b.y) * slope >> 8)) & MASK
+    left_slope = upper_slopes & layout.LANE_128
+    left_slope -= left_slope >> 127 << layout.RIGHT_EDGE_AT
     # keep the lane of the other edge
     if is_right:
-        edges = (edges & LANE_128) | (column << RIGHT_EDGE_AT)
-        slopes = left_slope + (slope << RIGHT_EDGE_AT)
+        edges = (edges & layout.LANE_128) | (column << layout.RIGHT_EDGE_AT)
+        slopes = left_slope + (slope << layout.RIGHT_EDGE_AT)
     else:
-        edges = (edges >> RIGHT_EDGE_AT << RIGHT_EDGE_AT) | column
+        edges = (edges >> layout.RIGHT_EDGE_AT << layout.RIGHT_EDGE_AT) | column
         slopes = upper_slopes - left_slope + slope
     return edges & MASK, slopes & MASK

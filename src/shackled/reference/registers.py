@@ -1,4 +1,4 @@
-"""The values that every vertex, triangle and fragment needs; in the words of graphics interfaces, the uniforms.
+"""The registers: values that every vertex, triangle and fragment needs, such as the uniforms.
 
 The names are those of the contract's registers. Signed registers hold Python integers of either sign, packed ones hold
 words whose lanes may have borrowed from one another.
@@ -22,7 +22,7 @@ IS_IN_PASSES = IS_BLENDED | IS_DEPTH_PASS
 
 @dataclass(slots=True)
 class LightRecord:
-    """A light in camera space and in the space of the mesh, and how it meets the face that is drawn."""
+    """A light in camera space and in the space of the mesh, and its values for the current face."""
 
     is_point: bool = False
     x: int = 0
@@ -45,7 +45,7 @@ class LightRecord:
 
 @dataclass(slots=True)
 class Normals:
-    """The normals of a smooth triangle: at the first vertex, Q36, and what they change to the others, Q20."""
+    """The normals of a smooth triangle: at the first vertex, Q36, and the differences to the others, Q20."""
 
     at_0: int
     to_1: int

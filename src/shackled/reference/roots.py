@@ -1,4 +1,4 @@
-"""Square roots."""
+"""Compute square roots."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from ..errors import RenderError
 
 
 class Reverted(RenderError):
-    """The call reverts with a custom error of the contract: its name and values."""
+    """The call reverts with a custom error of the contract."""
 
     def __init__(self, error: str, **values: int) -> None:
         """Take the name and the values of the error."""

@@ -2,29 +2,9 @@
 
 from __future__ import annotations
 
-from . import lighting, patches
+from . import layout, lighting, patches
 from .fragment_light import WEIGHTED_BIAS
 from .fragment_shader import vertex_highlights
-from .layout import (
-    COLOR_BIAS,
-    IS_CROSSING,
-    IS_DEEP,
-    IS_DIFFUSE,
-    IS_FLAT,
-    IS_LINEAR,
-    IS_LIT,
-    IS_ORTHOGRAPHIC,
-    IS_PATCHED,
-    IS_QUADRATIC,
-    IS_SMOOTH,
-    IS_SPOT_LIT,
-    IS_STEEP,
-    LANES_24,
-    ONES,
-    OVERFLOW,
-    SCREEN_PIXEL_ROW_AT,
-    WEIGHT_BIAS,
-)
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import IS_IN_PASSES, Normals, Registers
@@ -33,22 +13,22 @@ from .vertex_shader import Vertex
 from .words import divide
 
 #: Keeps colours (Q42) from being rounded below zero: 1/32 of a level.
-SMOOTH_BIAS = (1 << 200) + (ONES << 37)
+SMOOTH_BIAS = (1 << 200) + (layout.ONES << 37)
 #: A bit above the numbers of each lane; and the limit of a pair: 4 times 3 levels, Q30.
 GUARDS = 0x00400000000000004000000000000040000000000000
 LIMITS = 0x00000003000000000000030000000000000300000000
 #: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
 #: rounded, and eight steps of Q10 more, since interpolation is off by one at most.
-NEARLY_ABOVE = 0x208 * ONES
+NEARLY_ABOVE = 0x208 * layout.ONES
 #: Twice the area, in sub-pixels, of 10 pixels.
 SMALL = 20 << 16
 
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     """Choose the way to shade a triangle, and set what it needs."""
-    if registers.object_mode & (IS_SPOT_LIT | IS_IN_PASSES):
+    if registers.object_mode & (layout.IS_SPOT_LIT | IS_IN_PASSES):
         prepare_exact(triangle, mesh, registers)
-    elif registers.object_mode & IS_SMOOTH:
+    elif registers.object_mode & layout.IS_SMOOTH:
         prepare_smooth(triangle, mesh, registers)
     else:
         prepare_flat(triangle, mesh, registers)
@@ -60,16 +40,16 @@ def prepare_flat(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     a, b, c = triangle.a, triangle.b, triangle.c
     mode, attributes = set_face(triangle, mesh, r)
     if (
-        mode & IS_DIFFUSE == 0
+        mode & layout.IS_DIFFUSE == 0
         and is_affine(attributes, triangle)
-        and (mode & IS_LIT == 0 or square_size(a, b, c) < r.reach)
+        and (mode & layout.IS_LIT == 0 or square_size(a, b, c) < r.reach)
     ):
-        if mode & IS_LIT:
+        if mode & layout.IS_LIT:
             attributes = [
                 vertex_highlights(word, vertex, r) for word, vertex in zip(attributes, (a, b, c), strict=True)
             ]
         # colours above 255 need a loop that keeps them there
-        saturates = any((word + NEARLY_ABOVE) & OVERFLOW for word in attributes)
+        saturates = any((word + NEARLY_ABOVE) & layout.OVERFLOW for word in attributes)
         set_linear(attributes, saturates | crossing_of(triangle), r)
         return
     set_exact(triangle, attributes, mode | crossing_of(triangle), r)
@@ -84,13 +64,13 @@ def prepare_smooth(triangle: Triangle, mesh: Mesh, registers: Registers) -> None
     r = registers
     a, b, c = triangle.a, triangle.b, triangle.c
     mode = r.object_mode
-    light = set_light(triangle, square_size(a, b, c), r) if mode & IS_QUADRATIC else UNBOUNDED_LIGHT
+    light = set_light(triangle, square_size(a, b, c), r) if mode & layout.IS_QUADRATIC else UNBOUNDED_LIGHT
     if light == UNBOUNDED_LIGHT:
         prepare_exact(triangle, mesh, r)
         return
     attributes = [vertex.attributes for vertex in (a, b, c)]
     if light == STEEP_LIGHT and not is_affine(attributes, triangle):
-        mode |= IS_STEEP
+        mode |= layout.IS_STEEP
         nearest = max(attributes) >> 168
         r.nearest = nearest << 24
         attributes = [weighted(word, nearest) for word in attributes]
@@ -103,19 +83,19 @@ def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     """Prepare to light every fragment, unless only the colour changes, and that linearly."""
     r = registers
     mode, attributes = set_face(triangle, mesh, r)
-    mode &= ~IS_QUADRATIC
-    if mode & IS_SMOOTH:
+    mode &= ~layout.IS_QUADRATIC
+    if mode & layout.IS_SMOOTH:
         a, b, c = triangle.a, triangle.b, triangle.c
         r.normals = Normals(a.normal << 16, b.normal - a.normal, c.normal - a.normal)
-    elif mode & (IS_LIT | IS_IN_PASSES) == 0 and is_affine(attributes, triangle):
-        set_linear(attributes, IS_LINEAR | crossing_of(triangle), r)
+    elif mode & (layout.IS_LIT | IS_IN_PASSES) == 0 and is_affine(attributes, triangle):
+        set_linear(attributes, layout.IS_LINEAR | crossing_of(triangle), r)
         return
     set_exact(triangle, attributes, mode | crossing_of(triangle), r)
 
 
 def crossing_of(triangle: Triangle) -> int:
     """Return the bit of the mode for triangles that reach beyond the left or right border of the tile."""
-    return IS_CROSSING if triangle.outside else 0
+    return layout.IS_CROSSING if triangle.outside else 0
 
 
 def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int, list[int]]:
@@ -124,10 +104,10 @@ def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int,
     Those of a flat face that is lit by highlights only have the rest of the light on them.
     """
     attributes = [vertex.attributes for vertex in (triangle.a, triangle.b, triangle.c)]
-    if registers.object_mode & IS_FLAT == 0:
+    if registers.object_mode & layout.IS_FLAT == 0:
         return registers.object_mode, attributes
     mode, light = lighting.set_face(mesh, triangle.face, registers)
-    if mode & IS_DIFFUSE == 0:
+    if mode & layout.IS_DIFFUSE == 0:
         attributes = [lit(word, light) for word in attributes]
     return mode, attributes
 
@@ -135,7 +115,7 @@ def set_face(triangle: Triangle, mesh: Mesh, registers: Registers) -> tuple[int,
 def set_linear(attributes: list[int], mode: int, registers: Registers) -> None:
     """Set the registers of a triangle whose colours change linearly."""
     r = registers
-    r.mode, r.lane_bias = mode, COLOR_BIAS
+    r.mode, r.lane_bias = mode, layout.COLOR_BIAS
     r.attribute_0, r.attribute_1, r.attribute_2 = attributes
 
 
@@ -143,13 +123,13 @@ def set_exact(triangle: Triangle, attributes: list[int], mode: int, registers: R
     """Set the registers of a triangle of which every fragment is lit."""
     r = registers
     nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
-    mode |= IS_PATCHED
+    mode |= layout.IS_PATCHED
     if nearest >= 64 * farthest:
-        mode |= IS_STEEP
+        mode |= layout.IS_STEEP
     if nearest >= farthest << 12:
-        mode |= IS_DEEP
-    r.mode, r.lane_bias, r.patch_size = mode, WEIGHT_BIAS, 1
-    color, color_b, color_c = (word & LANES_24 for word in attributes)
+        mode |= layout.IS_DEEP
+    r.mode, r.lane_bias, r.patch_size = mode, layout.WEIGHT_BIAS, 1
+    color, color_b, color_c = (word & layout.LANES_24 for word in attributes)
     r.color_0 = (color << 24) + WEIGHTED_BIAS
     r.color_1, r.color_2 = color_b - color, color_c - color
     depth_a, depth_b, depth_c = (word >> 168 for word in attributes)
@@ -159,7 +139,9 @@ def set_exact(triangle: Triangle, attributes: list[int], mode: int, registers: R
 
 def weighted(word: int, nearest: int) -> int:
     """Return the attribute word with its colour multiplied by its depth, as a part (Q10) of the nearest."""
-    return (word >> 168 << 168) | ((word & LANES_24) * divide(word >> 168 << 10, nearest) >> 10 & LANES_24)
+    return (word >> 168 << 168) | (
+        (word & layout.LANES_24) * divide(word >> 168 << 10, nearest) >> 10 & layout.LANES_24
+    )
 
 
 def square_size(a: Vertex, b: Vertex, c: Vertex) -> int:
@@ -193,13 +175,13 @@ def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) 
     a, b, c = triangle.a, triangle.b, triangle.c
     area = double_area(a, b, c)
     # where a few pixels are covered, these are the fewest colours
-    if area < SMALL or r.mode & IS_STEEP:
+    if area < SMALL or r.mode & layout.IS_STEEP:
         return 1
     nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
     reach = 1 << 60
-    if r.mode & IS_LIT:
-        reach = lighting.point_reach(farthest, r) if r.mode & IS_DIFFUSE else r.reach
-    if r.mode & IS_ORTHOGRAPHIC == 0:
+    if r.mode & layout.IS_LIT:
+        reach = lighting.point_reach(farthest, r) if r.mode & layout.IS_DIFFUSE else r.reach
+    if r.mode & layout.IS_ORTHOGRAPHIC == 0:
         bright = brightness(attributes[0] | attributes[1] | attributes[2], r)
         if 6 * (nearest - farthest) * bright > nearest + farthest:
             # so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
@@ -223,7 +205,7 @@ def depth_slope(a: Vertex, b: Vertex, c: Vertex) -> int:
 
 def brightness(colors: int, registers: Registers) -> int:
     """Return how many times 255 colours may be at most."""
-    if registers.mode & IS_DIFFUSE == 0:
+    if registers.mode & layout.IS_DIFFUSE == 0:
         return 1 + ((colors >> 18 | colors >> 74 | colors >> 130) & 63)
     light = registers.ambient + sum(record.diffuse for record in registers.lights)
     return 1 + ((light >> 16 | light >> 72 | light >> 128) & 0xFFFF)
@@ -231,10 +213,10 @@ def brightness(colors: int, registers: Registers) -> int:
 
 def lit(word: int, factor: int) -> int:
     """Return the attribute word with its colour multiplied by the light of the face, lanes of Q16."""
-    color = word & LANES_24
+    color = word & layout.LANES_24
     blue = factor & 0xFFFFFFFF
-    if factor == blue * ONES:
-        lanes = ((color * blue) >> 16) & LANES_24
+    if factor == blue * layout.ONES:
+        lanes = ((color * blue) >> 16) & layout.LANES_24
     else:
         lanes = (blue * (color & 0xFFFFFF)) >> 16
         lanes |= (((factor >> 56) & 0xFFFFFFFF) * ((color >> 56) & 0xFFFFFF)) >> 16 << 56
@@ -253,7 +235,7 @@ def is_affine(attributes: list[int], triangle: Triangle) -> bool:
     a, b, c = attributes
     least, most = min(attributes) >> 168, max(attributes) >> 168
     # colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
-    bright = (a | b | c) & OVERFLOW
+    bright = (a | b | c) & layout.OVERFLOW
     if 33 * (most - least) <= least and not bright:
         return True
     large = is_large(triangle)
@@ -281,5 +263,5 @@ def is_large(triangle: Triangle) -> bool:
     """
     a, b, c = triangle.a, triangle.b, triangle.c
     rows = triangle.bottom - triangle.top
-    is_high = rows > 8 and max(b.word, c.word) > a.word + (8 << SCREEN_PIXEL_ROW_AT)
+    is_high = rows > 8 and max(b.word, c.word) > a.word + (8 << layout.SCREEN_PIXEL_ROW_AT)
     return is_high and double_area(a, b, c) > rows * (3 << 17)

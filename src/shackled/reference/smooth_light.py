@@ -1,4 +1,4 @@
-"""The light of one lamp on smooth surfaces: products of vectors that are quadratic over a triangle.
+"""Light smooth surfaces by one lamp: products of vectors that are quadratic over a triangle.
 
 Normals N are interpolated between the vertices, and so are the directions L to the light and the half vectors H, which
 turn little within a triangle. A fragment takes N * N, N * L and N * H from differences, and

@@ -34,7 +34,7 @@ class Canvas:
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the eye is and how it projects."""
+    """Position, orientation and projection of the camera."""
 
     eye: Vector
     target: Vector
@@ -46,7 +46,7 @@ class Camera:
 
 @dataclass(frozen=True)
 class Background:
-    """The colours of the background, which are mixed between."""
+    """The colours of the first and the last row of the canvas; rows between are interpolated."""
 
     top: int
     bottom: int
@@ -63,7 +63,7 @@ class Light:
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface answers light."""
+    """The reflection of a surface."""
 
     shading: int
     ambient: int
@@ -86,7 +86,7 @@ class Object:
 
 @dataclass(frozen=True)
 class Scene:
-    """Everything that a picture is made from."""
+    """A scene."""
 
     canvas: Canvas
     camera: Camera

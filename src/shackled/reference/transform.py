@@ -2,17 +2,7 @@
 
 from __future__ import annotations
 
-from .layout import (
-    CLIP_BIAS,
-    CLIP_W_AT,
-    CLIP_Y_AT,
-    HALF_PIXEL,
-    MIDDLE_85_AT,
-    PIXEL_BIAS,
-    SCREEN_ROW_AT,
-    SUBPIXEL_MASK,
-    UPPER_85_AT,
-)
+from . import layout
 from .registers import Registers
 from .structs import Object, Rectangle
 from .vector import Matrix, Vector, scale, subtract
@@ -25,7 +15,7 @@ def set_matrix(view: View, obj: Object, rotation: Matrix, registers: Registers) 
     registers.matrix_x = clip_lanes(view, scale(view.to_camera(rotation[0]), obj.scale), 0)
     registers.matrix_y = clip_lanes(view, scale(view.to_camera(rotation[1]), obj.scale), 0)
     registers.matrix_z = clip_lanes(view, scale(view.to_camera(rotation[2]), obj.scale), 0)
-    registers.matrix_t = clip_lanes(view, view.to_camera(subtract(obj.position, view.eye)), 1 << 32) + CLIP_BIAS
+    registers.matrix_t = clip_lanes(view, view.to_camera(subtract(obj.position, view.eye)), 1 << 32) + layout.CLIP_BIAS
 
 
 def clip_lanes(view: View, v: Vector, w: int) -> int:
@@ -34,7 +24,7 @@ def clip_lanes(view: View, v: Vector, w: int) -> int:
         w = v[2]
     x = ((view.focal * v[0]) >> 32) + ((view.center_x * w) >> 1)
     y = ((view.focal * v[1]) >> 32) + ((view.center_y * w) >> 1)
-    return x + (y << CLIP_Y_AT) + (v[2] << CLIP_W_AT)
+    return x + (y << layout.CLIP_Y_AT) + (v[2] << layout.CLIP_W_AT)
 
 
 def set_normal_matrix(view: View, rotation: Matrix, registers: Registers) -> None:
@@ -47,7 +37,7 @@ def set_normal_matrix(view: View, rotation: Matrix, registers: Registers) -> Non
 def normal_lanes(v: Vector) -> int:
     """Return a vector as lanes of Q20."""
     x, y, z = (divide_signed(component, 4096 * 511) for component in v)
-    return x + (y << MIDDLE_85_AT) + (z << UPPER_85_AT)
+    return x + (y << layout.MIDDLE_85_AT) + (z << layout.UPPER_85_AT)
 
 
 def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None:
@@ -56,9 +46,9 @@ def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None
     For a face these are the pixel centres from it on, for a line the pixels nearest to it.
     """
     before, beyond = (128, -1) if wireframe else (255, 255)
-    registers.tile_left = ((tile.x + PIXEL_BIAS) << 8) - before
+    registers.tile_left = ((tile.x + layout.PIXEL_BIAS) << 8) - before
     registers.tile_span = (tile.width << 8) + beyond
-    registers.tile_top = ((tile.y + PIXEL_BIAS) << 8) - before
+    registers.tile_top = ((tile.y + layout.PIXEL_BIAS) << 8) - before
     registers.tile_rows = (tile.height << 8) + beyond
-    registers.round_top = (HALF_PIXEL if wireframe else SUBPIXEL_MASK) << SCREEN_ROW_AT
-    registers.round_bottom = (HALF_PIXEL + 256 if wireframe else SUBPIXEL_MASK) << SCREEN_ROW_AT
+    registers.round_top = (layout.HALF_PIXEL if wireframe else layout.SUBPIXEL_MASK) << layout.SCREEN_ROW_AT
+    registers.round_bottom = (layout.HALF_PIXEL + 256 if wireframe else layout.SUBPIXEL_MASK) << layout.SCREEN_ROW_AT

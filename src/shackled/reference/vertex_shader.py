@@ -4,36 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .layout import (
-    ATTRIBUTE_DEPTH_AT,
-    CLIP_HALF,
-    CLIP_W_AT,
-    CLIP_X_MASK,
-    CLIP_Y_AT,
-    CLIP_Y_MASK,
-    GUARD_BITS,
-    IS_BESIDE,
-    IS_LEFT,
-    IS_SMOOTH,
-    MUST_CLIP,
-    SCREEN_COLUMN_AT,
-    SCREEN_ROW_AT,
-)
+from . import layout
 from .mesh import Mesh
 from .registers import Registers
 from .words import MASK, divide, signed
 
 #: Bits of a screen word: the vertex lies left of the tile, right of it, above it, below it.
-OUTSIDE_SHIFT = IS_LEFT.bit_length() - 1
+OUTSIDE_SHIFT = layout.IS_LEFT.bit_length() - 1
 #: Of those, shifted down: left or right.
-BESIDE = IS_BESIDE >> OUTSIDE_SHIFT
+BESIDE = layout.IS_BESIDE >> OUTSIDE_SHIFT
 
 
 @dataclass(frozen=True, slots=True)
 class SmoothVertex:
-    """What smooth shading with one light keeps of a vertex: see `smooth_light`.
+    """The values of a vertex for smooth shading with one light: see `smooth_light`.
 
-    Normal and direction to the light, their lanes the other way round, the half vector, and that the other way round.
+    Normal and direction to the light with reversed lanes, the half vector, and the same reversed.
     """
 
     is_bounded: bool
@@ -70,7 +56,7 @@ class Vertex:
 def run(mesh: Mesh, registers: Registers) -> list[Vertex]:
     """Return the records of all vertices of a mesh."""
     vertices = project(mesh, registers)
-    if registers.object_mode & IS_SMOOTH and mesh.normals is not None:
+    if registers.object_mode & layout.IS_SMOOTH and mesh.normals is not None:
         for vertex, (x, y, z) in zip(vertices, mesh.normals, strict=True):
             vertex.normal = (x * registers.normal_x + y * registers.normal_y + z * registers.normal_z) & MASK
     return vertices
@@ -82,22 +68,22 @@ def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
     near, orthographic, depth_scale = registers.near, registers.frame_is_orthographic, registers.depth_scale
     for number, (position, (red, green, blue)) in enumerate(zip(mesh.positions, mesh.colors, strict=True)):
         clip = clip_of(position, registers)
-        distance = signed(clip) >> CLIP_W_AT
+        distance = signed(clip) >> layout.CLIP_W_AT
         if orthographic:
             divisor = 1 << 32
             depth = depth_scale - (distance >> 8)
         else:
             divisor = distance
             depth = divide(depth_scale, distance)
-        clip_x = (clip & CLIP_X_MASK) - CLIP_HALF
-        clip_y = ((clip >> CLIP_Y_AT) & CLIP_Y_MASK) - CLIP_HALF
+        clip_x = (clip & layout.CLIP_X_MASK) - layout.CLIP_HALF
+        clip_y = ((clip >> layout.CLIP_Y_AT) & layout.CLIP_Y_MASK) - layout.CLIP_HALF
         x, y = divide(clip_x, divisor), divide(clip_y, divisor)
-        if distance >= near and (x | y) >> GUARD_BITS == 0:
+        if distance >= near and (x | y) >> layout.GUARD_BITS == 0:
             color = (red << 122) | (green << 66) | (blue << 10)
-            vertices.append(screen_vertex(x, y, number, (depth << ATTRIBUTE_DEPTH_AT) | color, registers))
+            vertices.append(screen_vertex(x, y, number, (depth << layout.ATTRIBUTE_DEPTH_AT) | color, registers))
         else:
             # outcode: nearer than the near plane, left, right, above, below the guard band
-            divisor <<= GUARD_BITS
+            divisor <<= layout.GUARD_BITS
             outcode = (
                 (distance < near)
                 | (clip_x < 0) << 1
@@ -105,7 +91,7 @@ def project(mesh: Mesh, registers: Registers) -> list[Vertex]:
                 | (clip_y < 0) << 3
                 | (clip_y >= divisor) << 4
             )
-            vertices.append(Vertex(MUST_CLIP | number, 0, 0, True, 0, outcode))
+            vertices.append(Vertex(layout.MUST_CLIP | number, 0, 0, True, 0, outcode))
     return vertices
 
 
@@ -115,7 +101,7 @@ def screen_vertex(x: int, y: int, number: int, attributes: int, registers: Regis
     outside = (x < left) | (x > left + registers.tile_span) << 1
     outside |= (y < top) << 2 | (y > top + registers.tile_rows) << 3
     return Vertex(
-        (y << SCREEN_ROW_AT) | (x << SCREEN_COLUMN_AT) | (outside << OUTSIDE_SHIFT) | number,
+        (y << layout.SCREEN_ROW_AT) | (x << layout.SCREEN_COLUMN_AT) | (outside << OUTSIDE_SHIFT) | number,
         x,
         y,
         False,
@@ -128,8 +114,11 @@ def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int
     """Return the clip coordinates and the colour of a vertex."""
     clip = clip_of(mesh.positions[number], registers)
     red, green, blue = mesh.colors[number]
-    x, y = (clip & CLIP_X_MASK) - CLIP_HALF, ((clip >> CLIP_Y_AT) & CLIP_Y_MASK) - CLIP_HALF
-    return x, y, signed(clip) >> CLIP_W_AT, (red << 122) | (green << 66) | (blue << 10)
+    x, y = (
+        (clip & layout.CLIP_X_MASK) - layout.CLIP_HALF,
+        ((clip >> layout.CLIP_Y_AT) & layout.CLIP_Y_MASK) - layout.CLIP_HALF,
+    )
+    return x, y, signed(clip) >> layout.CLIP_W_AT, (red << 122) | (green << 66) | (blue << 10)
 
 
 def clip_of(position: list[int], registers: Registers) -> int:

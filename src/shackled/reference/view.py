@@ -1,4 +1,4 @@
-"""Where the camera stands and how it projects.
+"""Set up position and projection of the camera.
 
 Camera space is x to the right, y down, z forward, as the rows of a picture run.
 """
@@ -18,10 +18,10 @@ from .words import divide_signed
 
 @dataclass(frozen=True)
 class View:
-    """The basis of the camera.
+    """The camera.
 
-    focal: sub-pixels per unit at distance 1 (perspective) or per unit (orthographic), Q32.
-    center_x, center_y: twice the sub-pixel place of the middle of the canvas, plus one half to round.
+    focal: sub-pixels per unit at distance 1 (perspective) or per unit (orthographic), Q32. center_x, center_y: twice
+    the sub-pixel place of the middle of the canvas, plus one half to round.
     """
 
     eye: Vector

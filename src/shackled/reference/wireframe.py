@@ -1,4 +1,4 @@
-"""From the edges of triangles to fragments.
+"""Turn the edges of triangles into fragments.
 
 A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the pixel that is nearest to it,
 with the depth and the colour of the line at the centre of that column or row.

@@ -1,4 +1,4 @@
-"""Words of 256 bits and the arithmetic on them that Python does otherwise.
+"""Arithmetic on words of 256 bits where Python's differs.
 
 The renderer packs several numbers into a word and lets a signed number borrow from the lane above it, so the reference
 keeps the packed words too: they are Python integers, taken modulo 2^256 wherever the bits above matter.

@@ -1,4 +1,4 @@
-"""The generator of Genesis once more, in Python: what the contract must equal. A seed becomes prisms and colours.
+"""The reference of the Genesis generator: the contract must equal it. A seed becomes prisms and colours.
 
 Each file mirrors one of contracts/src/genesis; this one mirrors Genesis.sol.
 """

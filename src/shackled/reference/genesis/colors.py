@@ -1,4 +1,4 @@
-"""The colour of every vertex: a gradient, and a random offset in hue, saturation and value.
+"""Colour the vertices: a gradient, and a random offset in hue, saturation and value.
 
 As contracts/src/genesis/Colors.sol.
 """

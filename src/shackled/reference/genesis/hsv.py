@@ -1,4 +1,4 @@
-"""Colours as hue, saturation and value, 0..255 each, by divisions that cut off.
+"""Convert colours to hue, saturation and value, 0..255 each, by integer division.
 
 As contracts/src/genesis/Hsv.sol.
 """

@@ -1,5 +1,5 @@
-"""Triangles in the plane, of which prisms are made: one after the other is laid beside another one, or point to point
-with it, wherever it fits.
+"""Lay triangles in the plane, of which prisms are made: each beside another one, or point to point with it, wherever it
+fits.
 
 As contracts/src/genesis/Layout.sol, which does the same with fewer operations.
 """
@@ -19,7 +19,7 @@ ATTEMPTS = 150
 
 @dataclass(frozen=True)
 class Triangle:
-    """Three corners, and the heights of the two ends of the prism over them."""
+    """A triangle: three corners, and the heights of the two ends of the prism over them."""
 
     corners: Sequence[Point]
     far: int = 0
@@ -78,8 +78,8 @@ def is_near_line(point: Point, start: Point, end: Point) -> bool:
 class Layout:
     """The triangles of a piece.
 
-    `slots` may hold one triangle more than `count`: the first one is no part of a piece that is mirrored at the x axis,
-    and only the reference for what follows.
+    `slots` may hold one triangle more than `count`: the first triangle of a piece that is mirrored at the x axis is no
+    part of it, only the reference for the next.
     """
 
     def __init__(self, random: Random, structure: Structure) -> None:

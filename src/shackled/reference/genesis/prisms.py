@@ -1,4 +1,4 @@
-"""From triangles to prisms: scaled, turned, tilted and centred.
+"""Make prisms of triangles: scaled, turned, tilted and centred.
 
 As contracts/src/genesis/Prisms.sol.
 """

@@ -1,4 +1,4 @@
-"""The colour schemes: two gradients, one of them for highlights; which prisms those are; the background.
+"""Colour schemes: two gradients, one of them for highlights; which prisms those are; the background.
 
 As contracts/src/genesis/Schemes.sol.
 """

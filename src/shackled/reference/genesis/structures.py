@@ -1,4 +1,4 @@
-"""How the prisms of a piece are arranged.
+"""Structures: the arrangements of the prisms of a piece.
 
 As contracts/src/genesis/Structures.sol.
 """
