@@ -88,7 +88,7 @@ class Anvil:
 
 
 class AnvilChain(ContractChain):
-    """A node with the contracts, which runs while the context is open. Rules and gas equal those of the embedded EVMs."""
+    """A node with the contracts, which runs while the context is open; with the rules of the embedded EVMs."""
 
     name = "node (anvil)"
 

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image as PillowImage
 from tools.anvil import AnvilChain, find_anvil
 
-from shackled import InputError, bench, load
+from shackled import InputError, load
 from shackled.artifacts import artifact
 from shackled.bench import (
     CODE_SIZES,
