@@ -12,10 +12,90 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
 
 from shackled import load
+from shackled.artifacts import artifact
 from shackled.errors import ShackledError
-from shackled.gas import CallFrame, blocks, functions, render_call, trace
+from shackled.gas import CallFrame, render_call, source_map, trace
+
+#: Instructions whose price varies.
+VARIES = {0x00, 0x0A, 0x20, 0x37, 0x3E, 0x51, 0x52, 0x53, 0x5E, *range(0xF0, 0x100)}
+#: JUMPDEST begins a basic block; STOP, JUMP, JUMPI, RETURN, REVERT and INVALID end one.
+JUMPDEST, ENDS = 0x5B, {0x00, 0x56, 0x57, 0xF3, 0xFD, 0xFE}
+
+
+@dataclass(frozen=True)
+class Block:
+    """A basic block: instructions that are always executed together.
+
+    begin: the position of the first. count: how often the block was executed. instructions: as text, pushed values in
+    hexadecimal digits.
+    """
+
+    begin: int
+    count: int
+    gas: int
+    instructions: tuple[str, ...]
+
+
+def functions(root: CallFrame, contract: str) -> list[tuple[str, int]]:
+    """Return the functions of a contract called below a frame, with their own gas, the most expensive first."""
+    gas: Counter[str] = Counter()
+    for frame in _frames(root, contract):
+        gas[_name(frame)] += frame.gas()
+    return gas.most_common()
+
+
+def blocks(root: CallFrame, contract: str, function: str) -> list[Block]:
+    """Return the blocks of a function that were executed, in the order of the code, with the gas of each."""
+    from eth.vm.forks.cancun.opcodes import CANCUN_OPCODES
+
+    opcodes: dict[int, Any] = CANCUN_OPCODES
+    costs: Counter[int] = Counter()
+    for frame in _frames(root, contract):
+        if _name(frame) == function:
+            for each in frame.costs.values():
+                costs.update(each)
+    found: list[Block] = []
+    for block in _split(artifact(contract).runtime):
+        gas = sum(costs[at] for at, _, _ in block)
+        if gas:
+            fixed = ((at, opcodes[op].gas_cost) for at, op, _ in block if op not in VARIES)
+            times = next((costs[at] // price for at, price in fixed), 0)
+            texts = (f"0x{pushed.hex()}" if pushed else _mnemonic(opcodes.get(op), op) for _, op, pushed in block)
+            found.append(Block(block[0][0], times, gas, tuple(texts)))
+    return found
+
+
+def _frames(root: CallFrame, contract: str) -> list[CallFrame]:
+    return [frame for frame in root.frames() if frame.contract == contract]
+
+
+def _name(frame: CallFrame) -> str:
+    return source_map(frame.contract).entries.get(frame.entry, frame.contract)
+
+
+def _mnemonic(opcode: Any, op: int) -> str:
+    return str(getattr(opcode, "mnemonic", "INVALID" if op == 0xFE else f"opcode {op:02x}"))
+
+
+def _split(code: bytes) -> list[list[tuple[int, int, bytes]]]:
+    """Return position, opcode and pushed bytes of each instruction, by blocks."""
+    found: list[list[tuple[int, int, bytes]]] = [[]]
+    at = 0
+    while at < len(code):
+        op = code[at]
+        size = op - 0x5F if 0x60 <= op <= 0x7F else 0
+        if op == JUMPDEST and found[-1]:
+            found.append([])
+        found[-1].append((at, op, code[at + 1 : at + 1 + size]))
+        if op in ENDS:
+            found.append([])
+        at += 1 + size
+    return [block for block in found if block]
 
 
 def main() -> int:

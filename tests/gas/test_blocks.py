@@ -7,11 +7,12 @@ import sys
 from pathlib import Path
 
 import pytest
+from tools.gas_blocks import blocks, functions
 
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.gas import blocks, functions, render_call, trace
+from shackled.gas import render_call, trace
 
 TOOL = Path(__file__).resolve().parents[2] / "tools" / "gas_blocks.py"
 

@@ -1,4 +1,3 @@
-from ._blocks import blocks, functions
 from ._exact import KEPT, Limit, counting, floor_gas, limits, margin, measure, needed_for, render_call
 from ._flame_graph import MARGIN, WIDTH, flame_graph
 from ._profile import Profile, profile
@@ -22,13 +21,11 @@ __all__ = [
     "Limit",
     "Profile",
     "SearchStep",
-    "blocks",
     "can_trace",
     "counting",
     "engine_calls",
     "flame_graph",
     "floor_gas",
-    "functions",
     "limits",
     "make_report",
     "margin",
