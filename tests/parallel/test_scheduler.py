@@ -171,7 +171,7 @@ def test_the_error_of_the_only_place() -> None:
         run([place])
     assert place.calls == 3 + FAILURES
     places = [place, Shaky("b", lambda n, tile: WrongChainError("the wrong one"))]
-    with pytest.raises(RenderError, match=r"^no place is left to render: "):
+    with pytest.raises(RenderError, match=r"^no backend is left to render: "):
         run(places)
 
 
@@ -223,7 +223,7 @@ def test_a_place_that_lies_at_once() -> None:
     assert len(notes.warnings) == 1
     assert "its picture is not what the contracts draw; it is left out" in notes.warnings[0]
     assert liar.calls == 1
-    with pytest.raises(RenderError, match=r"answers wrongly for the tile of .*; there is no other place to render it$"):
+    with pytest.raises(RenderError, match=r"answers wrongly for the tile of .*; there is no other backend$"):
         run([liar], Verifier(every=False))
 
 

@@ -364,8 +364,8 @@ class Scheduler:
         if all(each.left for each in self._states):
             several = len(self._states) > 1
             if wrong and not several:
-                error = RenderError(f"{error}; there is no other place to render it")
-            self._error = RenderError(f"no place is left to render: {error}") if several else error
+                error = RenderError(f"{error}; there is no other backend")
+            self._error = RenderError(f"no backend is left to render: {error}") if several else error
             return
         again = f", and {_parts(1 + len(revoked))} rendered again by others" if wrong else ""
         self._listener.warned(f"{error}; it is left out{again}")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from ...errors import InputError
 from .hsv import hsv_to_rgb, rgb_to_hsv
-from .layout import Triangle
+from .layout import PlaneTriangle
 from .prisms import Prisms
 from .random import Random, keccak256
 from .schemes import CENTER_X, DOWN, LARGEST, LEFT, RADIUS, RANDOM, UP, Paint, Scheme
@@ -46,7 +46,7 @@ def highlights(random: Random, scheme: Scheme, prisms: Prisms) -> set[int]:
     return set(order[:count])
 
 
-def key_of(triangle: Triangle, key: int) -> int:
+def key_of(triangle: PlaneTriangle, key: int) -> int:
     """Return the key by which prisms are ordered."""
     if key == RADIUS:
         return triangle.radius

@@ -18,7 +18,7 @@ ATTEMPTS = 150
 
 
 @dataclass(frozen=True)
-class Triangle:
+class PlaneTriangle:
     """A triangle: three corners, and the heights of the two ends of the prism over them."""
 
     corners: Sequence[Point]
@@ -59,7 +59,7 @@ def equilateral(center: Point, radius: int, angle: int) -> list[Point]:
     return [(center[0] + x, center[1] + y) for x, y in turned]
 
 
-def contains(triangle: Triangle, point: Point) -> bool:
+def contains(triangle: PlaneTriangle, point: Point) -> bool:
     """Return whether a point lies inside."""
     (x1, y1), (x2, y2), (x3, y3) = triangle.corners
     x, y = point
@@ -93,7 +93,7 @@ class Layout:
         if radius is None:
             radius = random.draw("size", low=structure.min_radius, high=structure.max_radius)
         angle = 210 if random.draw("rot", low=0, high=1) else 30
-        self.slots = [Triangle(equilateral((0, 0), radius, angle), *self.heights(0))]
+        self.slots = [PlaneTriangle(equilateral((0, 0), radius, angle), *self.heights(0))]
         self.count = 0 if self.mirror_y else 1
         for i in range(ATTEMPTS):
             if self.count >= structure.max_prisms:
@@ -105,7 +105,7 @@ class Layout:
                 self.lay_adjacent(i, reference)
 
     @property
-    def triangles(self) -> list[Triangle]:
+    def triangles(self) -> list[PlaneTriangle]:
         """Return the triangles that are kept."""
         return self.slots[: self.count]
 
@@ -138,7 +138,7 @@ class Layout:
             dx, dy = rotate(lateral, away, angle)
             size = min(structure.max_radius, scale * radius // 1000)
             corners = equilateral((x + dx, y + dy), size, angle - 30)
-            if not self.add(Triangle(corners, *self.heights(self.count))):
+            if not self.add(PlaneTriangle(corners, *self.heights(self.count))):
                 return
             if not random.chance(structure.adjacent_again, "addAdjRecursive", i, depth):
                 return
@@ -165,14 +165,14 @@ class Layout:
             dx, dy = rotate(0, radius * (1000 + scale) // 1000 + 64, angle)
             size = min(structure.max_radius, scale * radius // 1000)
             corners = equilateral((x + dx, y + dy), size, angle - 210)
-            if not self.add(Triangle(corners, base.far, self.heights(self.count)[1])):
+            if not self.add(PlaneTriangle(corners, base.far, self.heights(self.count)[1])):
                 return
             if not random.chance(structure.opposite_again, "recursiveVertOpp", i, depth):
                 return
             scale = 666 if structure.sizes_vary else 1000
             depth += 1
 
-    def add(self, triangle: Triangle) -> bool:
+    def add(self, triangle: PlaneTriangle) -> bool:
         """Keep a triangle if it fits, then its mirror image if that fits; return whether the first was kept."""
         if not self.fits(triangle):
             return False
@@ -183,25 +183,25 @@ class Layout:
                 self.store(image)
         return True
 
-    def store(self, triangle: Triangle) -> None:
+    def store(self, triangle: PlaneTriangle) -> None:
         """Put a triangle into the next slot."""
         self.slots[self.count :] = [triangle]
         self.count += 1
 
-    def mirrored(self, triangle: Triangle) -> Triangle:
+    def mirrored(self, triangle: PlaneTriangle) -> PlaneTriangle:
         """Return the mirror image, with the order of its corners reversed, so that it has the same winding."""
         corners = [(-x if self.mirror_x else x, -y if self.mirror_y else y) for x, y in triangle.corners]
         if self.mirror_x != self.mirror_y:
             corners.reverse()
-        return Triangle(corners, triangle.far, triangle.near)
+        return PlaneTriangle(corners, triangle.far, triangle.near)
 
-    def fits(self, new: Triangle) -> bool:
+    def fits(self, new: PlaneTriangle) -> bool:
         """Return whether a triangle may be added."""
         if self.count >= self.structure.max_prisms or new.radius < self.structure.min_radius:
             return False
         return all(self.is_apart(new, old) for old in self.triangles)
 
-    def is_apart(self, new: Triangle, old: Triangle) -> bool:
+    def is_apart(self, new: PlaneTriangle, old: PlaneTriangle) -> bool:
         """Return whether a new triangle keeps the required distance from another one."""
         return (
             distance(new.center, old.center) >= new.radius // 2 + old.radius // 2

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .layout import Triangle
+from .layout import PlaneTriangle
 from .random import Random
 from .trigonometry import Point, Point3, quotient, rotate, rotate_x, rotate_y
 
@@ -25,14 +25,14 @@ class Prisms:
     half: half of the mean extent of both ends along x and y. vertices: six a prism, centred, +z toward the viewer.
     """
 
-    def __init__(self, random: Random, triangles: Sequence[Triangle]) -> None:
+    def __init__(self, random: Random, triangles: Sequence[PlaneTriangle]) -> None:
         """Take the triangles, at least one."""
         points = [corner for triangle in triangles for corner in triangle.corners]
         size = max(max(values) - min(values) for values in zip(*points, strict=True))
         self.is_turned = random.draw("rotZ", low=0, high=1) == 1
         self.tilt_x = -TILT if random.draw("rotX", low=0, high=1) else TILT
         self.tilt_y = -TILT if random.draw("rotY", low=0, high=1) else TILT
-        self.flat = [Triangle([self.flatten(corner, size) for corner in each.corners]) for each in triangles]
+        self.flat = [PlaneTriangle([self.flatten(corner, size) for corner in each.corners]) for each in triangles]
         self.far, self.near = (
             [
                 [self.tilt((*corner, height)) for corner in each.corners]
