@@ -36,7 +36,7 @@ PAGE = Path(__file__).parent.parent / "docs" / "creator.md"
 
 #: Seconds between two movements.
 PACE = 1 / 30
-#: Movements of the first seconds do not count: the sizes of the moving pictures have to settle.
+#: Seconds whose movements do not count, until the sizes of the moving pictures have settled.
 WARM_UP = 2.0
 
 

@@ -57,7 +57,7 @@ def tiles() -> Section:
     return Section("Tiles", text, data)
 
 
-#: At most, of the sum of the tiles to the whole of 512 x 512 pixels: teapot and cube, and the mean of the objects.
+#: Limits of the gas of all tiles by that of the whole, 512 x 512 pixels: teapot and cube, and the mean of the objects.
 MOST = {"4 x 4": (1.6, 2.2), "8 x 8": (1.6, 3.0)}
 
 
@@ -90,7 +90,7 @@ def throughput() -> Section:
     with ExitStack() as stack:
         places = opened(stack)
         best = dict.fromkeys(places, float("inf"))
-        # in turns, so that what else the machine does falls on all of them
+        # in turns, so that other load on the machine affects all of them
         for turn in range(RUNS + 1):
             for name, each in places.items():
                 seconds = timed(frames, each)
@@ -130,7 +130,7 @@ def opened(stack: ExitStack) -> dict[str, list[Backend]]:
         wanted["anvil, deployed"] = Where(rpc=(deployed.node.url,), address=deployed.address("Renderer"))
         wanted["anvil, 2 calls at a time"] = Where(rpc=(one.url,), jobs=2)
         wanted["2 anvils"] = Where(rpc=(one.url, two.url))
-    # a single job of a command is done in its own process
+    # the command renders a single job in its own process
     found: dict[str, list[Backend]] = {"1 worker process": [ProcessBackend(None, 1)]}
     found |= {name: where.open(Listener()) for name, where in wanted.items()}
     for places in found.values():

@@ -44,7 +44,7 @@ FOUR_LIGHTS = (
 _LIGHTING = "(bool,int256,int256,int256,uint256,int256[3],int256[3],int256[3],int256[3])"
 _PARAMETERS = f"(uint256[3][],int256[3][],int256[3][],int256[3],int256,int256[3][2],{_LIGHTING},bool,bool,bool,bool)"
 
-#: Toward the upper right; power 2,000 at a distance of 50, as the original's own pieces have it.
+#: Toward the upper right; power 2,000 at a distance of 50, as in the original's pieces.
 ORIGINAL_LIGHT = (True, 0, 2000, 2000, 10, (40, 30, 0), (255, 255, 255), (1, 1, 1), (0, 0, 0))
 
 

@@ -20,17 +20,17 @@ from .workload import Workload, workload_of
 
 TITLE = "Where the gas goes"
 
-# The least gas that each thing can need, by a count of the instructions; good to about 15 %.
+# The least gas for each unit of work, by counting instructions; accurate to about 15 %.
 VERTEX = 250
 FACE = 150
 TRIANGLE = 900
 LIT_TRIANGLE = 900
 ROW = 153
 TESTED_PIXEL = 74
-#: Of a visible pixel that is lit for itself: by directional lights with a constant half vector, or by a point light.
+#: A visible pixel that is lit exactly: by directional lights with a constant half vector, or by a point light.
 DIRECTIONAL_PIXEL = 300
 POINT_PIXEL = 680
-#: Memory of a depth of 8 bytes, of which there are no more than a band has.
+#: Memory for a depth of 8 bytes; there are no more than the pixels of a band.
 DEPTH_MEMORY = 2.75
 BAND_PIXELS = 16384
 

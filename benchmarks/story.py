@@ -1,4 +1,4 @@
-"""Bring benchmarks/README.md and docs/energy.md up to date with benchmarks/results, what `shackled bench --all` wrote.
+"""Update benchmarks/README.md and docs/energy.md from benchmarks/results, which `shackled bench --all` writes.
 
 python -m benchmarks.story            writes between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m benchmarks.story --check    writes nothing; fails if they are not up to date

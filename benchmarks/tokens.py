@@ -43,7 +43,7 @@ def take(seeds: int = SEEDS) -> Figures:
             receipt = fresh.send("add", name, pointer, 4, PRICE, 100, 0, sender=s.owner)
             figures[f"add an icon, the {name}"] = receipt.gas
         figures["seal the icons"] = fresh.send("seal", sender=s.owner).gas
-    # the first mint of all pays for slots that were never used: it is not the usual one
+    # the very first mint pays for new storage slots
     s.mint(1, s.bob)
     for quantity in (1, 2, 5, 10):
         with s.world.attempt():

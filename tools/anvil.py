@@ -22,7 +22,7 @@ from shackled.chain import CallResult, Connection, ContractChain, EmbeddedChain,
 from shackled.errors import NodeUnreachableError, RenderError
 from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
 
-#: Where `npm ci` puts it in a clone of the repository.
+#: Where `npm ci` installs it in a checkout.
 BINARIES = Path(__file__).resolve().parents[1] / "contracts" / "node_modules" / ".bin"
 GAS_LIMIT = 1_000_000_000
 PATIENCE = 60
@@ -119,13 +119,13 @@ class AnvilChain(ContractChain):
         return int(receipt["gasUsed"], 16) - intrinsic_gas(data)
 
     def address(self, contract: str) -> str:
-        """Return where a contract stands, as on any other chain. It is deployed when it is first asked for."""
+        """Return the address of a contract, which is deployed on first use."""
         if contract not in self._addresses:
             for part in artifact(contract).parts:
                 self.address(part)
             local = open_chain()
             assert isinstance(local, EmbeddedChain)
-            # anvil starts with the proxy that puts contracts where they are looked for
+            # anvil starts with the proxy for deterministic addresses
             self._send({"to": checksum_address(PROXY), "data": "0x" + (SALT + local.creation(contract)).hex()})
             self._addresses[contract] = checksum_address(local.address(contract))
         return self._addresses[contract]
@@ -151,7 +151,7 @@ class AnvilChain(ContractChain):
 
 
 def main() -> int:
-    """Run the command that the arguments are, and return its exit code."""
+    """Run the command in the arguments, and return its exit code."""
     binary = find_anvil()
     if binary is None:
         print("anvil is not installed: npm ci in contracts/", file=sys.stderr)

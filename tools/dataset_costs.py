@@ -35,7 +35,7 @@ def main() -> int:
         return 0
     if FILE.is_file() and FILE.read_text("utf-8") == text:
         return 0
-    print(f"{FILE.name} is not what was measured; run: python tools/dataset_costs.py", file=sys.stderr)
+    print(f"{FILE.name} is out of date; run: python tools/dataset_costs.py", file=sys.stderr)
     return 1
 
 

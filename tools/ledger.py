@@ -20,7 +20,7 @@ class World:
     """Contracts by their addresses. Each call finds the same addresses cold."""
 
     def __init__(self) -> None:
-        """Begin with the contracts of the renderer and the Studio. Skips the test where there is no pyrevm."""
+        """Deploy the renderer and the Studio; skip the test if pyrevm is not installed."""
         pytest.importorskip("pyrevm")
         chain = open_chain("pyrevm")
         assert isinstance(chain, EmbeddedChain)
@@ -31,7 +31,7 @@ class World:
         self.gas = 0
 
     def address(self, contract: str) -> bytes:
-        """Return where a contract of the package stands."""
+        """Return the address of a contract of the package."""
         return self.chain.address(contract)
 
     def deploy(self, creation: bytes, arguments: bytes = b"") -> bytes:
@@ -62,9 +62,9 @@ class World:
 
     def _keep(self, evm: Any, address: bytes) -> None:
         if address not in self.codes:
-            # pyrevm adds 33 bytes of zeros to what was created
+            # pyrevm appends 33 zero bytes to created code
             code = bytes(evm.get_code(to_hex(address)) or b"")[:-33]
-            if not code:  # a list may name what is not there
+            if not code:  # a list may name an address without code
                 return
             self.codes[address] = code
             for at in range(2, len(code), 20) if code[1] == 0x13 else ():

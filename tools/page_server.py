@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 BROWSERS = ("chromium", "chromium-browser")
-#: It must not look for updates, or ask for anything but the page.
+#: No updates, and no requests but those of the page.
 ARGUMENTS = (
     "--no-sandbox",
     "--disable-gpu",
@@ -60,7 +60,7 @@ def browser_path() -> str | None:
 @contextmanager
 def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
     """Run the server of `shackled creator`. Port 0 is any free one. variables: of its environment."""
-    # NiceGUI behaves in another way where it believes to be under test
+    # NiceGUI behaves differently when it detects pytest
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
     # without the address book of this machine
     environment |= {"SHACKLED_ADDRESS_BOOK": str(Path(__file__).parent / "no-address-book.json")} | variables

@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def update(pages: dict[Path, Callable[[str], str]], command: str, check: bool = False) -> int:
-    """Write into each page what its function says belongs between the marks of a name.
+    """Write the results of functions between the marks of pages.
 
     command: that brings the pages up to date. check: nothing is written, and pages that are not up to date are named.
     Returns the exit code: 1 if the check fails.
@@ -30,7 +30,7 @@ def update(pages: dict[Path, Callable[[str], str]], command: str, check: bool = 
 
 
 def filled(page: Path, content: Callable[[str], str]) -> str:
-    """Return the text of a page with what belongs between its marks."""
+    """Return the text of a page with new content between its marks."""
 
     def fill(match: re.Match[str]) -> str:
         return f"{match[1]}\n{content(match[2])}\n<!-- end {match[2]} -->"

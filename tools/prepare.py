@@ -27,10 +27,10 @@ PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
-#: Names of the browser that the tests of the page drive.
+#: Commands of the browser that the tests of the page use.
 BROWSERS = ("chromium", "chromium-browser")
-#: What is there where OpenGL runs without a screen: libraries, Mesa for them, its software renderer (in older and newer
-#: versions); and the packages that hold all that.
+#: Files that OpenGL without a screen needs: libraries, Mesa, its software renderer (older and newer versions); and the
+#: packages with them.
 OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
 OPENGL_RENDERERS = ("dri/swrast_dri.so", "libgallium-*.so")
 OPENGL_PACKAGES = ("libegl1", "libgl1", "libegl-mesa0", "libgl1-mesa-dri")
@@ -97,7 +97,7 @@ def prepare_node() -> None:
     say("installing the compiler and the node for tests")
     run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=CONTRACTS)
     if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
-        say("there is no anvil for this machine, tests of a real node look for one on the path")
+        say("there is no anvil for this machine; tests of a real node look for one in the PATH")
     (CONTRACTS / "node_modules" / ".package-lock.json").touch()
 
 
@@ -106,7 +106,7 @@ def check_node(said: str) -> None:
     major = said.strip().removeprefix("v").partition(".")[0]
     if not major.isdecimal() or int(major) < OLDEST_NODE:
         raise SystemExit(
-            f"Node {OLDEST_NODE} or newer is needed, this is {said.strip() or 'of no version'}: install one, "
+            f"Node {OLDEST_NODE} or newer is needed, this is {said.strip() or 'of an unknown version'}: install one, "
             "for instance from nodejs.org, and put it first on the path"
         )
 
@@ -128,7 +128,7 @@ def prepare_opengl() -> None:
     if has_renderer and all(map(find_library, OPENGL_LIBRARIES)):
         return
     try:
-        apt_install("an OpenGL to compare pictures with", *OPENGL_PACKAGES)
+        apt_install("OpenGL, to compare pictures with", *OPENGL_PACKAGES)
     except (SystemExit, subprocess.CalledProcessError) as error:
         say(f"the tests against OpenGL are skipped: {error}")
 

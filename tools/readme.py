@@ -1,4 +1,4 @@
-"""Bring the figures of README.md up to date: those of benchmarks/ and of docs/images/pictures.json.
+"""Update the figures of README.md: those of benchmarks/ and of docs/images/pictures.json.
 
 python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m tools.readme --check    writes nothing; fails if they are not up to date
@@ -18,7 +18,7 @@ RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = ROOT / "docs" / "images" / "pictures.json"
 
-#: What of the cost table a newcomer wants to know: a part of the name of its row, and what to call it.
+#: Rows of the cost table for the README: a part of the name of the row, and the title.
 ROWS = {
     "obj_*_cull": "a model of about 1,000 triangles, lit (mean of 15)",
     "genesis_000": "a piece of the Genesis collection (mean of 24)",
@@ -75,7 +75,7 @@ def millions(gas: float) -> str:
 
 def main() -> int:
     """Update the README."""
-    parser = argparse.ArgumentParser(description="Bring the figures of README.md up to date.")
+    parser = argparse.ArgumentParser(description="Update the figures of README.md.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check
     contents = {"costs": costs, "pictures": pictures, "tokens": tokens}

@@ -21,7 +21,7 @@ PLANES = 5
 #: Each plane adds one corner at most to the three of a face.
 MAX_CORNERS = 8
 
-#: Keeps the lanes of a normal positive, and what remains of them when 32 bits are dropped.
+#: A bias that keeps the lanes of a normal positive, and the lanes that remain when 32 bits are dropped.
 NORMAL_LANES_BIAS = 0x40000000000000000000020000000000000000000010000000000
 NORMAL_LANES = 0xFFFFFFFFFFFFFC00000003FFFFFFFFFFFFE00000001FFFFFFFFFFFFF
 
@@ -68,7 +68,7 @@ def cut(corners: list[Corner], registers: Registers) -> list[Corner]:
                     new = intersect(corners[following], corner, next_distance, distance)
                 else:
                     new = intersect(corner, corners[following], distance, next_distance)
-                # inward the rest of the edge follows, outward the edge of the cut
+                # after an entry the rest of the edge follows, after an exit the edge of the cut
                 new.is_edge = corner.is_edge if distance < 0 else False
                 if plane == 0:
                     new.w = registers.near

@@ -13,7 +13,7 @@ from .registers import Registers
 from .structs import WIREFRAME, Rectangle, Scene
 from .uniforms import opacity_of
 
-#: Spans whose fragments are worked out at once.
+#: Spans whose fragments are computed together.
 AT_ONCE = 4096
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from .scene_errors import Reverted
 from .structs import POINT, Scene
 
-#: Kinds.
+#: Kinds of records.
 SPOT, OPACITY = 1, 2
-#: Bytes of kind, index and size; and of what follows, by kind.
+#: Bytes of kind, index and size; and of the content, by kind.
 HEADER = 5
 SIZES = {SPOT: 40, OPACITY: 4}
 #: One, as Q24.

@@ -21,12 +21,12 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
     nx, ny, nz = r.face_normal_x, r.face_normal_y, r.face_normal_z
     for record in r.lights:
         if not record.is_point:
-            # normal * direction: the middle coefficient of the product; what is below takes one away at most
+            # normal * direction: the middle coefficient of the product; the lower lane borrows one at most
             lambert = signed(r.face_normal * record.mesh_lanes) >> UPPER_86_AT
             record.n_dot_l = divide_signed(lambert << 16, length)
             if record.n_dot_l > 0:
                 total += ((record.diffuse * record.n_dot_l) >> 24) & LANES_32
-                # a highlight wants the light of each fragment
+                # a highlight needs the light of each fragment
                 if mode & HAS_SPECULAR:
                     mode |= IS_LIT
         else:

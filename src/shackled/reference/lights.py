@@ -9,7 +9,7 @@ from .vector import normalize, subtract
 from .view import View
 from .words import color_lanes
 
-#: Over how much of the cosine a spot light fades at least, 2^-10, Q24.
+#: The least difference of the cosine over which a spot light fades, 2^-10, Q24.
 MIN_CONE = 1 << 14
 
 

@@ -35,7 +35,7 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
         is_point = registers.lights[0].is_point
         registers.smooth_reach = smooth_reach(focal, material.diffuse, is_point)
         registers.half_reach = specular.half_reach(material.specular, material.shininess)
-        # with several lights most of the work would be done for each of them all the same
+        # with several lights most of the work would be repeated for each
         is_simple = len(scene.lights) == 1 and mode & IS_SPOT_LIT == 0 and not specular.is_broad(material)
         if is_simple and not (view.orthographic and is_point):
             mode |= IS_QUADRATIC

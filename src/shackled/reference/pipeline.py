@@ -57,7 +57,7 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
                 continue
             stage = wireframe if part.object.flags & WIREFRAME else rasterizer
             if blended:
-                # first which of its surfaces is the nearest, then its colour
+                # first find its nearest surface, then draw its colour
                 registers.object_mode = (mode & IS_ORTHOGRAPHIC) | IS_DEPTH_PASS
                 stage.run(part.triangles, part.mesh, registers)
                 registers.object_mode = mode
@@ -86,7 +86,7 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
         vertices = vertex_shader.run(mesh, registers)
         cull = bool(obj.flags & CULL_BACKFACES)
         triangles, count = primitive_assembly.run(mesh, vertices, cull, index, registers)
-        # what is not seen at all is checked only
+        # invisible objects are only checked
         drawn += count if registers.opacity else 0
         geometry.append(Geometry(obj, mesh, vertices, triangles))
     return registers, view, geometry, drawn

@@ -60,7 +60,7 @@ def run(mesh: Mesh, vertices: list[Vertex], cull: bool, index: int, registers: R
         corners = clipper.cut(corners, registers)
         if len(corners) < 3:
             continue
-        # numbers only order vertices at the same place, so those of later polygons may go on from here
+        # numbers only order vertices at the same place, so they may continue in later polygons
         fan = [clipper.project(corner, len(vertices) + i, registers) for i, corner in enumerate(corners)]
         is_drawn = False
         for i in range(1, len(fan) - 1):

@@ -79,7 +79,7 @@ def set_up(a: Vertex, b: Vertex, c: Vertex, top: int, registers: Registers) -> t
     area = xc * yb - xb * yc
     start, dx, dy = r.lane_bias, 0, 0
     if r.mode & layout.IS_DEEP:
-        # depths by themselves, Q32, for which barycentric coordinates are too coarse
+        # depths in a separate word, Q32, since barycentric coordinates are too coarse for them
         z = r.attribute_0 >> layout.ATTRIBUTE_DEPTH_AT
         zb, zc = (r.attribute_1 >> layout.ATTRIBUTE_DEPTH_AT) - z, (r.attribute_2 >> layout.ATTRIBUTE_DEPTH_AT) - z
         dx = divide_signed((zc * yb - zb * yc) << 40, area)

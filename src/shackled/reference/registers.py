@@ -16,7 +16,7 @@ from .layout import IS_BLENDED, IS_DEPTH_PASS
 from .quadratic import Differences
 from .structs import Rectangle
 
-#: Either of the last two, and any of the last three.
+#: The modes of objects that are drawn in two passes.
 IS_IN_PASSES = IS_BLENDED | IS_DEPTH_PASS
 
 
@@ -59,7 +59,7 @@ class Registers:
     tile: Rectangle
     depth: NDArray[np.uint64]
     image: NDArray[np.uint8]
-    #: what the contracts read from the call: the records of the scene's extensions
+    #: the extension records of the scene, which the contracts read from the call
     records: Records
 
     # frame
@@ -135,7 +135,7 @@ class Registers:
     patch_size: int = 0
     patch: Differences = field(default_factory=lambda: Differences(0, 0, 0, 0, 0, 0))
     patch_weight: int = 0
-    #: The row at which the differences of the patch begin.
+    #: the row at which the differences of the patch begin
     patch_row: int = 0
     start: int = 0
     dx: int = 0

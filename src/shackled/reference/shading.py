@@ -48,7 +48,7 @@ def prepare_flat(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
             attributes = [
                 vertex_highlights(word, vertex, r) for word, vertex in zip(attributes, (a, b, c), strict=True)
             ]
-        # colours above 255 need a loop that keeps them there
+        # colours above 255 need a loop that clamps them
         saturates = any((word + NEARLY_ABOVE) & layout.OVERFLOW for word in attributes)
         set_linear(attributes, saturates | crossing_of(triangle), r)
         return
@@ -234,7 +234,7 @@ def is_affine(attributes: list[int], triangle: Triangle) -> bool:
     """
     a, b, c = attributes
     least, most = min(attributes) >> 168, max(attributes) >> 168
-    # colours of up to 255 may differ as they like where depths do not by more than 8 / 255, in small triangles 12 / 255
+    # colours of up to 255 may differ without limit where depths differ by at most 8 / 255, in small triangles 12 / 255
     bright = (a | b | c) & layout.OVERFLOW
     if 33 * (most - least) <= least and not bright:
         return True

@@ -51,7 +51,7 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
             vertex.smooth = smooth_vertex(vertex, r)
     weights = [1024, 1024, 1024]
     if not r.frame_is_orthographic:
-        # depths by the greatest of them
+        # depths divided by the greatest
         depths = [vertex.attributes >> 168 for vertex in vertices]
         weights = [divide(depth << 10, max(depths)) for depth in depths]
     corners = [vertex.smooth for vertex in vertices if vertex.smooth and vertex.smooth.is_bounded]
@@ -87,7 +87,7 @@ def set_light(triangle: Triangle, size: int, registers: Registers) -> int:
     ab, ac, bc = edges
     coefficients = quadratic.Coefficients(a, b - a - ab, c - a - ac, ab, ab + ac - bc, ac)
     r.quadratic = quadratic.differences(triangle.a, triangle.b, triangle.c, 0, coefficients)
-    # colours of up to 255 may differ as they like where depths do not by more than 12 / 255: see shading.is_affine
+    # colours of up to 255 may differ without limit where depths differ by at most 12 / 255: see shading.is_affine
     return STEEP_LIGHT if min(weights) < 980 else AFFINE_LIGHT
 
 
@@ -123,17 +123,17 @@ def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
         px, py, pz = x * z >> 40, y * z >> 40, z >> 16
         lx, ly, lz = lx - px, ly - py, lz - pz
         square = lx * lx + ly * ly + lz * lz
-        # at most nearer than the eye by the root of 5/4
+        # nearer than the eye by the root of 5/4 at most
         bounded = 4 * (px * px + py * py + pz * pz) <= 5 * square
         length = sqrt(square)
     lx, ly, lz = (divide_signed(component << 20, length) for component in (lx, ly, lz))
     if r.frame_is_orthographic:
         x = y = 0
-    # H = L + V, where V is the ray turned round
+    # H = L + V, where V is the reversed ray
     length = sqrt(x * x + y * y + (1 << 48))
     hx, hy, hz = (component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24)))
     square = hx * hx + hy * hy + hz * hz
-    # not against the light, where it turns without bound
+    # not where the ray is opposite to the light and H is undefined
     bounded = bounded and square > 1 << 38
     length = sqrt(square)
     hx, hy, hz = (divide_signed(component << 20, length) for component in (hx, hy, hz))

@@ -1,7 +1,6 @@
 """The structs of contracts/src/scene/Scene.sol as the integers of a call: lengths Q32, colours 0xRRGGBB.
 
-`read_value` makes them of the data of a call as the ABI of the Renderer describes them, so that fields stand in the
-order of the ABI.
+`read_value` decodes them by the ABI of the Renderer: the fields of the classes are in the order of the ABI.
 """
 
 from __future__ import annotations
@@ -107,7 +106,7 @@ def parameters(function: str) -> list[Member]:
 
 
 def is_dynamic(member: Member) -> bool:
-    """Return whether the ABI encodes a value behind the others, with an offset in its place."""
+    """Return whether the ABI encodes a value after the others, with an offset in its place."""
     kind = member["type"]
     return kind == "bytes" or kind.endswith("[]") or any(map(is_dynamic, member.get("components", ())))
 

@@ -51,7 +51,7 @@ def line_between(
     """Return the fragments of the edge between two vertices with these attribute words."""
     dx, dy = q.x - p.x, q.y - p.y
     steep = dy * dy >= dx * dx
-    # the same pixels, whichever face the line belongs to
+    # the same pixels for both faces of the line
     if (dy if steep else dx) < 0:
         p, q, attribute_p, attribute_q = q, p, attribute_q, attribute_p
         dx, dy = -dx, -dy
@@ -76,7 +76,7 @@ def steep_line(
     below = (top << 8) - p.y
     slope = divide_signed(dx << EDGE_FRACTION, dy)
     step = (1 << 40) // dy
-    # the pixel whose middle is nearest
+    # the pixel whose centre is nearest
     left = (p.x << 40) + ((below * slope) >> 8) + (1 << 47)
     r.dx = 0
     r.dy = change * step
