@@ -17,7 +17,7 @@ FEWEST_ROWS = 4
 
 
 def cut(width: int, height: int, pixels: int, at_least: int = 1) -> list[Rectangle]:
-    """Tiles of a canvas, rows from the top.
+    """Return tiles of a canvas, rows from the top.
 
     pixels: of a tile at most, 1 or more. at_least: so many tiles, if there are so many rows.
     """
@@ -30,14 +30,14 @@ def cut(width: int, height: int, pixels: int, at_least: int = 1) -> list[Rectang
 
 
 def grid(width: int, height: int, tile_width: int, tile_height: int) -> Iterator[Rectangle]:
-    """Tiles of at most that size, as equal as they can be."""
+    """Yield tiles of at most that size, as equal as possible."""
     for y, rows in _shares(height, tile_height):
         for x, columns in _shares(width, tile_width):
             yield Rectangle(x, y, columns, rows)
 
 
 def halves(tile: Rectangle) -> list[Rectangle]:
-    """The two halves of a tile; the tile alone where it is too small to be cut."""
+    """Return the two halves of a tile, or the tile alone where it is too small to be cut."""
     x, y, width, height = tile.x, tile.y, tile.width, tile.height
     if width * height < 2 * SMALLEST:
         return [tile]
@@ -49,7 +49,7 @@ def halves(tile: Rectangle) -> list[Rectangle]:
 
 
 def covers(tiles: Iterable[Rectangle], width: int, height: int) -> bool:
-    """Whether the tiles are on the canvas and cover each pixel of it once."""
+    """Return whether the tiles lie on the canvas and cover each pixel once."""
     seen = [bytearray(width) for _ in range(height)]
     for tile in tiles:
         inside = 0 <= tile.x < tile.x + tile.width <= width and 0 <= tile.y < tile.y + tile.height <= height
@@ -63,12 +63,12 @@ def covers(tiles: Iterable[Rectangle], width: int, height: int) -> bool:
 
 
 def area(tile: Rectangle) -> int:
-    """The pixels of a tile."""
+    """Return the number of pixels of a tile."""
     return tile.width * tile.height
 
 
 def _shares(whole: int, largest: int) -> Iterator[tuple[int, int]]:
-    """Begin and length of equal shares, none above `largest`."""
+    """Yield begin and length of equal shares, none above `largest`."""
     count = -(-whole // largest)
     for i in range(count):
         begin = whole * i // count

@@ -133,7 +133,7 @@ def smooth_vertex(vertex: Vertex, registers: Registers) -> SmoothVertex:
     length = sqrt(x * x + y * y + (1 << 48))
     hx, hy, hz = (component - divide_signed(ray << 20, length) for component, ray in ((lx, x), (ly, y), (lz, 1 << 24)))
     square = hx * hx + hy * hy + hz * hz
-    # not where the ray is opposite to the light and H is undefined
+    # not where the light is nearly in the direction of the ray: H is almost zero there
     bounded = bounded and square > 1 << 38
     length = sqrt(square)
     hx, hy, hz = (divide_signed(component << 20, length) for component in (hx, hy, hz))
