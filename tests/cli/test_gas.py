@@ -144,7 +144,7 @@ def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder.svg").mkdir()
-    assert "take --chain pyrevm or pyevm" in error(capsys, 2, "--chain", "reference")
+    assert "use --chain pyrevm or pyevm" in error(capsys, 2, "--chain", "reference")
     assert ".json or .svg" in error(capsys, 2, "--profile", "flame.png")
     assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
     assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")
