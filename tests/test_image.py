@@ -18,10 +18,9 @@ from PIL import Image as PillowImage
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, ContractChain, open_chain
-from shackled.chain.embedded import PyEvmChain, PyrevmChain
+from shackled.chain import CallResult, ContractChain, PyEvmChain, PyrevmChain, open_chain
 from shackled.image import FORMATS, check_output, decode_bmp
-from shackled.scene.codec import encode
+from shackled.scene import encode
 
 SCENE = Scene(
     [Object(Mesh([[-2, -1, 0], [2, -1, 0], [0, 2, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]]))],

@@ -9,8 +9,7 @@ from attrs import evolve
 from pictures import call
 from random_scenes import random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
-from shackled.scene.codec import Rectangle
-from shackled.scene.fit import fit
+from shackled.scene import Rectangle, fit
 
 SIZE = 64
 LAMP = Light("point", (300, 200, -600))
