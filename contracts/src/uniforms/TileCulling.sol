@@ -23,16 +23,16 @@ import "../pipeline/Registers.sol";
 // of those is not drawn.
 
 /// @dev Meshes of fewer faces are kept whole. The functions take 16,000 gas, and culling n faces pays only where more than about 0.37 n + 27
-/// of them are left out: with 32, a quarter of a picture of 39 faces took 1.6 times the gas of the whole picture.
-uint256 constant LEAST_FACES = 128;
+/// of them are left out: never below 43.
+uint256 constant LEAST_FACES = 48;
 /// @dev Meshes are kept whole, too, if fewer than 3/4 of their vertices lie beyond borders, where one beyond two borders counts twice: the
 /// faces that are kept would cost more to write anew than the others save.
-uint256 constant LEAST_BEYOND = 3;
-uint256 constant LEAST_BEYOND_OF = 4;
+uint256 constant CULLED_SHARE = 3;
+uint256 constant CULLED_SHARE_OF = 4;
 /// @dev Borders of the tile; how many vertices lie beyond one, counted in its lane from the sign on.
-uint256 constant TILE_BORDERS = 4;
-uint256 constant BEYOND_AT = 27;
-uint256 constant BEYOND_MASK = 0xfffffff;
+uint256 constant BORDERS = 4;
+uint256 constant COUNT_SHIFT = 27;
+uint256 constant COUNT_MASK = 0xfffffff;
 /// @dev Bits of a coordinate that are used.
 uint256 constant COORDINATE_BITS = 16;
 uint256 constant COORDINATE_SHIFT = 240;
@@ -96,15 +96,15 @@ library TileCulling {
             uint256 table = freeMemory();
             uint256 beyond = classify(mesh, columns, table);
             uint256 sum;
-            for (uint256 border; border != TILE_BORDERS; ++border) {
-                uint256 count = (beyond >> (BEYOND_AT + BORDER_BITS * border)) & BEYOND_MASK;
+            for (uint256 border; border != BORDERS; ++border) {
+                uint256 count = (beyond >> (COUNT_SHIFT + BORDER_BITS * border)) & COUNT_MASK;
                 if (count == mesh.vertexCount) {
                     mesh.faceCount = 0;
                     return;
                 }
                 sum += count;
             }
-            if (LEAST_BEYOND_OF * sum > LEAST_BEYOND * mesh.vertexCount) cull(mesh, table, copied);
+            if (CULLED_SHARE_OF * sum > CULLED_SHARE * mesh.vertexCount) cull(mesh, table, copied);
         }
     }
 
@@ -168,7 +168,7 @@ library TileCulling {
     }
 
     /// @notice Writes the table of vertices: for each beyond which borders of the tile it lies; none if it may have to be clipped.
-    /// @return beyond How many lie beyond each border, in lanes of BORDER_BITS from BEYOND_AT on.
+    /// @return beyond How many lie beyond each border, in lanes of BORDER_BITS from COUNT_SHIFT on.
     function classify(Mesh memory mesh, uint256[4] memory columns, uint256 table) private pure returns (uint256 beyond) {
         unchecked {
             (uint256 bits, uint256 stride, uint256 vertex) = (mesh.bits, mesh.stride, mesh.vertices);
