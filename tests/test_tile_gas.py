@@ -92,7 +92,7 @@ def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
             assert gas(scene, tile) <= 1.02 * whole + PATCHES, f"seed {seed}, {tile}"
 
 
-#: Scenes of small pictures in which tiles show most of a mesh of 128 faces or more.
+#: Scenes of small pictures in which tiles show most of a mesh of 48 faces or more.
 CROWDED = (213, 254, 257, 304, 429, 672, 707)
 
 
