@@ -1,7 +1,9 @@
 """How a canvas is cut into tiles.
 
-Tiles are strips as wide as the canvas wherever that is possible: the rows of a triangle are then cut as little as they
-can be.
+Tiles are strips as wide as the canvas wherever that is possible: the estimate of what a tile costs is made of strips.
+Up to eight strips cost as much as squares (1 x 8 as 2 x 4). Of more tiles, squares show fewer faces each, and the
+contract leaves the others out: at 512 x 512 pixels 16 strips cost 3 % more than 2 x 8 tiles, 32 strips 7 % more than
+4 x 8.
 """
 
 from __future__ import annotations
