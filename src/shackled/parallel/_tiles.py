@@ -1,4 +1,4 @@
-"""How a canvas is cut into tiles.
+"""Cut a canvas into tiles.
 
 Tiles are strips as wide as the canvas wherever that is possible: the estimate of what a tile costs is made of strips.
 Up to eight strips cost as much as squares (1 x 8 as 2 x 4). Of more tiles, squares show fewer faces each, and the
@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 
 from ..scene import Rectangle
 
-#: A tile of fewer pixels is not cut any further: what it costs is the geometry, not the pixels.
+#: Smaller tiles, in pixels, are not cut: their cost is the geometry, not the pixels.
 SMALLEST = 64
 #: Strips of fewer rows are cut into columns first.
 FEWEST_ROWS = 4
