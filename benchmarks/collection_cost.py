@@ -10,7 +10,7 @@ from tools.tokens.world import GAS, Contract
 
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.bench.measure import call, gas
+from shackled.bench import call, gas
 from shackled.datasets import icons
 from shackled.datasets.genesis import seed_of
 

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from statistics import fmean
 
 from shackled import ChainError, Scene
-from shackled.bench.measure import call_renderer, gas
-from shackled.bench.original import original
-from shackled.bench.report import millions, table
+from shackled.bench import call_renderer, gas, millions, original, table
 
 from . import Section, shared
 

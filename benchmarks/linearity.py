@@ -7,10 +7,8 @@ from functools import cache
 
 import numpy as np
 
+from shackled.bench import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, gas, squares, table
 from shackled.bench.fits import Column, Fit, fit, line, quadratic_share
-from shackled.bench.linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
-from shackled.bench.measure import gas
-from shackled.bench.report import table
 
 from . import Section
 from .workload import workload_of

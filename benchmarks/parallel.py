@@ -18,17 +18,10 @@ from attrs import evolve
 from tools.anvil import Anvil, AnvilChain, find_anvil
 
 from shackled import Scene, load
-from shackled.bench.measure import gas
-from shackled.bench.report import millions, table
+from shackled.bench import gas, millions, table
 from shackled.chain import open_chain
-from shackled.parallel import Listener, Where
-from shackled.parallel.part import Part
-from shackled.parallel.place import Place
-from shackled.parallel.processes import ProcessPlace
-from shackled.parallel.scheduler import Scheduler
-from shackled.parallel.tiles import grid
-from shackled.scene.codec import Rectangle
-from shackled.scene.turning import full_turn
+from shackled.parallel import Listener, Part, Place, ProcessPlace, Scheduler, Where, grid
+from shackled.scene import Rectangle, full_turn
 
 from . import Section, shared
 

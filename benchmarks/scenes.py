@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from shackled import Camera, Light, Material, Object, Scene
 from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh
-from shackled.datasets.teapot import teapot
-from shackled.scene.material import Shading
-from shackled.scene.rotation import from_euler
-from shackled.scene.staging import Look, stage
+from shackled.datasets import teapot
+from shackled.scene import Look, Shading, from_euler, stage
 
 #: About a thousand triangles, as the models of the cost table have.
 TEAPOT = teapot(4)

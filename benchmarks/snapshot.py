@@ -17,13 +17,12 @@ from eth_abi.abi import encode as abi_encode
 
 from shackled import Camera, Light, Mesh
 from shackled.artifacts import artifact
+from shackled.bench import call, deployment_gas, gas
 from shackled.bench import scenes as paper
-from shackled.bench.deploy import deployment_gas
-from shackled.bench.measure import call, gas
 from shackled.bench.scenes import GLOSSY, SUN, UNLIT, cube_mesh, square, turned_cube
 from shackled.datasets.genesis import seed_of
-from shackled.deploy.contract import STANDARD
-from shackled.scene.codec import Rectangle
+from shackled.deploy import STANDARD
+from shackled.scene import Rectangle
 
 from . import shared
 from .scenes import LAMP, cubes, empty, room, staged_teapot

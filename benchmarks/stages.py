@@ -11,9 +11,8 @@ import sys
 from importlib.util import find_spec
 
 from shackled import Scene, load
-from shackled.bench.report import millions, table
-from shackled.gas.profile import profile
-from shackled.gas.stages import STAGES
+from shackled.bench import millions, table
+from shackled.gas import STAGES, profile
 
 from . import Section, shared
 from .scenes import staged_teapot

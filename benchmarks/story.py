@@ -14,10 +14,10 @@ from statistics import fmean
 from tools.pages import update
 
 from shackled.artifacts import RENDERER
-from shackled.bench.original import DEPLOYMENT_GAS, original_gas
+from shackled.bench import DEPLOYMENT_GAS, original_gas
 from shackled.bench.scenes import cube
 from shackled.ethereum import intrinsic_gas
-from shackled.scene.codec import encode
+from shackled.scene import encode
 
 from . import energy
 

@@ -17,17 +17,12 @@ from numpy.typing import NDArray
 
 from shackled import Object, load, render
 from shackled.artifacts import artifact
-from shackled.chain import open_chain
-from shackled.chain.embedded import EmbeddedChain
-from shackled.datasets.genesis import seed_of
-from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
-from shackled.datasets.teapot import teapot
+from shackled.chain import EmbeddedChain, open_chain
+from shackled.datasets import teapot
+from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
-from shackled.scene.fit import fit
-from shackled.scene.packed_mesh import pack
-from shackled.scene.staging import stage
-from shackled.studio.compact_mesh import compact
-from shackled.studio.keeping import on_grid, store_mesh, store_scene
+from shackled.scene import fit, pack, stage
+from shackled.studio import compact, on_grid, store_mesh, store_scene
 
 from .snapshot import changes
 

@@ -15,9 +15,8 @@ from pathlib import Path
 
 from tools.anvil import Anvil, find_anvil
 
-from shackled.chain.address_book import VARIABLE
-from shackled.tokens.demo import run
-from shackled.tokens.table import markdown
+from shackled.chain import VARIABLE
+from shackled.tokens import markdown, run
 
 FILE = Path(__file__).with_name("token-demo.md")
 

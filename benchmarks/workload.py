@@ -11,7 +11,7 @@ from unittest.mock import patch
 from shackled import Scene, reference
 from shackled.artifacts import artifact
 from shackled.reference import fragment_shader, rasterizer
-from shackled.scene.codec import encode
+from shackled.scene import encode
 
 
 @dataclass

@@ -18,8 +18,8 @@ from playwright.sync_api import sync_playwright
 from tools.anvil import Anvil, find_anvil
 from tools.page_server import ARGUMENTS, browser_path
 
-from shackled.chain.address_book import VARIABLE
-from shackled.tokens.demo import run
+from shackled.chain import VARIABLE
+from shackled.tokens import run
 
 FOLDER = Path(__file__).parent
 

@@ -20,15 +20,11 @@ from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
 from shackled import Animation, Background, Image, Light, Material, Scene, load, render, turntable
-from shackled.datasets import Piece
+from shackled.datasets import Piece, teapot
 from shackled.datasets.common import builtin
-from shackled.datasets.genesis import generate, seed_of
-from shackled.datasets.genesis.contract import picture_on_chain
+from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.datasets.teapot import teapot
-from shackled.scene.look import resize
-from shackled.scene.rotation import from_euler
-from shackled.scene.staging import Look, stage
+from shackled.scene import Look, from_euler, resize, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 

@@ -15,7 +15,7 @@ from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World
 
 from shackled import load
-from shackled.studio.keeping import store_scene
+from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from shackled.cli.look_options import option_of
-from shackled.scene.look import SETTINGS
+from shackled.scene import SETTINGS
 
 PAGE = Path(__file__).with_name("look.md")
 START, END = "<!-- settings -->\n", "<!-- end of the settings -->\n"

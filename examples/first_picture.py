@@ -8,7 +8,7 @@ writes first_picture.png and says what it cost.
 from __future__ import annotations
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, render, replace
-from shackled.datasets.teapot import teapot
+from shackled.datasets import teapot
 
 pot = Object(
     replace(teapot(6), colors="#3f8fb5"),

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shackled import Mesh
-from shackled.datasets.teapot import teapot
-from shackled.scene.files import write_obj
+from shackled.datasets import teapot
+from shackled.scene import write_obj
 
 Points = NDArray[np.float64]
 

@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 import float64
 from pictures import chain, shared_folder
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
-from shackled.datasets.teapot import teapot
+from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene.mesh import vertex_normals
+from shackled.scene import vertex_normals
 
 MEAN_BOUND = 0.6
 LEVELS = 4

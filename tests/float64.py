@@ -22,8 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from shackled.artifacts import artifact
-from shackled.scene.codec import encode
-from shackled.scene.scene import Scene
+from shackled.scene import Scene, encode
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

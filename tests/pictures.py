@@ -14,10 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
-from shackled.chain.chain import CallResult
+from shackled.chain import CallResult, ContractChain, open_chain
 from shackled.image import decode_bmp
-from shackled.scene.codec import Rectangle, encode_scene
+from shackled.scene import Rectangle, encode_scene
 
 Pixels = NDArray[np.uint8]
 

@@ -11,15 +11,19 @@ from numpy.typing import NDArray
 
 from conformance.coverage import project
 from conformance.world import before_camera
-from shackled.scene.background import Background
-from shackled.scene.camera import Camera
-from shackled.scene.codec import Rectangle
-from shackled.scene.light import Light
-from shackled.scene.material import Material, Shading
-from shackled.scene.mesh import Mesh, vertex_normals
-from shackled.scene.object import Object
-from shackled.scene.rotation import rotate
-from shackled.scene.scene import Scene
+from shackled.scene import (
+    Background,
+    Camera,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    Rectangle,
+    Scene,
+    Shading,
+    rotate,
+    vertex_normals,
+)
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

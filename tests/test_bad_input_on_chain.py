@@ -18,7 +18,7 @@ from shackled import Background, Camera, ChainError, Light, Material, Mesh, Obje
 from shackled.artifacts import artifact
 from shackled.errors import OutOfGasError
 from shackled.image import decode_bmp
-from shackled.scene.codec import encode_scene
+from shackled.scene import encode_scene
 
 ONE = 1 << 32
 TRIANGLE = [[-50, -50, 0], [50, -50, 0], [0, 50, 0]]

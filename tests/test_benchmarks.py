@@ -14,12 +14,10 @@ from benchmarks import stages
 from benchmarks.scenes import cubes, staged_teapot
 from benchmarks.workload import workload_of
 
-from shackled.bench import EXPERIMENTS, fits
-from shackled.bench.linear import cubes as linear_cubes
-from shackled.bench.linear import squares
-from shackled.bench.measure import gas
+from shackled.bench import EXPERIMENTS, fits, gas, squares
+from shackled.bench import cubes as linear_cubes
 from shackled.chain import open_chain
-from shackled.gas.stages import STAGES
+from shackled.gas import STAGES
 
 ROOT = Path(__file__).resolve().parent.parent
 

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 import float64
 from pictures import UNLIT, call_data, counts, covered, draw, on_pixel_grid, pixel_grid_camera, soup, unlit_scene
 from shackled import Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene.material import Shading
-from shackled.scene.mesh import vertex_normals
+from shackled.scene import Shading, vertex_normals
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,7 @@ from random_scenes import KINDS, Kind, random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.errors import InputError
 from shackled.reference import selector
-from shackled.scene.codec import Rectangle, encode
-from shackled.scene.rotation import rotate
+from shackled.scene import Rectangle, encode, rotate
 
 SEEDS = 250
 

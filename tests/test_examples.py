@@ -20,12 +20,10 @@ from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
-from shackled.chain.embedded import EmbeddedChain
-from shackled.chain.opening import open_chain
+from shackled.chain import EmbeddedChain, open_chain
 from shackled.image import decode_bmp
-from shackled.scene.rotation import from_euler
-from shackled.scene.staging import is_closed
-from shackled.studio.keeping import store_scene
+from shackled.scene import from_euler, is_closed
+from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"

@@ -16,8 +16,7 @@ from shackled import Background, Camera, InputError, Light, Material, Mesh, Obje
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
 from shackled.reference import draw_call
-from shackled.scene.codec import ONE, Rectangle, encode, encode_scene, extensions
-from shackled.scene.fit import fit
+from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

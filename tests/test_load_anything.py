@@ -16,10 +16,7 @@ import shackled
 from shackled import Background, Camera, InputError, Light, Mesh, Object, Scene, load, render
 from shackled.datasets import require
 from shackled.errors import InputWarning
-from shackled.scene.files import read_mesh, write_obj
-from shackled.scene.look import SETTINGS, LookOptions
-from shackled.scene.rotation import rotate
-from shackled.scene.staging import signed_volume, stage
+from shackled.scene import SETTINGS, LookOptions, read_mesh, rotate, signed_volume, stage, write_obj
 
 BALL = trimesh.creation.icosphere(subdivisions=1)
 MESH = Mesh(BALL.vertices, BALL.faces)

@@ -18,13 +18,10 @@ from web3.types import Wei
 from nodes import anvil, needs_anvil
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, open_chain
-from shackled.chain.connection import Connection
-from shackled.datasets.teapot import teapot
+from shackled.chain import Connection, ContractChain, open_chain
+from shackled.datasets import teapot
 from shackled.ethereum import intrinsic_gas
-from shackled.scene.codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode, extensions
-from shackled.scene.fit import fit
-from shackled.scene.packed_mesh import pack
+from shackled.scene import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, encode, extensions, fit, pack
 
 PATIENCE = 30
 GAS_LIMIT = 1_000_000_000

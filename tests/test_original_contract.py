@@ -20,7 +20,7 @@ from pictures import Pixels, chain, dynamic, shared_scene
 from shackled import RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.scene.files.original import original_scene
+from shackled.scene import original_scene
 
 SHARED = [
     "obj_spot_cull",

@@ -8,6 +8,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
+from importlib import import_module
 from importlib.metadata import packages_distributions
 from pathlib import Path
 from typing import Any
@@ -29,8 +30,8 @@ CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 EXTRA_OF = {
     "bench": "bench",
     "creator": "creator",
-    "parallel/cluster.py": "cluster",
-    "parallel/local_cluster.py": "cluster",
+    "parallel/_cluster.py": "cluster",
+    "parallel/_local_cluster.py": "cluster",
 }
 
 
@@ -64,6 +65,36 @@ def test_what_is_imported_is_declared() -> None:
     # and nothing is declared that nobody imports
     everything = [*NEEDED, *(each for lines in EXTRAS.values() for each in lines)]
     assert {canonicalize_name(each.name) for each in everything} <= found
+
+
+def of_the_package(path: Path) -> Iterator[str]:
+    """Return the modules of the package that a file imports, and the names that it takes from them, all absolute."""
+    here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = [*here[: len(here) - node.level + 1]] if node.level else []
+            yield from (".".join([*base, *filter(None, [node.module]), alias.name]) for alias in node.names)
+
+
+FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi"))]
+
+
+@pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_others_import_only_what_a_package_exports(package: Path) -> None:
+    name = ".".join(package.relative_to(PACKAGE.parent).parts)
+    face = import_module(name)
+    assert all(hasattr(face, each) for each in face.__all__)
+    folders = [PACKAGE, *(ROOT / each for each in ("tests", "benchmarks", "docs", "tools", "examples"))]
+    files = [path for folder in folders for path in sorted(folder.rglob("*.py")) if not path.is_relative_to(package)]
+    private = [
+        f"{path.relative_to(ROOT)}: {imported}"
+        for path in files
+        for imported in of_the_package(path)
+        if imported.startswith(f"{name}._")
+    ]
+    assert not private
 
 
 #: The wheels that there are of pyrevm 0.3.7, all of them of CPython: system, machine, versions of Python.

@@ -20,10 +20,7 @@ from conformance.neighbours import around, interior
 from conformance.world import before_camera
 from pictures import call
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene.codec import Rectangle
-from shackled.scene.fit import fit
-from shackled.scene.material import Shading
-from shackled.scene.mesh import vertex_normals
+from shackled.scene import Rectangle, Shading, fit, vertex_normals
 
 Integers = NDArray[np.int64]
 Array = NDArray[np.float64]

@@ -14,7 +14,7 @@ from attrs import evolve
 from pictures import call, call_data, chain, counts, draw, dynamic, words
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.reference import draw_call
-from shackled.scene.codec import Rectangle
+from shackled.scene import Rectangle
 
 SQUARE = Mesh(
     [[-50, -50, 0], [50, -50, 0], [50, 50, 0], [-50, 50, 0]],

@@ -13,8 +13,8 @@ import shackled.whole_file
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, render
 from shackled.chain import open_chain
 from shackled.cli.app import run
-from shackled.datasets.teapot import teapot
-from shackled.scene.staging import Look, stage
+from shackled.datasets import teapot
+from shackled.scene import Look, stage
 from shackled.stages import Stage, draw_stages, nothing, strip
 
 REFERENCE = open_chain("reference")

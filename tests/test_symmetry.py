@@ -21,9 +21,8 @@ from pictures import (
 )
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.datasets.teapot import teapot
-from shackled.scene.mesh import vertex_normals
-from shackled.scene.rotation import from_euler, multiply, rotate
+from shackled.datasets import teapot
+from shackled.scene import from_euler, multiply, rotate, vertex_normals
 from test_fill_rule import edge_functions
 
 Array = NDArray[np.float64]

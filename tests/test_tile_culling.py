@@ -14,9 +14,8 @@ from pictures import call, call_data, chain, draw, dynamic
 from shackled import Camera, Material, Mesh, Object, RenderError, Scene, load
 from shackled.chain import open_chain
 from shackled.image import decode_bmp
-from shackled.parallel.tiles import grid
-from shackled.scene.codec import Rectangle
-from shackled.scene.fit import fit
+from shackled.parallel import grid
+from shackled.scene import Rectangle, fit
 
 SIDE, ACROSS = 80, 4
 

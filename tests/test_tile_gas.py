@@ -9,7 +9,7 @@ from attrs import evolve
 from pictures import call
 from random_scenes import random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene
-from shackled.scene.codec import Rectangle
+from shackled.scene import Rectangle
 
 SIZE = 64
 LAMP = Light("point", (300, 200, -600))

@@ -13,7 +13,7 @@ from accuracy import big_triangles, flat, ground, screen_triangle, teapot_scene
 from pictures import Pixels, chain
 from shackled import Background, Light, Material, Scene
 from shackled.image import decode_bmp
-from shackled.scene.codec import Rectangle
+from shackled.scene import Rectangle
 
 LAMP = Light("point", (3, 5, -18), (255, 200, 150))
 SHINY = Material("flat", 0.2, 0.6, 0.6, 40)

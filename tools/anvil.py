@@ -18,9 +18,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, ContractChain, open_chain
-from shackled.chain.connection import Connection
-from shackled.chain.embedded import EmbeddedChain
+from shackled.chain import CallResult, Connection, ContractChain, EmbeddedChain, open_chain
 from shackled.errors import NodeUnreachableError, RenderError
 from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
 

@@ -14,9 +14,8 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import track
 
-from shackled.datasets import pieces
-from shackled.datasets.common.models import models
-from shackled.datasets.drawing import draw_all
+from shackled.datasets import draw_all, pieces
+from shackled.datasets.common import models
 
 FILE = Path(__file__).resolve().parent.parent / "src" / "shackled" / "datasets" / "gas.json"
 

@@ -15,9 +15,7 @@ import sys
 
 from shackled import load
 from shackled.errors import ShackledError
-from shackled.gas.blocks import blocks, functions
-from shackled.gas.exact import render_call
-from shackled.gas.trace import Frame, trace
+from shackled.gas import Frame, blocks, functions, render_call, trace
 
 
 def main() -> int:

@@ -9,8 +9,7 @@ import pytest
 from eth_abi.abi import decode, encode
 
 from shackled.artifacts import artifact
-from shackled.chain.embedded import EmbeddedChain, _pyrevm_error
-from shackled.chain.opening import open_chain
+from shackled.chain import EmbeddedChain, open_chain, pyrevm_error
 from shackled.ethereum import intrinsic_gas, to_hex
 
 GAS = 2_000_000_000
@@ -55,7 +54,7 @@ class World:
                 evm.message_call(to_hex(SENDER), to_hex(to), earlier, None, gas)
             output = bytes(evm.message_call(to_hex(SENDER), to_hex(to), data, None, gas))
         except RuntimeError as error:
-            raise _pyrevm_error(str(error), gas) from None
+            raise pyrevm_error(str(error), gas) from None
         self.gas = evm.result.gas_used - intrinsic_gas(data)
         if created:
             self._keep(evm, output[12:32])

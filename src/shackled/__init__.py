@@ -10,14 +10,7 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene.background import Background
-from .scene.camera import Camera
-from .scene.light import Light
-from .scene.material import Material
-from .scene.mesh import Mesh
-from .scene.object import Object
-from .scene.rotation import euler
-from .scene.scene import Scene
+from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, euler
 
 try:
     __version__ = version("shackled")

@@ -9,15 +9,22 @@ from typing import Any, Unpack
 
 from .datasets import Piece, find, require
 from .errors import InputError
-from .scene.files.load import SCENES
-from .scene.files.load import load as load_file
-from .scene.files.mesh_file import READERS, read_mesh
-from .scene.files.table import about
-from .scene.from_trimesh import is_trimesh, mesh_of, objects_of
-from .scene.look import LookOptions, checked_look, look_at
-from .scene.mesh import Mesh
-from .scene.object import Object
-from .scene.scene import Scene
+from .scene import (
+    READERS,
+    SCENES,
+    LookOptions,
+    Mesh,
+    Object,
+    Scene,
+    about,
+    checked_look,
+    is_trimesh,
+    look_at,
+    mesh_of,
+    objects_of,
+    read_mesh,
+)
+from .scene import load as load_file
 
 #: What a scene can be made of. `Any`: vertices and faces as arrays, or a mesh or scene of trimesh, which need not be
 #: installed.

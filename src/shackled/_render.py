@@ -11,9 +11,7 @@ from ._on import On, where_of
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
 from .image import Image, decode_bmp
-from .scene.look import LookOptions, size_of
-from .scene.scene import Scene
-from .scene.turning import full_turn
+from .scene import LookOptions, Scene, full_turn, size_of
 
 if TYPE_CHECKING:
     from .parallel import Listener, Where

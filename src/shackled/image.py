@@ -19,8 +19,7 @@ from PIL import Image as PillowImage
 from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
-from .scene.scene import Scene
-from .scene.value import array_key, plural
+from .scene import Scene, array_key, plural
 from .whole_file import check_output_file, write_output
 
 Pixels = NDArray[np.uint8]

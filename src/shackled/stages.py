@@ -23,12 +23,7 @@ from .reference.call import read_call
 from .reference.layout import PIXEL_BIAS
 from .reference.pipeline import Geometry, assemble
 from .reference.vector import to_matrix
-from .scene.background import Background
-from .scene.codec import encode
-from .scene.material import Material
-from .scene.mesh import MAX_VERTICES, Mesh
-from .scene.object import Object
-from .scene.scene import Scene
+from .scene import MAX_VERTICES, Background, Material, Mesh, Object, Scene, encode
 
 Pixels = NDArray[np.uint8]
 

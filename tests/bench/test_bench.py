@@ -12,14 +12,26 @@ from tools.anvil import AnvilChain, find_anvil
 
 from shackled import InputError, bench, load
 from shackled.artifacts import artifact
-from shackled.bench import EXPERIMENTS, Lab, engines, fits, scenes
-from shackled.bench.deploy import PyEvmDeployer, PyrevmDeployer
-from shackled.bench.measure import call_renderer, cost
-from shackled.bench.original import CODE_SIZES, original, original_gas
-from shackled.bench.report import Report, wrapped
+from shackled.bench import (
+    CODE_SIZES,
+    EXPERIMENTS,
+    Lab,
+    PyEvmDeployer,
+    PyrevmDeployer,
+    Report,
+    call_renderer,
+    cost,
+    fits,
+    open_engines,
+    original,
+    original_gas,
+    scenes,
+    time_engine,
+    wrapped,
+)
 from shackled.chain import open_chain
 from shackled.cli.app import run
-from shackled.deploy.contract import STANDARD
+from shackled.deploy import STANDARD
 from shackled.image import decode_bmp
 from shackled.reference import render as reference_render
 
@@ -229,8 +241,8 @@ def test_a_node_draws_the_same_for_the_same_gas() -> None:
 def test_a_node_is_one_more_engine() -> None:
     with AnvilChain(str(find_anvil())) as chain:
         chain.address("Renderer")
-        node = engines.opened(chain.node.url)["anvil"]
-        found = engines.measure(node, scenes.cube(8))
+        node = open_engines(chain.node.url)["anvil"]
+        found = time_engine(node, scenes.cube(8))
     assert found.gas == cost(scenes.cube(8)).gas
     # it found the contracts where every chain has them
     assert node.name.endswith("(deployed)")
@@ -297,7 +309,7 @@ def test_mistakes_are_told(
 def test_without_matplotlib(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(bench, "find_spec", lambda name: None)
+    monkeypatch.setattr("shackled.bench._experiments.find_spec", lambda name: None)
     assert run(["bench", "deploy", "--quick", "-o", str(tmp_path)]) == 2
     assert "pip install 'shackled[bench]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

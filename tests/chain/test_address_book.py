@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from shackled.chain.address_book import VARIABLE, AddressBook, book_path
+from shackled.chain import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
 from shackled.ethereum import checksum_address, parse_address
 

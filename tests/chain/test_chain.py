@@ -11,12 +11,11 @@ from attrs import evolve
 
 from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact, contracts
-from shackled.chain import CHAINS, ContractChain, open_chain
-from shackled.chain.embedded import EmbeddedChain, PyEvmChain, PyrevmChain
+from shackled.chain import CHAINS, ContractChain, EmbeddedChain, PyEvmChain, PyrevmChain, open_chain
 from shackled.errors import OutOfGasError
 from shackled.ethereum import intrinsic_gas
 from shackled.image import decode_bmp
-from shackled.scene.codec import Rectangle, encode
+from shackled.scene import Rectangle, encode
 
 TETRAHEDRON = Mesh(
     [[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]],
@@ -116,7 +115,7 @@ def test_chains_by_name() -> None:
 
 
 def test_the_fallback_without_pyrevm(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.chain.opening.find_spec", lambda name: name != "pyrevm" or None)
+    monkeypatch.setattr("shackled.chain._opening.find_spec", lambda name: name != "pyrevm" or None)
     open_chain.cache_clear()
     try:
         assert open_chain().name == "embedded EVM (py-evm)"

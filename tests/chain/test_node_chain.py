@@ -17,11 +17,17 @@ from tools.anvil import Anvil
 from nodes import PUBLIC, Reply, anvil, failure, forward, needs_anvil, result, serving, without_overrides
 from shackled import Background, Camera, Light, Material, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import Drawing, open_chain, open_node
-from shackled.chain.address_book import VARIABLE, AddressBook
-from shackled.chain.embedded import EmbeddedChain
-from shackled.chain.node import MAX_INIT_CODE, NodeChain
-from shackled.datasets.teapot import teapot
+from shackled.chain import (
+    MAX_INIT_CODE,
+    VARIABLE,
+    AddressBook,
+    Drawing,
+    EmbeddedChain,
+    NodeChain,
+    open_chain,
+    open_node,
+)
+from shackled.datasets import teapot
 from shackled.errors import (
     InputError,
     NodeError,
@@ -32,8 +38,8 @@ from shackled.errors import (
     WrongChainError,
 )
 from shackled.ethereum import checksum_address, intrinsic_gas
-from shackled.gas.search import search, suffices
-from shackled.scene.codec import Rectangle, encode
+from shackled.gas import search, suffices
+from shackled.scene import Rectangle, encode
 
 pytestmark = needs_anvil
 

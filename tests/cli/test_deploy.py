@@ -17,7 +17,7 @@ from tools.anvil import Anvil
 
 from nodes import KEY, Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from shackled.artifacts import artifact
-from shackled.chain.address_book import VARIABLE
+from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments
 

@@ -20,9 +20,8 @@ from shackled import load, render
 from shackled.cli.app import app, run
 from shackled.cli.look_options import option_of
 from shackled.datasets import Piece
-from shackled.gas import trace
-from shackled.gas.stages import STAGES
-from shackled.scene.look import SETTINGS
+from shackled.gas import STAGES
+from shackled.scene import SETTINGS
 
 
 def report(capsys: pytest.CaptureFixture[str], *options: str) -> dict[str, Any]:
@@ -164,7 +163,7 @@ def test_without_a_tracer_it_says_what_to_install(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = report(capsys, "--no-stages")
-    monkeypatch.setattr(trace, "find_spec", lambda name: None)
+    monkeypatch.setattr("shackled.gas._trace.find_spec", lambda name: None)
     assert report(capsys, "--no-stages") == whole
     advice = "gas by stage needs the package py-evm: pip install 'shackled[profile]'\n"
     assert run(["gas", "shape.obj", "--json", "--size", "20x12"]) == 0

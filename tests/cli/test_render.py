@@ -305,7 +305,7 @@ def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) 
 def test_refusals_and_interrupts_exit_with_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shackled.chain.embedded import EmbeddedChain, PyrevmChain
+    from shackled.chain import EmbeddedChain, PyrevmChain
 
     monkeypatch.setattr("shackled._render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1

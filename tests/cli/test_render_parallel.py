@@ -20,6 +20,7 @@ from nodes import anvil, needs_anvil
 from shackled.chain import Drawing
 from shackled.cli.app import run
 from shackled.cli.arguments import with_cluster
+from shackled.parallel import draw_part
 from shackled.whole_file import write_whole
 
 PATIENCE = 60
@@ -144,20 +145,18 @@ def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    from shackled.parallel import part, place
-
     options = ["--turntable", "12"]
     expected = report(capsys, *options, "-o", "expected.gif")
-    draw, limit = part.draw_part, 7
+    limit = 7
     drawn: list[object] = []
 
     def counted(*arguments: object) -> Drawing:
         if len(drawn) == limit:
             raise KeyboardInterrupt
         drawn.append(arguments)
-        return draw(*arguments)  # type: ignore[arg-type]
+        return draw_part(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(place, "draw_part", counted)
+    monkeypatch.setattr("shackled.parallel._place.draw_part", counted)
     assert run(["render", "shape.obj", "--size", "48", *options, "-o", "spin.gif"]) == 1
     messages = capsys.readouterr().err.splitlines()
     assert messages[-2:] == [

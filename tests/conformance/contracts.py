@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pictures import UNLIT, draw
 from shackled import Background, Mesh, Object, Scene
-from shackled.scene.fit import fit
+from shackled.scene import fit
 
 #: Of an object of which each triangle has corners of its own.
 MAX_TRIANGLES = 65535 // 3

@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
-from shackled.scene.material import Shading
-from shackled.scene.mesh import vertex_normals
-from shackled.scene.rotation import rotate
+from shackled.scene import Shading, rotate, vertex_normals
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Light, Material, Scene
-from shackled.scene.fit import near_plane
-from shackled.scene.mesh import vertex_normals
+from shackled.scene import near_plane, vertex_normals
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, l
 from shackled.creator.scene import Facts, describe, filled, to_scene
 from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface
 from shackled.creator.view import bounds_of, camera_axes, camera_of, lamp_of, light_of, orbit_of
-from shackled.gas.exact import render_call
+from shackled.gas import render_call
 from states import states
 
 #: One of each family of pieces, and those that are unlike the others.

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from shackled import load
-from shackled.chain import open_chain
-from shackled.chain.embedded import EmbeddedChain
+from shackled.chain import EmbeddedChain, open_chain
 from shackled.creator.fits import by_trying, headline, places
-from shackled.gas.exact import measure, render_call
-from shackled.gas.limits import limits
-from shackled.gas.search import search, suffices
-from shackled.scene.look import resize
+from shackled.gas import limits, measure, render_call, search, suffices
+from shackled.scene import resize
 
 
 def test_a_small_picture_fits_everywhere() -> None:

@@ -28,8 +28,8 @@ from shackled.creator.pool import Pool
 from shackled.creator.scene import to_scene
 from shackled.creator.state import Size, Source, State
 from shackled.creator.tasks import Desk
-from shackled.gas.stages import STAGES
-from shackled.scene.turning import full_turn
+from shackled.gas import STAGES
+from shackled.scene import full_turn
 from strange_desk import StrangeDesk
 
 Result = TypeVar("Result")

@@ -10,18 +10,7 @@ from hypothesis import given
 
 from shackled import InputError
 from shackled.creator.controls import CONTROLS, GROUPS, control, lamp_controls
-from shackled.creator.state import (
-    Backdrop,
-    Lamp,
-    Orbit,
-    Pose,
-    Size,
-    Source,
-    State,
-    Surface,
-    from_document,
-    to_document,
-)
+from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, from_document, to_document
 from states import states
 
 TEAPOT = Source("piece", "teapot")

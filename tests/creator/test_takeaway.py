@@ -21,9 +21,7 @@ from tools import build_contracts as tool
 
 from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
-from shackled.chain import open_chain
-from shackled.chain.chain import returned_bytes
-from shackled.chain.embedded import EmbeddedChain
+from shackled.chain import EmbeddedChain, open_chain, returned_bytes
 from shackled.cli.app import run
 from shackled.creator.change import put
 from shackled.creator.picture import File
@@ -34,8 +32,8 @@ from shackled.creator.state import Size, Source, State
 from shackled.creator.store import Stored
 from shackled.creator.subject import Subject
 from shackled.creator.takeaway import KINDS, make
-from shackled.gas.exact import render_call
-from shackled.scene.simplify import simplify_scene
+from shackled.gas import render_call
+from shackled.scene import simplify_scene
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SOLC = ROOT / "contracts" / "node_modules" / "solc"
@@ -311,8 +309,7 @@ def meshes(scene: Scene) -> bytes:
     """The packed meshes as the argument of type bytes[]."""
     from eth_abi.abi import encode
 
-    from shackled.scene.fit import fit
-    from shackled.scene.packed_mesh import pack
+    from shackled.scene import fit, pack
 
     packed = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fit(scene).objects]
     return encode(["bytes[]"], [packed])

@@ -28,8 +28,7 @@ from shackled.creator.pool import Pool
 from shackled.creator.state import Size, Source, State
 from shackled.creator.store import Store, Stored
 from shackled.creator.upload import clean_name
-from shackled.scene.files.scene_file import write_scene
-from shackled.scene.simplify import simplify_scene
+from shackled.scene import simplify_scene, write_scene
 
 LIMITS = Limits(triangles=500, all_triangles=1200, reading_seconds=10, unpacked=2**20)
 

@@ -10,24 +10,23 @@ import numpy as np
 import pytest
 
 from shackled import Mesh
-from shackled.datasets.common import clean as cleaning
-from shackled.datasets.common import models
-from shackled.datasets.common.clean import (
+from shackled.datasets.common import (
     MAX_TRIANGLES,
     capped,
+    checksum,
     clean,
     creased,
     parts,
     placed,
     prepare,
     reduce,
+    take,
     without_crumbs,
 )
-from shackled.datasets.common.fetch import checksum, take
+from shackled.datasets.common import model as find_model
 from shackled.datasets.common.shapes import cylinder, icosphere, joined, torus
 from shackled.errors import InputError
-from shackled.scene.simplify import FORCEFUL, simplify
-from shackled.scene.staging import is_closed, signed_volume
+from shackled.scene import FORCEFUL, is_closed, signed_volume, simplify
 
 SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).resolve().parents[3] / "shared"))
 
@@ -131,12 +130,14 @@ def test_where_edges_cannot_be_collapsed_vertices_are_merged(monkeypatch: pytest
             raise InputError("too many remain")
         return simplify(mesh, target, tries)
 
-    monkeypatch.setattr(cleaning, "simplify", stalls)
+    monkeypatch.setattr("shackled.datasets.common._clean.simplify", stalls)
     fine = torus(across=200, down=80)
     mesh = reduce(fine, 400)
     assert 300 < count(mesh)[1] <= 400
     assert signed_volume(mesh) == pytest.approx(signed_volume(fine), rel=0.1)
-    monkeypatch.setattr(cleaning, "simplify", lambda mesh, target, tries=FORCEFUL: stalls(fine, target, tries))
+    monkeypatch.setattr(
+        "shackled.datasets.common._clean.simplify", lambda mesh, target, tries=FORCEFUL: stalls(fine, target, tries)
+    )
     with pytest.raises(InputError, match="too many remain"):
         reduce(fine, 400)
 
@@ -155,7 +156,7 @@ def test_real_models(name: str, file: str, tmp_path: Path, monkeypatch: pytest.M
     if not path.is_file():
         pytest.skip("needs the meshes beside the repository")
     monkeypatch.setenv("SHACKLED_CACHE", str(tmp_path))
-    model = models.model(name)
+    model = find_model(name)
     assert checksum(path, model.checksum) == model.checksum
     assert path.stat().st_size == model.size
     assert take(model, path)

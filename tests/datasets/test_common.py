@@ -13,11 +13,9 @@ from attrs import evolve
 
 import shackled
 from shackled import Mesh
-from shackled.datasets.common import builtin, find, shapes
-from shackled.datasets.common.cornell_box import EYE, HEIGHT, cornell_box
-from shackled.datasets.common.models import models
-from shackled.datasets.piece import Piece
-from shackled.scene.staging import is_closed, signed_volume
+from shackled.datasets import Piece
+from shackled.datasets.common import EYE, HEIGHT, builtin, cornell_box, find, models, shapes
+from shackled.scene import is_closed, signed_volume
 
 SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).resolve().parents[3] / "shared"))
 

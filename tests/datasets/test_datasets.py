@@ -15,15 +15,10 @@ from PIL import Image as PillowImage
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import DATASETS, Piece, find, pieces, require
-from shackled.datasets import drawing as drawing_module
-from shackled.datasets.common.models import models
-from shackled.datasets.costs import Cost, cost, table
-from shackled.datasets.drawing import draw, draw_all
-from shackled.datasets.gallery import page, sheet
+from shackled.datasets import DATASETS, Cost, Piece, cost, draw, draw_all, find, page, pieces, require, sheet, table
+from shackled.datasets.common import models
 from shackled.errors import InputError
-from shackled.scene.files import write_obj
-from shackled.scene.mesh import Mesh
+from shackled.scene import Mesh, write_obj
 
 
 @pytest.fixture(autouse=True)
@@ -211,7 +206,7 @@ def test_a_drawing_is_made_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -
     first = draw(require("cube"))
     kept = list((folder / "cache" / "drawings").iterdir())
     assert len(kept) == 1
-    monkeypatch.setattr(drawing_module, "_png", lambda *_: pytest.fail("drawn again"))
+    monkeypatch.setattr("shackled.datasets._drawing._png", lambda *_: pytest.fail("drawn again"))
     assert draw(require("cube")) == first
     monkeypatch.undo()
     monkeypatch.setenv("SHACKLED_CACHE", str(folder / "cache"))

@@ -20,15 +20,11 @@ import pytest
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import find
-from shackled.datasets.common import fetch as fetching
-from shackled.datasets.common import models
-from shackled.datasets.common.fetch import checksum, fetch, take
-from shackled.datasets.common.models import Model
+from shackled.datasets import Cost, cost, find
+from shackled.datasets.common import Model, checksum, fetch, take
 from shackled.datasets.common.shapes import icosphere
-from shackled.datasets.costs import Cost, cost
 from shackled.errors import FetchError, InputError
-from shackled.scene.files import write_obj
+from shackled.scene import write_obj
 
 
 class Server(ThreadingHTTPServer):
@@ -121,7 +117,7 @@ def ball(server: Server, cache: Path, obj: bytes, monkeypatch: pytest.MonkeyPatc
 
 
 def register(model: Model, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(models, "models", lambda: {model.name: model})
+    monkeypatch.setattr("shackled.datasets.common._models.models", lambda: {model.name: model})
 
 
 def changed(model: Model, monkeypatch: pytest.MonkeyPatch, **fields: object) -> Model:
@@ -222,7 +218,7 @@ def test_no_such_file_there(ball: Model, server: Server, monkeypatch: pytest.Mon
 
 
 def test_a_server_that_falls_silent(ball: Model, server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fetching, "TIMEOUT", (1, 0.2))
+    monkeypatch.setattr("shackled.datasets.common._fetch.TIMEOUT", (1, 0.2))
     server.cut_after, server.stall = 5_000, 0.6
     with pytest.raises(FetchError, match="the connection was cut after"):
         fetch(ball)
@@ -240,7 +236,7 @@ def test_a_full_disk(ball: Model, cache: Path, monkeypatch: pytest.MonkeyPatch, 
         raise OSError(errno.ENOSPC, "No space left on device")
 
     with monkeypatch.context() as patch:
-        patch.setattr(*(fetching, "_write", full) if where == "download" else (models, "keep", full))
+        patch.setattr(f"shackled.datasets.common.{'_fetch._write' if where == 'download' else '_models.keep'}", full)
         with pytest.raises(FetchError, match=r"^ball: the disk is full: no space for it in "):
             fetch(ball)
     assert files(cache) == ([] if where == "download" else [ball.original.name])

@@ -3,9 +3,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from shackled.datasets.teapot import patches, teapot
+from shackled.datasets import patches, teapot
 from shackled.errors import InputError
-from shackled.scene.staging import signed_volume
+from shackled.scene import signed_volume
 
 
 def test_patches_are_those_of_newell() -> None:

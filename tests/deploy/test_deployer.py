@@ -14,11 +14,22 @@ from tools.anvil import Anvil
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain.address_book import AddressBook
-from shackled.chain.connection import Connection
-from shackled.deploy import Deployer, Deployment, Plan, Transactor, deployments
-from shackled.deploy.contract import CONTRACTS, PROXY_CODE, STANDARD, deployment, local_chain
-from shackled.deploy.proxy import COST, SIGNED, SIGNER
+from shackled.chain import AddressBook, Connection
+from shackled.deploy import (
+    CONTRACTS,
+    COST,
+    PROXY_CODE,
+    SIGNED,
+    SIGNER,
+    STANDARD,
+    Deployer,
+    Deployment,
+    Plan,
+    Transactor,
+    deployment,
+    deployments,
+    local_chain,
+)
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
 from shackled.ethereum import PROXY, SALT, checksum_address, create2_address, keccak256, parse_address
 

@@ -14,7 +14,7 @@ from tools.anvil import Anvil
 from nodes import KEY, Reply, anvil, failure, forward, needs_anvil, result, serving
 from proxies import Liar
 from shackled.artifacts import artifact
-from shackled.chain.connection import Connection
+from shackled.chain import Connection
 from shackled.deploy import Call, Fees, Quote, Transactor
 from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
 from shackled.ethereum import ETHER, GWEI, PROXY
@@ -187,7 +187,7 @@ def test_what_is_waited_for_is_told(node: Anvil, monkeypatch: pytest.MonkeyPatch
                 return result(None)
         return forward(node.url, request)
 
-    monkeypatch.setattr("shackled.deploy.transactor.LATE", 0.0)
+    monkeypatch.setattr("shackled.deploy._transactor.LATE", 0.0)
     asked: list[str] = []
     told: list[str] = []
     with serving(answer) as url:

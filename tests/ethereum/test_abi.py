@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.artifacts import artifact, known_errors
-from shackled.ethereum import word
-from shackled.ethereum.abi import SOLIDITY_ERRORS, Interface, decode_error, error_table
+from shackled.ethereum import SOLIDITY_ERRORS, Interface, decode_error, error_table, word
 
 # the examples of the specification of the ABI: docs.soliditylang.org/en/latest/abi-spec.html
 FOO = Interface(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.ethereum.header import encode_header
+from shackled.ethereum import encode_header
 
 #: The first block of Ethereum (2015), as every node tells it.
 GENESIS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
-from shackled.datasets.teapot import teapot
+from shackled.datasets import teapot
 
 SQUARE = Mesh(
     [[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]],

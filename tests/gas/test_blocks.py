@@ -11,9 +11,7 @@ import pytest
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.gas.blocks import blocks, functions
-from shackled.gas.exact import render_call
-from shackled.gas.trace import trace
+from shackled.gas import blocks, functions, render_call, trace
 
 TOOL = Path(__file__).resolve().parents[2] / "tools" / "gas_blocks.py"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import date
 
-from shackled.gas.limits import limits
+from shackled.gas import limits
 
 
 def test_every_limit_has_a_source_and_a_date() -> None:

@@ -10,8 +10,7 @@ from shackled import ChainError, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError, RevertError
-from shackled.gas.exact import measure, render_call
-from shackled.gas.search import search, suffices
+from shackled.gas import measure, render_call, search, suffices
 
 
 @needs_anvil

@@ -13,14 +13,21 @@ pytest.importorskip("eth", reason="a trace needs py-evm")
 from shackled import Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
-from shackled.deploy.contract import STANDARD
-from shackled.gas.exact import measure, render_call
-from shackled.gas.flame_graph import MARGIN, WIDTH, flame_graph
-from shackled.gas.profile import Profile, profile
-from shackled.gas.source_map import source_map
-from shackled.gas.speedscope import speedscope
-from shackled.gas.stages import STAGES
-from shackled.gas.trace import Frame, trace
+from shackled.deploy import STANDARD
+from shackled.gas import (
+    MARGIN,
+    STAGES,
+    WIDTH,
+    Frame,
+    Profile,
+    flame_graph,
+    measure,
+    profile,
+    render_call,
+    source_map,
+    speedscope,
+    trace,
+)
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 from attrs import evolve
@@ -13,10 +11,19 @@ from shackled import InputError, RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.errors import OutOfGasError
-from shackled.gas import runs
-from shackled.gas.exact import KEPT, floor_gas, margin, measure, needed_for, render_call
-from shackled.gas.runs import engine_calls
-from shackled.gas.search import FIRST_LIMIT, Step, search, suffices
+from shackled.gas import (
+    FIRST_LIMIT,
+    KEPT,
+    Step,
+    engine_calls,
+    floor_gas,
+    margin,
+    measure,
+    needed_for,
+    render_call,
+    search,
+    suffices,
+)
 
 NAMES = ("smooth", "clipped, wires, inverted", "empty")
 
@@ -131,15 +138,6 @@ def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, s
     pixels = b"".join(call.result.output[64:] for call in calls[len(engines) - 1 :: len(engines)])
     assert pixels == whole[64 + 54 : 64 + 54 + 3 * scene.width * scene.height]
     assert all(call.data[:4] == artifact(call.engine).selectors["drawTile"] for call in calls)
-
-
-def test_registers_are_those_of_the_contracts() -> None:
-    sources = Path(__file__).parents[2] / "contracts" / "src"
-    text = "".join((sources / name).read_text("utf-8") for name in ("pipeline/Registers.sol", "pipeline/Pipeline.sol"))
-    values = dict(re.findall(r"constant (\w+) = (\w+);", text))
-    names = [name for name in vars(runs) if name.isupper() and name in values and not name.startswith("IS_")]
-    assert len(names) == 12
-    assert all(int(values[name], 0) == getattr(runs, name) for name in names)
 
 
 def test_the_least_that_a_transaction_costs() -> None:

@@ -14,10 +14,8 @@ from attrs import evolve
 from nodes import Reply, serving
 from shackled import ChainError, InputError, Scene, load
 from shackled.chain import Drawing
-from shackled.parallel import Listener, Where, render_frames
-from shackled.parallel.cluster import ClusterPlace
-from shackled.scene.codec import Rectangle
-from shackled.scene.turning import full_turn
+from shackled.parallel import ClusterPlace, Listener, Where, render_frames
+from shackled.scene import Rectangle, full_turn
 
 pytest.importorskip("distributed")
 SCENE = evolve(load("teapot"), width=48, height=48)
@@ -26,7 +24,7 @@ SCENE = evolve(load("teapot"), width=48, height=48)
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
     """A cluster of two workers that somebody else has started."""
-    command = [sys.executable, "-m", "shackled.parallel.local_cluster", "2"]
+    command = [sys.executable, "-m", "shackled.parallel._local_cluster", "2"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as process:
@@ -79,7 +77,7 @@ def test_what_a_worker_says_is_told(address: str) -> None:
 def test_something_else_than_a_cluster() -> None:
     """Nothing but one line, and at once."""
     program = (
-        "import sys; from shackled.cli.app import run; from shackled.parallel import cluster; cluster.PATIENCE = 2; "
+        "import sys; from shackled.cli.app import run; from shackled.parallel import _cluster; _cluster.PATIENCE = 2; "
         "sys.exit(run(['render', 'cube', '--size', '8', '--cluster', %r]))"
     )
     with serving(lambda request: Reply(b"?")) as url:
@@ -91,7 +89,7 @@ def test_something_else_than_a_cluster() -> None:
 
 
 def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
-    command = [sys.executable, "-m", "shackled.parallel.local_cluster", "1"]
+    command = [sys.executable, "-m", "shackled.parallel._local_cluster", "1"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as process:
@@ -109,7 +107,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
 
 
 def test_a_cluster_that_is_not_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.parallel.cluster.PATIENCE", 1)
+    monkeypatch.setattr("shackled.parallel._cluster.PATIENCE", 1)
     with pytest.raises(ChainError, match=r"no dask scheduler answers at tcp://127.0.0.1:1: "):
         render_frames([SCENE], Where(cluster="tcp://127.0.0.1:1"))
 

@@ -13,25 +13,29 @@ from attrs import evolve
 
 import shackled
 from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, load
-from shackled._render import render_whole
-from shackled.chain import open_chain
-from shackled.chain.embedded import PyrevmChain
-from shackled.parallel import Where, referee, render_frames
-from shackled.parallel.estimate import estimate
-from shackled.parallel.job import COMPARED_GAS, _referee, plan
-from shackled.parallel.part import Part, draw_part
-from shackled.parallel.place import ChainPlace
-from shackled.parallel.processes import ProcessPlace
-from shackled.parallel.referee import Referee
-from shackled.parallel.store import Store
-from shackled.scene.codec import Rectangle
+from shackled.chain import PyrevmChain, open_chain
+from shackled.parallel import (
+    COMPARED_GAS,
+    ChainPlace,
+    Part,
+    ProcessPlace,
+    Referee,
+    Store,
+    Where,
+    choose_referee,
+    draw_part,
+    estimate,
+    plan,
+    render_frames,
+)
+from shackled.scene import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)
 
 
 @pytest.fixture(scope="module")
 def whole() -> Image:
-    return render_whole(SCENE, open_chain())
+    return shackled.render(SCENE)
 
 
 @pytest.mark.parametrize(
@@ -87,13 +91,13 @@ def test_the_cost_is_told_about_right() -> None:
 
 def test_an_empty_scene() -> None:
     scene = Scene([], width=50, height=40)
-    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == render_whole(scene, open_chain()).bmp
+    assert render_frames([scene], Where(tile=(50, 7))).images[0].bmp == shackled.render(scene).bmp
 
 
 def test_a_picture_of_2048() -> None:
     scene = evolve(load("cube"), width=2048, height=48)
     (image,) = render_frames([scene], Where(gas_limit=6_000_000)).images
-    assert image.bmp == render_whole(scene, open_chain()).bmp
+    assert image.bmp == shackled.render(scene).bmp
 
 
 def test_a_worker_that_dies_is_replaced() -> None:
@@ -160,12 +164,12 @@ def test_nodes_need_addresses() -> None:
 
 def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, whole: Image) -> None:
     slow = open_chain("pyevm")
-    monkeypatch.setattr("shackled.parallel.job.open_chain", lambda name: slow)
+    monkeypatch.setattr("shackled.parallel._job.open_chain", lambda name: slow)
     job = render_frames([SCENE], Where("pyrevm", gas_limit=4_000_000))
     assert job.estimated_gas is None
     assert job.calls > 1
     assert job.images[0].bmp == whole.bmp
-    monkeypatch.setattr("shackled.parallel.referee.open_chain", lambda name: open_chain(name) if name else slow)
+    monkeypatch.setattr("shackled.parallel._referee.open_chain", lambda name: open_chain(name) if name else slow)
     # NumPy draws what nodes are compared with
     judge, small, cube = Referee(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
     piece, right = draw_part(open_chain("pyrevm"), cube, small), judge.draw(cube, small)
@@ -190,16 +194,16 @@ def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
         (SCENE, None, None, "all"),
         (large, None, None, "some"),
     )
-    monkeypatch.setattr(referee, "SAMPLE", 10**9)
+    monkeypatch.setattr("shackled.parallel._referee.SAMPLE", 10**9)
     for scene, expected, verify, much in cases:
-        judge, compared = _referee(scene, [node], expected, verify)
+        judge, compared = choose_referee(scene, [node], expected, verify)
         assert compared is (much == "all")
         assert (judge is None) is (much == "none")
         if judge is not None:
             assert judge.wants(first=True)
             assert judge.wants(first=False) is compared
     # what is drawn on this machine is right
-    assert _referee(SCENE, [ChainPlace(chain)], dear, None) == (None, True)
+    assert choose_referee(SCENE, [ChainPlace(chain)], dear, None) == (None, True)
 
 
 def test_parts_that_nobody_compared_are_no_parts_of_a_compared_picture(tmp_path: Path) -> None:

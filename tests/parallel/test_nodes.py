@@ -9,16 +9,15 @@ from typing import Any
 import pytest
 from attrs import evolve
 
+import shackled
 from nodes import Reply, anvil, failure, forward, free_port, needs_anvil, serving
 from proxies import after, always, at, each_third, proxy
 from shackled import ChainError, Image, load
-from shackled._render import render_whole
 from shackled.chain import open_chain
 from shackled.errors import NodeError
 from shackled.ethereum import PROXY
-from shackled.parallel import Listener, Outline, Where, render_frames, scheduler
-from shackled.parallel import job as job_module
-from shackled.scene.turning import full_turn
+from shackled.parallel import Listener, Outline, Where, render_frames
+from shackled.scene import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)
 TILE = (64, 5)
@@ -45,7 +44,7 @@ class Notes(Listener):
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(scheduler, "PAUSE", 0.01)
+    monkeypatch.setattr("shackled.parallel._scheduler.PAUSE", 0.01)
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +55,7 @@ def node() -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def right() -> Image:
-    return render_whole(SCENE, open_chain())
+    return shackled.render(SCENE)
 
 
 @pytest.fixture(scope="module")
@@ -172,7 +171,7 @@ def test_what_is_not_compared_may_be_wrong(node: str, spun: list[Image]) -> None
 
 def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """And that is told, unless it was asked for."""
-    monkeypatch.setattr(job_module, "COMPARED_GAS", 1)
+    monkeypatch.setattr("shackled.parallel._job.COMPARED_GAS", 1)
     for verify, told in ((None, 1), ("some", 0), ("all", 0)):
         notes = Notes()
         render_frames([SCENE], Where(rpc=(node,), tile=TILE, verify=verify), listener=notes)

@@ -22,15 +22,8 @@ from shackled.errors import (
     TooLargeError,
     WrongChainError,
 )
-from shackled.parallel import scheduler as module
-from shackled.parallel.listener import Listener
-from shackled.parallel.part import Part, draw_part
-from shackled.parallel.place import Place
-from shackled.parallel.referee import Referee
-from shackled.parallel.scheduler import Scheduler
-from shackled.parallel.store import Store
-from shackled.parallel.tiles import area, cut
-from shackled.scene.codec import Rectangle
+from shackled.parallel import FAILURES, Listener, Part, Place, Referee, Scheduler, Store, area, cut, draw_part
+from shackled.scene import Rectangle
 
 SIDE = 40
 SCENE = evolve(load("cube"), width=SIDE, height=SIDE)
@@ -95,7 +88,7 @@ class Notes(Listener):
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "PAUSE", 0.001)
+    monkeypatch.setattr("shackled.parallel._scheduler.PAUSE", 0.001)
 
 
 PARTS = [Part(0, tile) for tile in cut(SIDE, SIDE, 4 * SIDE)]
@@ -176,7 +169,7 @@ def test_the_error_of_the_only_place() -> None:
     place = Shaky("a", lambda n, tile: NodeUnreachableError("the node a cannot be reached") if n > 2 else None)
     with pytest.raises(NodeUnreachableError, match=r"^the node a cannot be reached$"):
         run([place])
-    assert place.calls == 3 + module.FAILURES
+    assert place.calls == 3 + FAILURES
     places = [place, Shaky("b", lambda n, tile: WrongChainError("the wrong one"))]
     with pytest.raises(RenderError, match=r"^no place is left to render: "):
         run(places)

@@ -10,13 +10,8 @@ from attrs import evolve
 from shackled import InputError, RenderError, Scene, load
 from shackled.chain import Drawing, open_chain
 from shackled.errors import TooLargeError
-from shackled.parallel import Listener, Where, render_frames
-from shackled.parallel import place as place_module
-from shackled.parallel.part import Part, draw_part
-from shackled.parallel.store import PLAN, Store, folder_of, remove_parts
-from shackled.parallel.tiles import cut
-from shackled.scene.codec import Rectangle
-from shackled.scene.turning import full_turn
+from shackled.parallel import PLAN, Listener, Part, Store, Where, cut, draw_part, folder_of, remove_parts, render_frames
+from shackled.scene import Rectangle, full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)
 PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]
@@ -107,7 +102,7 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
         drawn.append(tile)
         return draw_part(open_chain(), scene, tile)
 
-    monkeypatch.setattr(place_module, "draw_part", counted)
+    monkeypatch.setattr("shackled.parallel._place.draw_part", counted)
     monkeypatch.setattr(Listener, "warned", lambda self, text: said.append(text))
     said: list[str] = []
     resumed = False
@@ -145,7 +140,7 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
         drawn.append(tile)
         return draw_part(open_chain(), scene, tile)
 
-    monkeypatch.setattr(place_module, "draw_part", narrow)
+    monkeypatch.setattr("shackled.parallel._place.draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
     with pytest.raises(KeyboardInterrupt):
         render_frames([SCENE], Where(gas_limit=10**9), keep=keep)

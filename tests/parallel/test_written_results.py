@@ -10,8 +10,8 @@ from attrs import evolve
 from benchmarks.parallel import GRIDS, SIDES
 
 from shackled import load
-from shackled.bench.measure import gas
-from shackled.parallel.tiles import grid
+from shackled.bench import gas
+from shackled.parallel import grid
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
 

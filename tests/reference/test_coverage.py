@@ -7,10 +7,10 @@ import pytest
 from pictures import chain
 from random_scenes import random_case
 from shackled import ChainError
-from shackled.chain.chain import count_call, returned_counts
+from shackled.chain import count_call, returned_counts
 from shackled.reference import coverage, draw_call, selector
 from shackled.reference.call import read_call
-from shackled.scene.codec import encode, encode_scene
+from shackled.scene import encode, encode_scene
 
 #: Scenes of every kind; `tests/differential.py` compares many more with `renderCounted`.
 SEEDS = range(40_000, 40_150)

@@ -16,8 +16,7 @@ from shackled.reference.genesis import generate
 from shackled.reference.genesis.hsv import hsv_to_rgb, rgb_to_hsv
 from shackled.reference.genesis.random import Random, keccak256
 from shackled.reference.genesis.trigonometry import ONE, TABLE, cosine, quotient, rotate, rotate_y, sine
-from shackled.scene.codec import encode
-from shackled.scene.files.load import load
+from shackled.scene import encode, load
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared")

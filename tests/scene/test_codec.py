@@ -14,12 +14,18 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene
-from shackled.scene.camera import Projection
-from shackled.scene.codec import ONE, Rectangle, encode
-from shackled.scene.fit import EXACT_SIZES, MAX_COORDINATE, fit
-from shackled.scene.mesh import vertex_normals
-from shackled.scene.packed_mesh import pack
-from shackled.scene.rotation import rotate
+from shackled.scene import (
+    EXACT_SIZES,
+    MAX_COORDINATE,
+    ONE,
+    Projection,
+    Rectangle,
+    encode,
+    fit,
+    pack,
+    rotate,
+    vertex_normals,
+)
 
 SELECTOR = b"\x12\x34\x56\x78"
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

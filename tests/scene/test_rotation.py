@@ -3,7 +3,7 @@ import pytest
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene.rotation import from_axis_angle, from_euler, multiply, rotate
+from shackled.scene import from_axis_angle, from_euler, multiply, rotate
 
 X, Y, Z = np.eye(3)
 

@@ -3,11 +3,9 @@ import re
 import numpy as np
 import pytest
 
-from shackled.datasets.teapot import teapot
+from shackled.datasets import teapot
 from shackled.errors import InputError
-from shackled.scene.mesh import Mesh
-from shackled.scene.simplify import simplify
-from shackled.scene.staging import is_closed, signed_volume
+from shackled.scene import Mesh, is_closed, signed_volume, simplify
 
 
 def sphere(rings: int = 24) -> Mesh:

@@ -4,12 +4,19 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene.light import Light
-from shackled.scene.material import Material
-from shackled.scene.mesh import Mesh
-from shackled.scene.rotation import from_euler, rotate
-from shackled.scene.scene import Scene
-from shackled.scene.staging import Look, is_closed, painted, signed_volume, stage
+from shackled.scene import (
+    Light,
+    Look,
+    Material,
+    Mesh,
+    Scene,
+    from_euler,
+    is_closed,
+    painted,
+    rotate,
+    signed_volume,
+    stage,
+)
 
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]

@@ -9,8 +9,7 @@ from attrs import evolve
 from pictures import chain
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
-from shackled.scene.rotation import from_euler, rotate
-from shackled.scene.turning import FILLED, full_turn, middle, turn
+from shackled.scene import FILLED, from_euler, full_turn, middle, rotate, turn
 
 #: A bar that points at the viewer: turned, it is much wider.
 BAR = Mesh(

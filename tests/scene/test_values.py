@@ -11,8 +11,7 @@ import pytest
 import shackled
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load, render, replace
 from shackled.parallel import Where
-from shackled.scene.rotation import rotate
-from shackled.scene.simplify import simplify
+from shackled.scene import rotate, simplify
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]
 MESH = Mesh(CORNERS, FACES)
@@ -162,7 +161,7 @@ def test_whole_numbers_in_floats_are_faces() -> None:
 
 def test_a_dark_mesh_of_a_scene_file_stays_dark(tmp_path: Any) -> None:
     """Its colours are whole numbers, none above 1."""
-    from shackled.scene.files.scene_file import write_scene
+    from shackled.scene import write_scene
 
     dark = scene(objects=[Object(Mesh(CORNERS, FACES, [(1, 0, 1), (0, 0, 0), (1, 1, 1)]))])
     write_scene(dark, tmp_path / "dark.json")

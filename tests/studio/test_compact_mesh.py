@@ -13,12 +13,10 @@ from tools.ledger import call_data
 
 from pictures import chain
 from shackled import ChainError, InputError, Mesh, RenderError, load
-from shackled.chain.embedded import EmbeddedChain
-from shackled.datasets.teapot import teapot
-from shackled.scene.fit import fit
-from shackled.scene.packed_mesh import pack
-from shackled.studio.compact_mesh import COMPACT, compact, expand, take_apart
-from shackled.studio.keeping import kept_at
+from shackled.chain import EmbeddedChain
+from shackled.datasets import teapot
+from shackled.scene import fit, pack
+from shackled.studio import COMPACT, compact, expand, kept_at, take_apart
 
 
 def opened(stored: bytes, gas: int | None = None) -> bytes:

@@ -14,22 +14,11 @@ from PIL import Image as PillowImage
 from tools.ledger import World
 
 from shackled import InputError, Mesh, Object, Scene, load, render
-from shackled.datasets.teapot import teapot
+from shackled.datasets import teapot
 from shackled.errors import RenderError
 from shackled.ethereum import intrinsic_gas
-from shackled.scene.packed_mesh import pack
-from shackled.scene.rotation import from_euler, rotate
-from shackled.scene.staging import stage
-from shackled.studio.compact_mesh import expand
-from shackled.studio.keeping import (
-    Storing,
-    compress_zeros,
-    kept_at,
-    on_grid,
-    read_mesh,
-    store_mesh,
-    store_scene,
-)
+from shackled.scene import from_euler, pack, rotate, stage
+from shackled.studio import Storing, compress_zeros, expand, kept_at, on_grid, read_mesh, store_mesh, store_scene
 
 STUDIO = b"\x11" * 20
 

@@ -12,10 +12,8 @@ from tools.examples import compile_example
 from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError
-from shackled.scene.packed_mesh import pack
-from shackled.scene.staging import is_closed
-from shackled.studio.compact_mesh import take_apart
-from shackled.studio.keeping import scene_struct
+from shackled.scene import is_closed, pack
+from shackled.studio import scene_struct, take_apart
 
 SCENE_STRUCT = scene_struct()
 ROOT = Path(__file__).resolve().parents[2]

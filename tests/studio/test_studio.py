@@ -17,11 +17,11 @@ from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, render
-from shackled.chain.refusal import refusal
-from shackled.datasets.teapot import teapot
+from shackled.chain import refusal
+from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene.rotation import from_euler
-from shackled.studio.keeping import scene_struct, store_scene
+from shackled.scene import from_euler
+from shackled.studio import scene_struct, store_scene
 
 SCENE_STRUCT = scene_struct()
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
@@ -165,7 +165,7 @@ def test_turned(world: World) -> None:
 
 
 def spun(quaternion: object, vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    from shackled.scene.rotation import rotate
+    from shackled.scene import rotate
 
     turned: NDArray[np.float64] = rotate(np.asarray(quaternion), vector[None])[0]
     return turned

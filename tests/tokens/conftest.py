@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from nodes import ANVIL, PUBLIC, anvil
-from shackled.chain.address_book import VARIABLE
+from shackled.chain import VARIABLE
 from shackled.cli.app import run
-from shackled.tokens.development import development_accounts
+from shackled.tokens import development_accounts
 from tokens.on_a_node import Node, Said, Shackled
 
 

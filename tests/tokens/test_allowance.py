@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from shackled.errors import InputError
-from shackled.tokens.allowance import read_allowance
+from shackled.tokens import read_allowance
 
 PERMISSION = {
     "account": "0x3C44CdDdB6a900fa2b585dd299e03d12FA4293BC",

@@ -16,18 +16,20 @@ from web3 import Web3
 
 from nodes import Reply, failure, forward, serving
 from shackled.artifacts import artifact
-from shackled.chain.address_book import AddressBook
-from shackled.chain.connection import Connection
+from shackled.chain import AddressBook, Connection
 from shackled.cli.app import run
-from shackled.deploy.contract import local_chain
+from shackled.deploy import local_chain
 from shackled.errors import ChainError, NodeError, RevertError
 from shackled.ethereum import checksum_address
-from shackled.tokens.allow_list import read_allow_list
-from shackled.tokens.collection import open_collection
-from shackled.tokens.contract import Contract
-from shackled.tokens.development import development_accounts
-from shackled.tokens.immutables import immutable_places
-from shackled.tokens.verify import check_collection_code, check_token
+from shackled.tokens import (
+    Contract,
+    check_collection_code,
+    check_token,
+    development_accounts,
+    immutable_places,
+    open_collection,
+    read_allow_list,
+)
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB, CAROL = range(4)

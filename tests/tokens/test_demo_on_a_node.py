@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from nodes import anvil, needs_anvil
-from shackled.chain.address_book import VARIABLE
+from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from tokens.on_a_node import Node, Shackled
 

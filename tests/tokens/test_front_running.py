@@ -9,15 +9,11 @@ import pytest
 from tools.anvil import Anvil
 
 from nodes import anvil, needs_anvil
-from shackled.chain.address_book import VARIABLE, AddressBook
+from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.ethereum import checksum_address
-from shackled.tokens.collection import Collection
-from shackled.tokens.deploying import Offer, launch, plan_launch
-from shackled.tokens.development import development_accounts
-from shackled.tokens.icons import icons_of
-from shackled.tokens.kinds import KINDS
+from shackled.tokens import KINDS, Collection, Offer, development_accounts, icons_of, launch, plan_launch
 
 pytestmark = needs_anvil
 KIND = KINDS["icons"]

@@ -7,9 +7,7 @@ from html.parser import HTMLParser
 import numpy as np
 from PIL import Image as PillowImage
 
-from shackled.tokens.gallery import Shown, page, tokens_json
-from shackled.tokens.metadata import Metadata, Trait
-from shackled.tokens.table import Cost, comparison, markdown
+from shackled.tokens import Cost, Metadata, Shown, Trait, comparison, markdown, page, tokens_json
 
 
 def shown(number: int, **changes: str) -> Shown:

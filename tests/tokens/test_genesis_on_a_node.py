@@ -11,9 +11,9 @@ import pytest
 from PIL import Image as PillowImage
 from web3.exceptions import ContractCustomError
 
-from shackled.chain.address_book import AddressBook
+from shackled.chain import AddressBook
 from shackled.cli.app import run
-from shackled.datasets.genesis.contract import generate_on_chain, picture_on_chain
+from shackled.datasets.genesis import generate_on_chain, picture_on_chain
 from shackled.ethereum import checksum_address
 from tokens.on_a_node import Node, Shackled
 

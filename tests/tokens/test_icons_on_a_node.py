@@ -12,7 +12,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import render
-from shackled.chain.address_book import AddressBook
+from shackled.chain import AddressBook
 from shackled.cli.app import run
 from shackled.ethereum import checksum_address
 from tokens.on_a_node import Node, Shackled

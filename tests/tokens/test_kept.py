@@ -6,10 +6,9 @@ from hypothesis import strategies as st
 
 from shackled import Mesh, Scene
 from shackled.errors import VerificationError
-from shackled.scene.fit import fit
-from shackled.scene.object import Object
-from shackled.studio.keeping import SCENE, compress_zeros, pointing
-from shackled.tokens.kept import expand_zeros, meshes_of
+from shackled.scene import Object, fit
+from shackled.studio import SCENE, compress_zeros, pointing
+from shackled.tokens import expand_zeros, meshes_of
 
 runs = st.lists(st.tuples(st.sampled_from([0, 255, 1, 200]), st.integers(1, 300)), max_size=8)
 

@@ -7,14 +7,21 @@ from pathlib import Path
 import pytest
 
 from nodes import anvil, needs_anvil
-from shackled.chain.address_book import VARIABLE
+from shackled.chain import VARIABLE
 from shackled.deploy import Receipt, Transactor
 from shackled.ethereum import checksum_address
-from shackled.tokens.actions import perform
-from shackled.tokens.deploying import Offer, launch, plan_launch
-from shackled.tokens.development import development_accounts
-from shackled.tokens.kinds import KINDS
-from shackled.tokens.reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE, hidden_rounds, steps
+from shackled.tokens import (
+    HEADERS_AT_ONCE,
+    KINDS,
+    KNOWN_BLOCKS_BEFORE,
+    Offer,
+    development_accounts,
+    hidden_rounds,
+    launch,
+    perform,
+    plan_launch,
+    steps,
+)
 
 
 @needs_anvil

@@ -6,7 +6,7 @@ import pytest
 
 from shackled.datasets import pieces, require
 from shackled.errors import InputError
-from shackled.tokens.licence import licence_of
+from shackled.tokens import licence_of
 
 FILE = Path("model.obj")
 

@@ -14,15 +14,10 @@ from tools.anvil import Anvil
 
 from nodes import ANVIL, anvil
 from proxies import Liar
-from shackled.chain.address_book import VARIABLE
-from shackled.chain.connection import Connection
+from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
-from shackled.tokens.actions import perform
-from shackled.tokens.deploying import Offer, launch, plan_launch
-from shackled.tokens.development import development_accounts
-from shackled.tokens.kinds import KINDS
-from shackled.tokens.storage import plan_storage, store
+from shackled.tokens import KINDS, Offer, development_accounts, launch, perform, plan_launch, plan_storage, store
 
 ETHER, GWEI = 10**18, 10**9
 USER = 3

@@ -11,11 +11,10 @@ from tools.anvil import Anvil
 
 from nodes import KEY, anvil, needs_anvil
 from proxies import Liar
-from shackled.chain.address_book import VARIABLE
-from shackled.chain.connection import Connection
+from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, TransactionError
-from shackled.tokens.randomness import check_randomness
+from shackled.tokens import check_randomness
 
 pytestmark = needs_anvil
 

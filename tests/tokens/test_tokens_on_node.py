@@ -11,7 +11,7 @@ from web3 import HTTPProvider, Web3
 
 from nodes import anvil, needs_anvil
 from shackled.artifacts import artifact
-from shackled.ethereum.header import encode_header
+from shackled.ethereum import encode_header
 from tokens.show import document, traits
 
 PRICE = 10**17

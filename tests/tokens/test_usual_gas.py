@@ -13,12 +13,11 @@ from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, sta
 from tools.tokens.world import Contract, account
 
 from shackled.artifacts import artifact
-from shackled.deploy.contract import local_chain
+from shackled.deploy import local_chain
 from shackled.ethereum import checksum_address, intrinsic_gas
-from shackled.studio.keeping import STUDIO
-from shackled.studio.keeping import store_scene as keep
-from shackled.tokens.actions import USUAL
-from shackled.tokens.icons import add_call
+from shackled.studio import STUDIO
+from shackled.studio import store_scene as keep
+from shackled.tokens import USUAL, add_call
 
 
 def test_the_usual_gas_of_each_function() -> None:

@@ -17,7 +17,7 @@ from web3.types import Wei
 from nodes import needs_anvil
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.ethereum.header import encode_header
+from shackled.ethereum import encode_header
 from tokens.on_a_node import Node
 
 PRICE = 10**17

@@ -11,7 +11,7 @@ from eth_utils.abi import collapse_if_tuple
 
 from shackled import Scene
 from shackled.datasets import icons
-from shackled.scene.codec import encode
+from shackled.scene import encode
 from tools.tokens.world import ETHER, GAS, Contract, World, account, keccak
 
 PRICE = ETHER // 20

@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any
 
-from ..ethereum.abi import SOLIDITY_ERRORS, Errors, Interface, error_table
+from ..ethereum import SOLIDITY_ERRORS, Errors, Interface, error_table
 
 #: The contracts that draw.
 RENDERER = ("Engine", "FragmentEngine", "Renderer")

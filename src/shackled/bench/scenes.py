@@ -9,14 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..scene.background import Background
-from ..scene.camera import Camera, Projection
-from ..scene.light import Light
-from ..scene.material import Material
-from ..scene.mesh import Mesh
-from ..scene.object import Object
-from ..scene.rotation import from_euler, rotate
-from ..scene.scene import Scene
+from ..scene import Background, Camera, Light, Material, Mesh, Object, Projection, Scene, from_euler, rotate
 
 NIGHT = Background((0, 0, 40), (0, 0, 160))
 SUN = Light("directional", (1, 2, 3))

@@ -1,6 +1,5 @@
 """Where the contracts run."""
 
-from .chain import CallResult, Chain, ContractChain, Drawing
-from .opening import CHAINS, open_chain, open_node
+import lazy_loader
 
-__all__ = ["CHAINS", "CallResult", "Chain", "ContractChain", "Drawing", "open_chain", "open_node"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -23,8 +23,7 @@ from rich.progress import (
 )
 
 from ..checks import choice
-from ..datasets import DATASETS, Piece, pieces
-from ..datasets.costs import Cost, cost
+from ..datasets import DATASETS, Cost, Piece, cost, pieces
 from ..errors import InputError
 
 CONSOLE = Console(stderr=True)
@@ -115,8 +114,8 @@ def fetch(
     again: Annotated[bool, typer.Option("--again", help="Prepare anew what is there already.")] = False,
 ) -> None:
     """Download models of other people, clean and simplify them, and keep the result."""
-    from ..datasets.cache import VARIABLE
-    from ..datasets.common.models import model
+    from ..datasets import VARIABLE
+    from ..datasets.common import model
 
     if own is not None and len(names) != 1:
         raise InputError("--from is the file of one model: give one NAME with it")
@@ -127,7 +126,7 @@ def fetch(
 
 
 def _fetch(model: Any, own: Path | None, again: bool) -> None:
-    from ..datasets.common.fetch import fetch, take
+    from ..datasets.common import fetch, take
 
     terms = "" if model.commercial else "; not for commercial use"
     print(f"{model.name}: {model.title} by {model.author}; licence: {model.licence}{terms}", file=sys.stderr)
@@ -168,8 +167,7 @@ def gallery(
     jobs: Annotated[int | None, typer.Option("--jobs", help="Worker processes; else one a core.", min=1)] = None,
 ) -> None:
     """Draw all pieces by the contracts: a page that stands alone, or a contact sheet. What was drawn once is kept."""
-    from ..datasets.drawing import draw_all
-    from ..datasets.gallery import page, sheet
+    from ..datasets import draw_all, page, sheet
     from ..whole_file import write_output
 
     wanted = _check_dataset(dataset)

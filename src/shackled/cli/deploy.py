@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..chain.connection import PATIENCE, Connection
+from ..chain import PATIENCE, Connection
 from ..errors import InputError
 from ..ethereum import checksum_address
 from .option import option
@@ -55,10 +55,7 @@ def deploy(
     ] = PATIENCE,
 ) -> None:
     """Put the contracts on a chain, at the same addresses as on every chain. What is there already is left alone."""
-    from ..deploy import Deployer, Transactor, deployments
-    from ..deploy.contract import CONTRACTS, STANDARD
-    from ..deploy.quote import current_fees
-    from ..deploy.verification import write_verification
+    from ..deploy import CONTRACTS, STANDARD, Deployer, Transactor, current_fees, deployments, write_verification
 
     if rpc is None or not rpc.strip():
         raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")

@@ -10,15 +10,9 @@ from typing import Annotated, Any
 
 import typer
 
-from ..chain import CHAINS, open_chain, open_node
-from ..chain.node import NodeChain
+from ..chain import CHAINS, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas.exact import counting, render_call
-from ..gas.flame_graph import flame_graph
-from ..gas.profile import Profile
-from ..gas.report import make_report
-from ..gas.speedscope import speedscope
-from ..gas.trace import TRACER, can_trace
+from ..gas import TRACER, Profile, can_trace, counting, flame_graph, make_report, render_call, speedscope
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_profile, print_report

@@ -12,7 +12,7 @@ from rich.progress import Progress as Bars
 from rich.table import Table
 from rich.text import Text
 
-from ..gas.search import Step
+from ..gas import Step
 
 #: Steps that are shown at a time.
 ROWS = 12

@@ -7,9 +7,7 @@ import sys
 from rich.console import Console
 from rich.table import Table
 
-from ..gas.limits import limits
-from ..gas.profile import Profile
-from ..gas.report import Report
+from ..gas import Profile, Report, limits
 
 BAR = 24
 #: How many functions and lines are worth a row.

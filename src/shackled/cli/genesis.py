@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ..datasets.genesis.piece import GenesisPiece
+from ..datasets.genesis import GenesisPiece
 from ..errors import InputError
 from ..image import FORMATS, one_of
 
@@ -56,8 +56,7 @@ def genesis(
 
 
 def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
-    from ..datasets.genesis import parse_seed
-    from ..datasets.genesis.contract import generate_on_chain
+    from ..datasets.genesis import generate_on_chain, parse_seed
     from ..image import check_output
 
     if output is not None and len(seeds) > 1:
@@ -87,7 +86,7 @@ def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
 
 def _draw(piece: GenesisPiece, path: Path) -> int:
     """Writes the picture of a piece, made by one call; the gas of that."""
-    from ..datasets.genesis.contract import picture_on_chain
+    from ..datasets.genesis import picture_on_chain
 
     image = picture_on_chain(piece)
     image.save(path)
@@ -99,9 +98,8 @@ def _sheet(sheet: str, count: int | None, size: int | None, workers: int | None)
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    from ..datasets.drawing import SIZE
-    from ..datasets.genesis import COUNT
-    from ..datasets.genesis.sheet import render_sheet
+    from ..datasets import SIZE
+    from ..datasets.genesis import COUNT, render_sheet
 
     columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     count, size = COUNT if count is None else count, SIZE if size is None else size

@@ -10,8 +10,7 @@ from typing import Annotated, Any
 
 from .._load import load, locate
 from ..datasets import Piece
-from ..scene.look import SETTINGS, Kind, Setting, checked_look
-from ..scene.scene import Scene
+from ..scene import SETTINGS, Kind, Scene, Setting, checked_look
 from .option import OPTIONS, option
 from .parse import parse_background, parse_light, parse_size, parse_vector
 

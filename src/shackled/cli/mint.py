@@ -50,13 +50,11 @@ def mint(
     """Put an object on a chain for ever, for every contract to draw. The price is told first."""
 
     from .._load import load, locate
-    from ..chain.connection import Connection
+    from ..chain import Connection
     from ..datasets import Piece
-    from ..deploy import Transactor
-    from ..deploy.quote import current_fees
+    from ..deploy import Transactor, current_fees
     from ..image import check_output
-    from ..tokens.licence import licence_of
-    from ..tokens.storage import Wanted, plan_storage, read_back, store
+    from ..tokens import Wanted, licence_of, plan_storage, read_back, store
     from .parse import parse_size
 
     path = None if output is None else check_output(output)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 
 from ..errors import InputError
-from ..scene.light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
-from ..scene.scene import MAX_SIDE
+from ..scene import INNER_ANGLE, LIGHT_KINDS, MAX_SIDE, WHITE, Light
 
 
 def parse_size(text: str) -> tuple[int, int]:

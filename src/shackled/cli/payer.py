@@ -54,8 +54,7 @@ def price(quotes: Sequence[Quote]) -> str:
 
 def open_signer(account: Path | None, variable: str | None) -> LocalAccount:
     """The account of --account or --private-key-env. InputError if there is none; nothing that is said shows a key."""
-    from ..deploy import environment_account, keystore_account
-    from ..deploy.account import read_keystore
+    from ..deploy import environment_account, keystore_account, read_keystore
 
     if account is not None and variable is not None:
         raise InputError("--account and --private-key-env both say who pays: give one of them")

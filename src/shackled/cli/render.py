@@ -24,8 +24,7 @@ from ..datasets import Piece
 from ..errors import InputError
 from ..image import FORMATS, Image, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
-from ..parallel.store import folder_of, remove_parts
-from ..parallel.where import VERIFY
+from ..parallel import VERIFY, folder_of, remove_parts
 from .job_progress import JobProgress
 from .late_bar import LateBar
 from .look_options import load_with, with_look

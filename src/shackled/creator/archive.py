@@ -8,8 +8,7 @@ import zipfile
 from pathlib import Path, PurePosixPath
 
 from ..errors import InputError
-from ..scene.files.load import SCENES
-from ..scene.files.mesh_file import READERS
+from ..scene import READERS, SCENES
 from .limits import MEGABYTE, Limits
 
 _CHUNK = 1 << 16

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from ..artifacts import artifact
-from ..chain.chain import CallResult
-from ..chain.embedded import EmbeddedChain
+from ..chain import CallResult, EmbeddedChain
 from ..errors import InputError
-from ..gas.exact import KEPT, floor_gas, render_call
+from ..gas import KEPT, floor_gas, render_call
 from .subject import Subject
 
 #: The longest argument of a program on Linux.

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..errors import OutOfGasError
-from ..gas.exact import KEPT, floor_gas
-from ..gas.limits import Limit, limits
+from ..gas import KEPT, Limit, floor_gas, limits
 
 #: Bytes of a transaction, at most, that nodes pass on to each other: geth's txMaxSize, four slots of 32 KiB.
 MAX_TRANSACTION = 4 * 32 * 1024

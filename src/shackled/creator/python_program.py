@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..image import Image
-from ..scene.scene import Scene
+from ..scene import Scene
 from .scene import MATERIAL
 from .subject import Subject
 

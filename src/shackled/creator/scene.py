@@ -9,13 +9,7 @@ from typing import Any
 from attrs import evolve
 
 from ..checks import Color
-from ..scene.background import Background
-from ..scene.light import Light
-from ..scene.object import Object
-from ..scene.rotation import from_euler, multiply, rotate
-from ..scene.scene import Scene
-from ..scene.simplify import simplify_scene
-from ..scene.staging import is_closed, painted
+from ..scene import Background, Light, Object, Scene, from_euler, is_closed, multiply, painted, rotate, simplify_scene
 from .state import Backdrop, Lamp, Pose, Size, Source, State, Surface
 from .view import Bounds, bounds_of, camera_of, carried, lamp_of, light_of, orbit_of
 

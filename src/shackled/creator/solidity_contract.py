@@ -11,10 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..image import Image
-from ..scene.codec import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME, extensions
-from ..scene.fit import fit
-from ..scene.packed_mesh import pack
-from ..scene.scene import Scene
+from ..scene import CULL_BACKFACES, LIGHTS, ONE, PROJECTIONS, SHADINGS, WIREFRAME, Scene, extensions, fit, pack
 from .subject import Subject
 
 #: Bytes of meshes that a contract can hold, EIP-170 allowing 24,576 with its code; and what each object takes of them.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from ..scene.scene import Scene
+from ..scene import Scene
 from .link import LOCAL, is_local
 from .scene import Facts
 from .state import State

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .._render import render
-from ..chain.embedded import EmbeddedChain
+from ..chain import EmbeddedChain
 from ..errors import InputError
-from ..gas.exact import render_call
+from ..gas import render_call
 from ..image import Image
-from ..scene.files.scene_file import encode_scene_file
+from ..scene import encode_scene_file
 from .cast_command import cast_command
 from .film import enlarged, png
 from .picture import File

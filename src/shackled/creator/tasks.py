@@ -9,17 +9,12 @@ from collections.abc import Callable, Sequence
 from typing import Any, Generic, TypeVar
 
 from ..artifacts import artifact
-from ..chain import Chain, open_chain
-from ..chain.chain import returned_bytes, returned_counts
-from ..chain.embedded import EmbeddedChain
+from ..chain import Chain, EmbeddedChain, open_chain, returned_bytes, returned_counts
 from ..datasets import require
 from ..errors import InputError, RenderError
-from ..gas.exact import render_call
+from ..gas import render_call
 from ..image import decode_bmp
-from ..scene.look import resize
-from ..scene.scene import Scene
-from ..scene.simplify import simplify_scene
-from ..scene.turning import full_turn
+from ..scene import Scene, full_turn, resize, simplify_scene
 from .film import film, png
 from .fits import by_trying, places
 from .limits import Limits
@@ -118,7 +113,7 @@ class Desk:
 
     def thumbnail(self, name: str) -> bytes:
         """A piece at 128 x 128 as it comes, as a PNG; kept on disk from run to run."""
-        from ..datasets.drawing import draw
+        from ..datasets import draw
 
         return draw(require(name)).png
 
@@ -141,7 +136,7 @@ class Desk:
 
     def stage_gas(self, state: State, longest: int | None) -> dict[str, int]:
         """Gas by stage, in the order in which a picture is made; traced, which takes a second for two million gas."""
-        from ..gas.profile import profile
+        from ..gas import profile
 
         scene = shrunk(self.scene(state), longest)
         total = self._chain().draw(scene).gas or 0

@@ -13,11 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, InputWarning
-from ..scene.files.load import SCENES, load
-from ..scene.files.mesh_file import READERS
-from ..scene.look import resize
-from ..scene.scene import Scene
-from ..scene.simplify import simplify_scene
+from ..scene import READERS, SCENES, Scene, load, resize, simplify_scene
 from .archive import unpack
 from .controls import MAX_SIDE
 from .gltf import check_gltf

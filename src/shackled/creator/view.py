@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..scene.camera import Camera
-from ..scene.light import Light
-from ..scene.scene import Scene
+from ..scene import Camera, Light, Scene
 from .checking import tidy
 from .controls import control
 from .state import Lamp, Orbit, Vector

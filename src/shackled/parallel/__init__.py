@@ -1,7 +1,5 @@
 """Pictures that take many calls: cut into tiles, spread over processes, nodes and machines, put together again."""
 
-from .job import Finished, render_frames
-from .listener import Listener, Outline
-from .where import Where
+import lazy_loader
 
-__all__ = ["Finished", "Listener", "Outline", "Where", "render_frames"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

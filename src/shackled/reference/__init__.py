@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from ..artifacts import artifact
 from ..image import encode_bmp
-from ..scene.codec import Rectangle, encode
-from ..scene.scene import Scene
+from ..scene import Rectangle, Scene, encode
 from . import coverage
 from .call import read_call
 from .pipeline import Picture, draw

@@ -20,15 +20,14 @@ from attrs import evolve
 from shackled import Light, render
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
-from shackled.datasets.genesis import seed_of
-from shackled.datasets.genesis.contract import call, decode_piece, generate_on_chain, picture_on_chain
+from shackled.datasets.genesis import call, decode_piece, generate_on_chain, picture_on_chain, seed_of
 from shackled.errors import InputError, RenderError
 from shackled.reference.genesis import generate
 from shackled.reference.genesis.random import keccak256
 from shackled.reference.genesis.schemes import BOUNDS as SCHEMES
 from shackled.reference.genesis.structures import BOUNDS as STRUCTURES
 from shackled.reference.genesis.trigonometry import cosine, sine
-from shackled.scene.codec import encode
+from shackled.scene import encode
 
 SOURCES = Path(__file__).resolve().parents[3] / "contracts" / "src" / "genesis"
 

@@ -10,8 +10,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled import render
-from shackled.datasets.genesis import seed_of
-from shackled.datasets.genesis.sheet import render_sheet
+from shackled.datasets.genesis import render_sheet, seed_of
 from shackled.errors import InputError
 from shackled.reference.genesis import generate
 

@@ -2,10 +2,9 @@ import numpy as np
 import pytest
 
 from shackled import Scene, render
-from shackled.datasets import icons
-from shackled.datasets.icons.icon import Icon
-from shackled.scene.mesh import Mesh
-from shackled.scene.staging import is_closed, signed_volume
+from shackled.datasets.icons import ICONS, Icon, find
+from shackled.datasets.icons import pieces as icons
+from shackled.scene import Mesh, is_closed, signed_volume
 
 #: EIP-7825.
 TRANSACTION_GAS = 2**24
@@ -51,7 +50,7 @@ def whole(scene: Scene) -> Mesh:
 
 
 def test_there_are_all_that_were_wanted() -> None:
-    pieces = list(icons.pieces())
+    pieces = list(icons())
     names = [piece.name for piece in pieces]
     assert len(names) == len(set(names)) >= 24
     assert {f"icons/{name}" for name in WANTED} <= set(names)
@@ -61,15 +60,15 @@ def test_there_are_all_that_were_wanted() -> None:
 
 
 def test_finding() -> None:
-    piece = icons.find("diamond")
+    piece = find("diamond")
     assert piece is not None
     assert (piece.name, piece.title) == ("icons/diamond", "Diamond")
     assert isinstance(piece.make(), Scene)
-    assert icons.find("icons/diamond") is None
-    assert icons.find("unicorn") is None
+    assert find("icons/diamond") is None
+    assert find("unicorn") is None
 
 
-@pytest.mark.parametrize("icon", icons.ICONS, ids=lambda icon: icon.name)
+@pytest.mark.parametrize("icon", ICONS, ids=lambda icon: icon.name)
 def test_model(icon: Icon) -> None:
     scene = icon.scene()
     mesh = whole(scene)
@@ -88,7 +87,7 @@ def test_model(icon: Icon) -> None:
     assert len(np.unique(mesh.colors, axis=0)) >= (1 if icon.name in {"heart", "key"} else 2)
 
 
-@pytest.mark.parametrize("icon", icons.ICONS, ids=lambda icon: icon.name)
+@pytest.mark.parametrize("icon", ICONS, ids=lambda icon: icon.name)
 def test_picture(icon: Icon) -> None:
     image = render(icon.scene(), size=128)
     assert image.gas is not None
@@ -106,7 +105,7 @@ def test_picture(icon: Icon) -> None:
 
 
 def test_splitting_and_sorting_do_not_change_a_picture() -> None:
-    icon = next(icon for icon in icons.ICONS if icon.name == "padlock")
+    icon = next(icon for icon in ICONS if icon.name == "padlock")
     scene = icon.scene()
     assert [o.material.shading for o in scene.objects] in (["flat", "smooth"], ["smooth", "flat"])
     mesh = icon.model().mesh(icon.crease)

@@ -10,9 +10,7 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene.files import read_mesh
-from shackled.scene.files.texture import TEXTURED
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, TEXTURED, Mesh, read_mesh
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -339,7 +337,7 @@ def test_nodes_deep_in_one_another(tmp_path: Path) -> None:
 
 
 def test_a_mesh_that_is_shown_too_often(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.scene.files.gltf.MAX_TRIANGLES", 9)
+    monkeypatch.setattr("shackled.scene._files.gltf.MAX_TRIANGLES", 9)
     model = Gltf()
     model.document["nodes"] = [{"mesh": 0}] * 10
     model.document["scenes"] = [{"nodes": list(range(10))}]

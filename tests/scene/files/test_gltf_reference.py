@@ -13,8 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 import gltf_reader
-from shackled.scene.files import read_mesh
-from shackled.scene.mesh import DEFAULT_COLOR
+from shackled.scene import DEFAULT_COLOR, read_mesh
 
 Values = NDArray[Any]
 

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.files import load
-from shackled.scene.files.content import MAX_BYTES
-from shackled.scene.staging import Look
+from shackled.scene import MAX_BYTES, Look, load
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

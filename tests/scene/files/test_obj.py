@@ -5,9 +5,7 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene.files import read_mesh, write_obj
-from shackled.scene.files.texture import TEXTURED
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, TEXTURED, Mesh, read_mesh, write_obj
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.files import read_mesh
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
 
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 

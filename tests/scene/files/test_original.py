@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.camera import DEFAULT_HALF_HEIGHT
-from shackled.scene.files import load
-from shackled.scene.files.original import original_scene
-from shackled.scene.rotation import rotate
-from shackled.scene.scene import Scene
+from shackled.scene import DEFAULT_HALF_HEIGHT, Scene, load, original_scene, rotate
 
 LIGHTING = {
     "applyLighting": True,

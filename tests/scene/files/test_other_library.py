@@ -12,8 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from shackled.scene.files import read_mesh, write_obj
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh, write_obj
 
 Array = NDArray[np.float64]
 Polygons = list[list[int]]

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError, InputWarning
-from shackled.scene.files import read_mesh
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 

@@ -5,8 +5,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
-from shackled.scene.files import polygons
-from shackled.scene.files.polygons import cut, fans
+from shackled.scene import cut, fans
 
 Array = NDArray[np.float64]
 
@@ -124,7 +123,7 @@ def test_many_polygons_keep_their_order() -> None:
 
 
 def test_a_polygon_of_too_many_corners_is_refused_unless_it_is_convex(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(polygons, "MAX_CORNERS", 60)
+    monkeypatch.setattr("shackled.scene._files.polygons.MAX_CORNERS", 60)
     with pytest.raises(InputError, match=r"^face 0 is no convex polygon and has 66 corners; up to 60 are cut$"):
         cut(ring(66), [66], np.arange(66))
     assert len(cut(star([1.0] * 66), [66], np.arange(66))) == 64

@@ -6,16 +6,21 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.background import Background
-from shackled.scene.camera import DEFAULT_HALF_HEIGHT, Camera
-from shackled.scene.files import load, write_scene
-from shackled.scene.light import Light
-from shackled.scene.material import Material
-from shackled.scene.mesh import Mesh
-from shackled.scene.object import Object
-from shackled.scene.rotation import rotate
-from shackled.scene.scene import Scene
-from shackled.scene.staging import BACKGROUND, Look
+from shackled.scene import (
+    BACKGROUND,
+    DEFAULT_HALF_HEIGHT,
+    Background,
+    Camera,
+    Light,
+    Look,
+    Material,
+    Mesh,
+    Object,
+    Scene,
+    load,
+    rotate,
+    write_scene,
+)
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

@@ -4,8 +4,7 @@ from pathlib import Path
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene.files import read_mesh
-from shackled.scene.mesh import DEFAULT_COLOR, Mesh
+from shackled.scene import DEFAULT_COLOR, Mesh, read_mesh
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ...errors import InputError
 from ...ethereum import checksum_address, parse_address
-from ...tokens.kinds import KINDS
+from ...tokens import KINDS
 from ..option import option
 from ..payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
 from ..telling import say, tell
@@ -16,9 +16,9 @@ from ..telling import say, tell
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ...chain.connection import Connection
+    from ...chain import Connection
     from ...deploy import Receipt
-    from ...tokens.collection import Collection
+    from ...tokens import Collection
 
 __all__ = [
     "MOST",
@@ -63,7 +63,7 @@ Json = Annotated[bool, option("--json", "Print JSON instead of words.")]
 
 def connect(rpc: str | None, chain_id: int | None) -> Connection:
     """The node that is meant. WrongChainError if it belongs to another chain than `chain_id`."""
-    from ...chain.connection import Connection
+    from ...chain import Connection
 
     if rpc is None:
         raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
@@ -74,8 +74,8 @@ def connect(rpc: str | None, chain_id: int | None) -> Connection:
 
 def open_named(which: str, rpc: str | None, chain_id: int | None) -> Collection:
     """The collection of a name in the address book, or at an address."""
-    from ...chain.address_book import AddressBook
-    from ...tokens.collection import open_collection
+    from ...chain import AddressBook
+    from ...tokens import open_collection
 
     connection = connect(rpc, chain_id)
     if which.startswith("0x"):
@@ -133,7 +133,7 @@ def send(
 ) -> Receipt:
     """Plans a transaction, tells its price, asks, and sends it. max_fee: of the option, in gwei. ours: see `plan`."""
     from ...deploy import Transactor
-    from ...tokens.actions import plan
+    from ...tokens import plan
 
     transactor = Transactor(collection.connection, signer, max_fee=parse_max_fee(max_fee))
     quote = plan(transactor, collection.contract, function, *arguments, value=value, ours=ours)

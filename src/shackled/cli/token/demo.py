@@ -21,8 +21,7 @@ def demo(
 
     It uses the keys that anvil publishes, and refuses any other chain.
     """
-    from ...tokens.demo import run
-    from ...tokens.table import comparison
+    from ...tokens import comparison, run
 
     if output.exists() and not output.is_dir():
         raise InputError(f"{output} is a file, not a folder")

@@ -37,7 +37,7 @@ def allow_list(
     yes: Yes = False,
 ) -> None:
     """Print the root of an allow-list; with --rpc, put it into a collection, as its owner."""
-    from ...tokens.allow_list import read_allow_list
+    from ...tokens import read_allow_list
     from ...whole_file import write_output
 
     listed = read_allow_list(file)
@@ -67,7 +67,7 @@ def permit(
     chain_id: Chain = None,
 ) -> None:
     """Sign a permission to mint early, for one account; costs nothing. For the signer of the collection."""
-    from ...tokens.allowance import sign_allowance
+    from ...tokens import sign_allowance
     from ...whole_file import write_output
 
     allowed = address(who, "the account")

@@ -44,8 +44,7 @@ def mint(
     as_json: Json = False,
 ) -> None:
     """Mint tokens. The price is told first."""
-    from ...tokens.icons import find_icon
-    from ...tokens.minting import mint_call
+    from ...tokens import find_icon, mint_call
 
     if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
         raise InputError("--allow-list, --permission and --reserve-to are three ways to mint: give one of them")
@@ -94,7 +93,7 @@ def reveal(
 ) -> None:
     """Reveal the tokens whose blocks are there. Anyone may; it is the same whoever does, whenever."""
     from ...deploy import Transactor
-    from ...tokens.reveal import hidden_rounds, latest_block, price_steps, steps
+    from ...tokens import hidden_rounds, latest_block, price_steps, steps
 
     collection = open_named(which, rpc, chain_id)
     if not collection.kind.hidden:

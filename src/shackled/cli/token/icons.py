@@ -8,7 +8,7 @@ import typer
 
 from ...errors import InputError
 from ...ethereum import parse_ether
-from ...studio.keeping import STUDIO
+from ...studio import STUDIO
 from ..option import option
 from ..telling import tell
 from .common import Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_icons
@@ -31,10 +31,17 @@ def add(
     yes: Yes = False,
 ) -> None:
     """Add an icon to a collection that is not sealed; its scene is on the chain already. For the owner."""
-    from ...tokens.deploying import address_of, parts_of
-    from ...tokens.icons import SCALE, add_call, check_sale, chosen_pieces
-    from ...tokens.kept import kept_codes
-    from ...tokens.storage import Wanted, plan_storage
+    from ...tokens import (
+        SCALE,
+        Wanted,
+        add_call,
+        address_of,
+        check_sale,
+        chosen_pieces,
+        kept_codes,
+        parts_of,
+        plan_storage,
+    )
 
     wei = parse_ether(price, "--price")
     check_sale([], wei, supply, reserve)
@@ -68,7 +75,7 @@ def seal(
     yes: Yes = False,
 ) -> None:
     """Fix the set of icons for ever; before it nothing can be sold. For the owner."""
-    from ...tokens.icons import icons_of
+    from ...tokens import icons_of
 
     collection = open_icons(which, rpc, chain_id)
     icons = icons_of(collection)

@@ -12,8 +12,7 @@ import typer
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import checksum_address, parse_ether
-from ...tokens.icons import SCALE
-from ...tokens.kinds import KINDS
+from ...tokens import KINDS, SCALE
 from ..option import option
 from ..payer import ask, open_signer, parse_max_fee
 from ..payer import price as price_of
@@ -68,12 +67,19 @@ def deploy(
     already is left alone.
     """
     from ...deploy import Transactor
-    from ...tokens.allow_list import read_allow_list
-    from ...tokens.deploying import Offer, launch, plan_launch
-    from ...tokens.equipping import plan_equipment
-    from ...tokens.icons import check_sale, chosen_pieces
-    from ...tokens.randomness import check_randomness
-    from ...tokens.storage import Wanted, plan_storage, store
+    from ...tokens import (
+        Offer,
+        Wanted,
+        check_randomness,
+        check_sale,
+        chosen_pieces,
+        launch,
+        plan_equipment,
+        plan_launch,
+        plan_storage,
+        read_allow_list,
+        store,
+    )
 
     kind = KINDS[choice(collection, "the collection", tuple(KINDS))]
     listed = None if allow_list is None else read_allow_list(allow_list)

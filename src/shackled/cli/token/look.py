@@ -27,8 +27,7 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Show a token: its traits, and its picture as a file, both from its `tokenURI`."""
-    from ...tokens.gallery import Shown
-    from ...tokens.picture_file import check_picture_file, save_picture
+    from ...tokens import Shown, check_picture_file, save_picture
 
     if output is not None:
         check_picture_file(output)
@@ -62,8 +61,7 @@ def list_(
     as_json: Json = False,
 ) -> None:
     """List the tokens with owners and traits, and how the collection stands."""
-    from ...tokens.icons import icons_of
-    from ...tokens.listing import read_all, trait_columns
+    from ...tokens import icons_of, read_all, trait_columns
 
     collection = open_named(which, rpc, chain_id)
     terms = collection.terms()
@@ -112,10 +110,8 @@ def picture(
     chain_id: Chain = None,
 ) -> None:
     """Have a chain draw a scene that is kept there, as a PNG file that contracts make."""
-    from ...studio.keeping import STUDIO
-    from ...tokens.contract import Contract
-    from ...tokens.deploying import address_of, parts_of
-    from ...tokens.picture_file import check_picture_file, write_picture
+    from ...studio import STUDIO
+    from ...tokens import Contract, address_of, check_picture_file, parts_of, write_picture
 
     place = address(pointer, "the pointer")
     if output.suffix.lower() != ".png":
@@ -135,8 +131,8 @@ def verify(
     chain_id: Chain = None,
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with what is computed here."""
-    from ...deploy.contract import local_chain
-    from ...tokens.verify import check_code, check_token
+    from ...deploy import local_chain
+    from ...tokens import check_code, check_token
 
     collection = open_named(which, rpc, chain_id)
     local = local_chain()

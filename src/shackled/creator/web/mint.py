@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...artifacts import artifact
-from ...chain.address_book import AddressBook
+from ...chain import AddressBook
 from ...datasets import require
 from ...errors import InputError
 from ...ethereum import checksum_address, ether
-from ...tokens.kinds import KINDS, Kind
-from ...tokens.refusals import PHASES
+from ...tokens import KINDS, PHASES, Kind
 from ..state import Source
 from .waiting import UnknownChainError, WalletError
 from .wallet import Wallet

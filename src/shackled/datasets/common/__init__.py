@@ -2,22 +2,6 @@
 people that are fetched on request.
 """
 
-from __future__ import annotations
+import lazy_loader
 
-from ..piece import Piece
-from . import builtin, models
-
-__all__ = ["find", "pieces"]
-
-
-def pieces() -> list[Piece]:
-    """The built-in ones first."""
-    return [*builtin.pieces(), *models.pieces()]
-
-
-def find(name: str) -> Piece | None:
-    """The piece of that name."""
-    known = models.models()
-    if name in known:
-        return known[name].piece()
-    return next((piece for piece in builtin.pieces() if piece.name == name), None)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -6,17 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ...scene.background import Background
-from ...scene.camera import Camera
-from ...scene.material import Material
-from ...scene.mesh import Mesh
-from ...scene.object import Object
-from ...scene.scene import Scene
-from ...scene.staging import Look, painted, stage
-from ..piece import Piece
-from ..teapot import teapot
+from ...scene import Background, Camera, Look, Material, Mesh, Object, Scene, painted, stage
+from .. import Piece, teapot
 from . import shapes
-from .cornell_box import cornell_box
+from ._cornell_box import cornell_box
 
 LICENCE = "MIT"
 

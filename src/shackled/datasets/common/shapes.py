@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import color as checked_color
-from ...scene.mesh import Mesh, vertex_normals
+from ...scene import Mesh, vertex_normals
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).

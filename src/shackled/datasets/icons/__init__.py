@@ -1,49 +1,5 @@
 """Shackled Icons: small models of our own, each with a light, a pose and a background."""
 
-from __future__ import annotations
+import lazy_loader
 
-from collections.abc import Iterable
-
-from ..piece import Piece
-from . import chains, faces, treasure, world
-
-ICONS = (
-    chains.ethereum,
-    chains.coin,
-    chains.chain,
-    chains.shackle,
-    chains.padlock,
-    chains.key,
-    chains.block,
-    treasure.diamond,
-    treasure.crystals,
-    treasure.crown,
-    treasure.trophy,
-    treasure.sword,
-    treasure.hourglass,
-    treasure.bell,
-    faces.skull,
-    faces.head,
-    faces.glasses,
-    faces.cat,
-    faces.robot,
-    world.heart,
-    world.lightning,
-    world.mushroom,
-    world.cactus,
-    world.rocket,
-    world.planet,
-    world.saucer,
-    world.die,
-    chains.candles,
-)
-
-
-def pieces() -> Iterable[Piece]:
-    """All icons."""
-    return [icon.piece() for icon in ICONS]
-
-
-def find(name: str) -> Piece | None:
-    """The icon of that name, without the dataset's: `find("diamond")`."""
-    return next((icon.piece() for icon in ICONS if icon.name == name), None)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ... import checks
-from ...scene.mesh import Mesh
-from ...scene.rotation import from_euler, rotate
+from ...scene import Mesh, from_euler, rotate
 from .outlines import chamfered, inset, rectangle, regular, triangulate
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ Each file mirrors one of contracts/src/genesis; this one mirrors Genesis.sol.
 
 from __future__ import annotations
 
-from ...datasets.genesis.piece import GenesisPiece
+from ...datasets.genesis import GenesisPiece
 from ...errors import InputError
 from .colors import paint
 from .layout import Layout

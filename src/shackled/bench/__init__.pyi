@@ -1,0 +1,38 @@
+from ._deploy import PyEvmDeployer, PyrevmDeployer, deployment_gas
+from ._engines import open_engines, time_engine
+from ._experiments import EXPERIMENTS, check_plots, run
+from ._lab import Lab
+from ._linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
+from ._measure import call, call_renderer, cost, gas
+from ._original import CODE_SIZES, DEPLOYMENT_GAS, original, original_gas
+from ._report import Report, millions, table, wrapped
+
+__all__ = [
+    "CODE_SIZES",
+    "DEPLOYMENT_GAS",
+    "DIVISIONS",
+    "EXPERIMENTS",
+    "LOOKS",
+    "SIDES",
+    "SQUARE_SIDE",
+    "Lab",
+    "PyEvmDeployer",
+    "PyrevmDeployer",
+    "Report",
+    "call",
+    "call_renderer",
+    "check_plots",
+    "cost",
+    "cubes",
+    "deployment_gas",
+    "gas",
+    "millions",
+    "open_engines",
+    "original",
+    "original_gas",
+    "run",
+    "squares",
+    "table",
+    "time_engine",
+    "wrapped",
+]

@@ -1,0 +1,99 @@
+"""Gas against the size of the canvas, for both projections."""
+
+from __future__ import annotations
+
+from math import log2
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+
+from ..scene import Projection
+from ._lab import Lab
+from ._measure import cost, picture
+from ._original import original_gas
+from ._plots import ORIGINAL, OURS, powers_of_two
+from ._report import Report, millions, ratio, table
+from .scenes import cube
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: The paper goes to 128.
+SIDES = (8, 16, 32, 64, 128, 256, 512)
+QUICK_SIDES = (8, 16, 32)
+PROJECTIONS: dict[Projection, str] = {"perspective": "persp", "orthographic": "orth"}
+#: Pixels of a picture in the gallery, whatever its canvas.
+SHOWN = 128
+
+
+def run(lab: Lab) -> Report:
+    """The same cube on ever larger canvases."""
+    sides = QUICK_SIDES if lab.quick else SIDES
+    scenes = {(projection, side): cube(side, projection) for projection in PROJECTIONS for side in sides}
+    costs = dict(zip(scenes, lab.map("canvas", cost, scenes.values()), strict=True))
+    gas = {key: found.gas for key, found in costs.items()}
+    theirs = {(projection, side): original_gas(f"cube_{PROJECTIONS[projection]}_{side}") for projection, side in scenes}
+    rows = [
+        [projection, side, found.triangles, found.lit_pixels, found.gas, theirs[projection, side]]
+        for (projection, side), found in costs.items()
+    ]
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for color, series, name in ((ORIGINAL, theirs, "original"), (OURS, gas, "Shackled now")):
+            for mark, projection in zip("os", PROJECTIONS, strict=True):
+                points = [(side, value) for side in sides if (value := series[projection, side])]
+                style = "-" if mark == "o" else "--"
+                axes.plot(
+                    *zip(*points, strict=True), mark + style, color=color, ms=4, lw=1.2, label=f"{name}, {projection}"
+                )
+        powers_of_two(axes, list(sides))
+        axes.set(yscale="log", xlabel="side of the canvas, pixels", ylabel="gas")
+        axes.legend()
+
+    return Report(
+        "Gas against the canvas",
+        ["projection", "side", "triangles", "lit_pixels", "gas", "original_gas"],
+        rows,
+        _text(sides, gas, theirs),
+        draw,
+        pictures={"pictures": _gallery(sides)},
+    )
+
+
+Series = dict[tuple[Projection, int], int]
+
+
+def _text(sides: tuple[int, ...], gas: Series, theirs: dict[tuple[Projection, int], int | None]) -> str:
+    first, last = sides[-2:]
+    ours = log2(gas["perspective", last] / gas["perspective", first])
+    before, after = theirs["perspective", first], theirs["perspective", last]
+    assert before
+    assert after
+    lines = []
+    for side in sides:
+        line = [f"{side} x {side}"]
+        for projection in PROJECTIONS:
+            a, b = theirs[projection, side], gas[projection, side]
+            line += [millions(a, 1), millions(b), ratio(a, b)]
+        lines.append(line)
+    head = ["canvas", "perspective: original", "ours", "ratio", "orthographic: original", "ours", "ratio"]
+    return (
+        f"From {first} x {first} to {last} x {last} pixels the gas of the cube grows with the side to the power of"
+        f" {ours:.2f} (2 would be: with the pixels); that of the original to the power of {log2(after / before):.2f},"
+        " because the price of memory grows with its square. The orthographic cube is cheaper here: the eye is"
+        " infinitely far away, so that each face has one highlight for all its pixels.\n\n" + table(head, lines)
+    )
+
+
+def _gallery(sides: tuple[int, ...]) -> PillowImage.Image:
+    """A row for each projection, up to the 128 pixels of the paper, each enlarged to one size."""
+    shown = [side for side in sides if side <= SHOWN]
+    rows = [np.hstack([_picture(projection, side) for side in shown]) for projection in PROJECTIONS]
+    return PillowImage.fromarray(np.vstack(rows))
+
+
+def _picture(projection: Projection, side: int) -> NDArray[np.uint8]:
+    return np.kron(picture(cube(side, projection)), np.ones((SHOWN // side, SHOWN // side, 1), np.uint8))

@@ -1,0 +1,116 @@
+"""Whether gas grows in straight lines: with triangles, with pixels, with both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..scene import Light, Material, Scene
+from ._lab import Lab
+from ._measure import cost
+from ._original import original
+from ._plots import FOURTH, OURS, THIRD
+from ._report import Report, table
+from .fits import Column, fit, line
+from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Into how many parts each side of a square is cut: 2 to 1152 triangles.
+DIVISIONS = tuple(range(1, 25))
+#: Sides of the canvas on which a cube is drawn.
+SIDES = (8, 16, 32, 64, 128, 256, 512)
+SQUARE_SIDE = 128
+
+LOOKS: dict[str, tuple[Material, tuple[Light, ...]]] = {
+    "unlit": (UNLIT, ()),
+    "matte": (MATTE, (SUN,)),
+    "glossy": (GLOSSY, (SUN,)),
+}
+COLORS = {"unlit": THIRD, "matte": FOURTH, "glossy": OURS}
+MARKS = dict(zip(LOOKS, "os^", strict=True))
+
+#: Of a scene: what it belongs to, triangles, pixels of the canvas, gas.
+Row = tuple[str, int, int, int]
+
+
+def run(lab: Lab) -> Report:
+    """Squares cut ever finer, cubes on ever larger canvases; and the scenes that the original was measured with."""
+    divisions, sides = (DIVISIONS[::8], SIDES[:3]) if lab.quick else (DIVISIONS, SIDES)
+    tasks: list[tuple[str, Scene]] = []
+    for look in LOOKS:
+        tasks += [(f"{look} squares", scene) for scene in squares(look, divisions)]
+        tasks += [(f"{look} cubes", scene) for scene in cubes(look, sides)]
+    tasks += [("equal triangles", equal_triangles(n)) for n in (range(1, 4) if lab.quick else range(1, 17))]
+    tasks += [("cubes of the original", cube(side)) for side in sides]
+    costs = lab.map("linear", cost, [scene for _, scene in tasks])
+    rows = [
+        (series, scene.triangles, scene.width * scene.height, found.gas)
+        for (series, scene), found in zip(tasks, costs, strict=True)
+    ]
+
+    def draw(figure: Figure) -> None:
+        left, right = figure.subplots(1, 2)
+        for look in LOOKS:
+            for axes, kind, place in ((left, "squares", 1), (right, "cubes", 2)):
+                _, *columns = columns_of(rows, f"{look} {kind}")
+                x, gas = columns[place - 1], columns[2] / 1e6
+                constant, slope = fit([x], gas).coefficients
+                axes.plot(x, gas, MARKS[look], color=COLORS[look], ms=3.5, label=look)
+                axes.plot(x, constant + slope * x, ":", color=COLORS[look], lw=1)
+        left.set(xlabel="triangles of a square of fixed size", ylabel="gas, millions", xlim=(0, None), ylim=(0, None))
+        right.set(xlabel="pixels of the canvas of a cube", xlim=(0, None), ylim=(0, None))
+        left.legend()
+
+    return Report("Straight lines", ["series", "triangles", "pixels", "gas"], rows, _text(rows), draw, (7.6, 3.3))
+
+
+def squares(look: str, divisions: Sequence[int] = DIVISIONS) -> list[Scene]:
+    """Make the same square, cut ever finer."""
+    material, lights = LOOKS[look]
+    return [square(each, SQUARE_SIDE, material, lights) for each in divisions]
+
+
+def cubes(look: str, sides: Sequence[int] = SIDES) -> list[Scene]:
+    """Make the same cube on ever larger canvases."""
+    material, lights = LOOKS[look]
+    return [turned_cube(side, material, lights) for side in sides]
+
+
+def columns_of(rows: list[Row], *series: str) -> tuple[str, Column, Column, Column]:
+    """Triangles, pixels and gas of some series."""
+    columns = np.array([row[1:] for row in rows if row[0] in series], float).T
+    return series[0], columns[0], columns[1], columns[2]
+
+
+def _text(rows: list[Row]) -> str:
+    lines = []
+    for name in ("tris", "cube_persp"):
+        found = sorted((f for key, f in original().items() if key.startswith(f"{name}_")), key=lambda f: f.gas)
+        gas = np.array([f.gas for f in found], float)
+        if name == "tris":
+            lines.append(line("original: equal triangles", ("triangles",), fit([[f.triangles for f in found]], gas)))
+        else:
+            lines.append(line("original: cubes", ("pixels",), fit([[f.canvas**2 for f in found]], gas)))
+    _, triangles, _, gas = columns_of(rows, "equal triangles")
+    lines.append(line("ours: equal triangles", ("triangles",), fit([triangles], gas)))
+    _, _, pixels, gas = columns_of(rows, "cubes of the original")
+    lines.append(line("ours: cubes", ("pixels",), fit([pixels], gas)))
+    for look in LOOKS:
+        _, triangles, _, gas = columns_of(rows, f"{look} squares")
+        lines.append(line(f"ours: {look} squares", ("triangles",), fit([triangles], gas)))
+        _, _, pixels, gas = columns_of(rows, f"{look} cubes")
+        lines.append(line(f"ours: {look} cubes", ("pixels",), fit([pixels], gas)))
+        _, triangles, pixels, gas = columns_of(rows, f"{look} squares", f"{look} cubes")
+        lines.append(line(f"ours: {look}, all", ("triangles", "pixels"), fit([triangles, pixels], gas)))
+    counts = [row[1] for row in rows if row[0] == "unlit squares"]
+    return (
+        "R2 says what share of the differences a straight line explains. The first four rows are the same scenes on"
+        f" both engines. Squares: one of fixed size, cut into {min(counts):,} to {max(counts):,} triangles at"
+        f" {SQUARE_SIDE} x {SQUARE_SIDE} pixels. Matte: without highlights. Highlights are computed for single"
+        " pixels of large triangles and for the vertices of small ones, so that a glossy square cut finer first needs"
+        " more gas, then less, then more again, and lies on no line.\n\n" + table(["scenes", "gas", "R2"], lines)
+    )

@@ -1,0 +1,54 @@
+"""What one call costs. Gas is exact, so that one call is enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..artifacts import artifact
+from ..chain import CallResult, ContractChain, open_chain
+from ..image import decode_bmp
+from ..scene import Rectangle, Scene, encode
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Of a render: execution gas; triangles that survive culling and clipping, pixels that any of them covers."""
+
+    gas: int
+    triangles: int
+    lit_pixels: int
+
+
+def evm() -> ContractChain:
+    """Open the fastest EVM that is installed."""
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    return chain
+
+
+def call(contract: str, data: bytes) -> CallResult:
+    """Call a contract."""
+    return evm().call(contract, data)
+
+
+def call_renderer(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> CallResult:
+    """Call a function of the Renderer that takes a scene."""
+    return call("Renderer", encode(artifact("Renderer").selectors[function], scene, tile))
+
+
+def gas(scene: Scene, function: str = "render", tile: Rectangle | None = None) -> int:
+    """Measure the execution gas of a function of the Renderer that takes a scene."""
+    return call_renderer(scene, function, tile).gas
+
+
+def cost(scene: Scene) -> Cost:
+    """Measure what the picture of a scene costs."""
+    return Cost(gas(scene), *evm().count(scene))
+
+
+def picture(scene: Scene) -> NDArray[np.uint8]:
+    """Draw a scene: (H, W, 3)."""
+    return decode_bmp(evm().draw(scene).bmp, scene.width, scene.height)

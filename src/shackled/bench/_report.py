@@ -1,0 +1,95 @@
+"""What an experiment found, the files that it becomes, and the tables in them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import textwrap
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PIL import Image as PillowImage
+
+from ..whole_file import make_output_folder, write_output
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Cell = str | int | float | None
+
+
+@dataclass(frozen=True)
+class Report:
+    """What an experiment found.
+
+    head, rows: of the CSV file, figures as they were measured; None leaves a cell empty.
+    text: Markdown, what the figures say and a table of them.
+    draw: draws the plot. shape: its width and height in inches.
+    pictures: what was rendered, by the ends of file names.
+    """
+
+    title: str
+    head: Sequence[str]
+    rows: Sequence[Sequence[Cell]]
+    text: str
+    draw: Callable[[Figure], None]
+    shape: tuple[float, float] = (6.4, 3.6)
+    pictures: Mapping[str, PillowImage.Image] = field(default_factory=dict)
+
+    def save(self, name: str, folder: Path) -> list[Path]:
+        """Writes NAME.csv, NAME.md, NAME.png and the pictures; returns their paths."""
+        from ._plots import plot
+
+        files = {
+            f"{name}.csv": self.csv().encode(),
+            f"{name}.md": f"# {self.title}\n\n{wrapped(self.text)}\n".encode(),
+            f"{name}.png": plot(self.draw, self.shape),
+        }
+        for end, picture in self.pictures.items():
+            stream = io.BytesIO()
+            picture.save(stream, "png", optimize=True)
+            files[f"{name}-{end}.png"] = stream.getvalue()
+        make_output_folder(folder)
+        for file, content in files.items():
+            write_output(folder / file, content)
+        return [folder / file for file in files]
+
+    def csv(self) -> str:
+        """The figures, a line each."""
+        stream = io.StringIO()
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(self.head)
+        writer.writerows(self.rows)
+        return stream.getvalue()
+
+
+def wrapped(text: str) -> str:
+    """Wrap Markdown: its paragraphs have lines of up to 120 characters; tables stay as they are."""
+    blocks = text.strip().split("\n\n")
+    return "\n\n".join(block if block.startswith("|") else textwrap.fill(block, 120) for block in blocks)
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Write a Markdown table whose columns are aligned: the first to the left, the others to the right."""
+    widths = [max(map(len, column)) for column in zip(head, *rows, strict=True)]
+    rule = ["-" * widths[0], *("-" * (width - 1) + ":" for width in widths[1:])]
+
+    def line(cells: Sequence[str]) -> str:
+        first, *others = zip(cells, widths, strict=True)
+        return "| " + " | ".join([first[0].ljust(first[1]), *(cell.rjust(width) for cell, width in others)]) + " |"
+
+    return "\n".join([line(head), line(rule), *map(line, rows)])
+
+
+def millions(gas: float | None, digits: int = 2) -> str:
+    """Write gas such as 4.93M; nothing for None."""
+    return "" if gas is None else f"{gas / 1e6:,.{digits}f}M"
+
+
+def ratio(a: float | None, b: float | None) -> str:
+    """Write a / b, in whole numbers where it is large; nothing where either is None."""
+    if not a or not b:
+        return ""
+    return f"{a / b:,.0f}" if a >= 20 * b else f"{a / b:.2f}"

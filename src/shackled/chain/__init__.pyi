@@ -1,0 +1,42 @@
+from ._address_book import VARIABLE, AddressBook, book_path
+from ._chain import CallResult, Chain, ContractChain, Drawing, count_call, returned_bytes, returned_counts
+from ._connection import PATIENCE, Connection, quantity
+from ._embedded import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, PyEvmChain, PyrevmChain, pyrevm_error
+from ._failures import retry_after, revert_data
+from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
+from ._opening import CHAINS, open_chain, open_node
+from ._refusal import describe, out_of_gas, refusal
+
+__all__ = [
+    "CHAINS",
+    "DEFAULT_GAS_LIMIT",
+    "GAS_LEFT",
+    "MAX_INIT_CODE",
+    "PATIENCE",
+    "SENDER",
+    "VARIABLE",
+    "AddressBook",
+    "CallResult",
+    "Chain",
+    "Connection",
+    "ContractChain",
+    "Drawing",
+    "EmbeddedChain",
+    "NodeChain",
+    "PyEvmChain",
+    "PyrevmChain",
+    "book_path",
+    "count_call",
+    "describe",
+    "metered",
+    "open_chain",
+    "open_node",
+    "out_of_gas",
+    "pyrevm_error",
+    "quantity",
+    "refusal",
+    "retry_after",
+    "returned_bytes",
+    "returned_counts",
+    "revert_data",
+]

@@ -1,0 +1,157 @@
+"""A connection to a node: every question that is asked of one goes through here."""
+
+from __future__ import annotations
+
+import re
+import time
+from typing import Any
+from urllib.parse import unquote, urlsplit
+
+from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChainError
+from ..ethereum import to_hex
+from ._failures import rpc_failure
+
+#: Seconds that a node may take for an answer, and that it may be given at most.
+PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
+#: A part of the name of a host that is rather a key: some nodes are given one as a name of their own.
+_KEY = re.compile("(?=[a-z]*[0-9])[0-9a-z]{20,}", re.IGNORECASE)
+#: The longest pause before a busy node is asked again, in seconds.
+LONGEST_PAUSE = 20.0
+
+
+class Connection:
+    """Asks a node by JSON-RPC; several threads may at once. No message shows a key that the address holds."""
+
+    def __init__(self, url: str, timeout: float = PATIENCE, attempts: int = 1) -> None:
+        """Prepare requests; nothing is sent yet.
+
+        timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
+        InputError if the address is none.
+        """
+        from ._transport import Transport, is_address
+
+        self.url, self.timeout, self.attempts = url.strip(), timeout, attempts
+        try:
+            parts = urlsplit(self.url)
+            host, port = parts.hostname, parts.port
+        except ValueError:
+            parts, host, port = urlsplit(""), None, None
+        if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
+            shown = _without_key(url)
+            raise InputError(f"`rpc` must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
+        if not 0 < timeout <= MOST_PATIENCE:
+            raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}")
+        shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
+        self.name = f"node {f'[{host}]' if ':' in host else shown}" + (f":{port}" if port else "")
+        local = host in ("localhost", "::1") or host.startswith("127.")
+        pieces = [parts.username, parts.password, *parts.path.split("/"), *parts.query.replace("=", "&").split("&")]
+        long = [piece for piece in pieces if piece and len(piece) >= 8]
+        long += [label for label in host.split(".") if _KEY.fullmatch(label)]
+        self._secrets = {*long, *map(unquote, long)}
+        self._transport = Transport(self.url, self.name, timeout, local)
+        self._chain_id: int | None = None
+
+    def request(self, method: str, *parameters: Any) -> Any:
+        """Return the result of a method.
+
+        NodeError or its kinds if the node fails, RevertError or OutOfGasError if the call does that was asked for.
+        """
+        pause = 0.5
+        for attempt in range(self.attempts):
+            try:
+                return self._request(method, parameters)
+            except NodeBusyError as error:
+                pause = 2 * pause if error.retry_after is None else error.retry_after
+                if attempt + 1 == self.attempts or pause > LONGEST_PAUSE:
+                    raise
+                time.sleep(pause)
+        raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
+
+    def number(self, method: str, *parameters: Any) -> int:
+        """Return the result of a method that answers with a number, of at most 256 bits."""
+        result = self.request(method, *parameters)
+        try:
+            return quantity(result)
+        except ValueError:
+            raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
+
+    def data(self, method: str, *parameters: Any) -> bytes:
+        """Return the result of a method that answers with bytes."""
+        result = self.request(method, *parameters)
+        try:
+            if isinstance(result, str) and result.startswith("0x"):
+                return bytes.fromhex(result[2:])
+        except ValueError:
+            pass
+        raise NodeError(f"the {self.name} answered {method} with what is no string of bytes: {result!r:.60}")
+
+    def code(self, address: bytes) -> bytes:
+        """Return the code at an address, empty if there is none."""
+        return self.data("eth_getCode", to_hex(address), "latest")
+
+    def balance(self, address: bytes) -> int:
+        """Return the balance of an account, in wei."""
+        return self.number("eth_getBalance", to_hex(address), "latest")
+
+    def block(self, number: int | None = None) -> dict[str, Any]:
+        """Return a block, by default the latest, without its transactions. Raises NodeError if the node has it not."""
+        which = "latest" if number is None else hex(number)
+        block = self.request("eth_getBlockByNumber", which, False)
+        if block is None and number is not None:
+            raise NodeError(f"the {self.name} does not have block {number:,}; take one that keeps them all")
+        if not isinstance(block, dict):
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}")
+        return block
+
+    def block_gas_limit(self) -> int:
+        """Return the gas that all transactions of a block may use."""
+        block = self.block()
+        try:
+            return quantity(block.get("gasLimit"))
+        except ValueError:
+            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}") from None
+
+    @property
+    def chain_id(self) -> int:
+        """The number of the chain, asked once."""
+        if self._chain_id is None:
+            self._chain_id = self.number("eth_chainId")
+        return self._chain_id
+
+    def expect_chain(self, chain_id: int | None) -> None:
+        """Raise WrongChainError if the node belongs to another chain; None expects none."""
+        if chain_id is not None and self.chain_id != chain_id:
+            raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
+
+    def _request(self, method: str, parameters: tuple[Any, ...]) -> Any:
+        try:
+            answer = self._transport.send(method, parameters)
+            if answer.get("error"):
+                raise rpc_failure(self.name, answer["error"])
+            return answer["result"]
+        except ChainError as error:
+            # some nodes repeat the address of a request in what they say of it
+            error.args = tuple(self._clean(str(each)) for each in error.args)
+            raise
+
+    def _clean(self, text: str) -> str:
+        for secret in self._secrets:
+            text = text.replace(secret, "***")
+        return text
+
+
+def quantity(value: Any) -> int:
+    """Return the number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
+    if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
+        return int(value, 16)
+    raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
+
+
+def _without_key(url: str) -> str:
+    """Return the address up to where a key may stand."""
+    scheme, mark, rest = url.partition("://")
+    if not mark:
+        scheme, rest = "", url
+    host = rest.split("/")[0].split("?")[0].rpartition("@")[2]
+    shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
+    return f"{scheme}{mark}{shown}" + ("/..." if len(host) < len(rest) else "")

@@ -1,0 +1,194 @@
+"""Chains inside this process: an EVM with nothing in it but the contracts, at the rules of Cancun.
+
+Every call finds the same fresh state, so the same call always costs the same gas.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+from typing import Any
+
+from ..artifacts import artifact
+from ..errors import ChainError, RenderError
+from ..ethereum import create2_address, intrinsic_gas, to_hex, word
+from ._chain import CallResult, ContractChain
+from ._refusal import out_of_gas, refusal
+
+#: Enough for pictures of 2048 x 2048 pixels; little enough that a call ends and that its memory stays below 130 MB.
+DEFAULT_GAS_LIMIT = 30_000_000_000
+
+SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
+
+#: Zeros that pyrevm appends to the code of a contract when it is created, for itself.
+PADDING = 33
+
+
+class EmbeddedChain(ContractChain):
+    """Sets up each contract when it is first called, after those whose addresses its constructor asks for."""
+
+    def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
+        """`gas_limit` is for calls that name none."""
+        self.gas_limit = gas_limit
+        self._codes: dict[bytes, bytes] = {}
+        self._addresses: dict[str, bytes] = {}
+
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+
+        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
+        """
+        return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
+
+    def address(self, contract: str) -> bytes:
+        """Return where a contract stands: here as on every chain on which `shackled deploy` has put it."""
+        if contract not in self._addresses:
+            creation = self.creation(contract)
+            code = self.create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
+            address = create2_address(creation)
+            self._codes[address] = code
+            self._addresses[contract] = address
+        return self._addresses[contract]
+
+    def creation(self, contract: str) -> bytes:
+        """Return what deploys a contract, with the arguments of its constructor."""
+        built = artifact(contract)
+        return built.creation + b"".join(word(self.address(part)) for part in built.parts)
+
+    def code(self, contract: str) -> bytes:
+        """Return what stands at the address of a contract."""
+        return self._codes[self.address(contract)]
+
+    def put(self, address: bytes, code: bytes) -> None:
+        """Places code that is none of the package's contracts."""
+        self._codes[address] = code
+
+    def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """Calls whatever stands at an address."""
+        return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
+
+    def codes(self) -> dict[bytes, bytes]:
+        """Return the code of every contract that was set up, by its address."""
+        return dict(self._codes)
+
+    @abstractmethod
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves.
+
+        name: for the message of the ChainError that is raised if the constructor refuses.
+        """
+
+    @abstractmethod
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        """Calls the code at an address."""
+
+
+class PyrevmChain(EmbeddedChain):
+    """The EVM of pyrevm, compiled Rust."""
+
+    name = "embedded EVM (pyrevm)"
+
+    def _evm(self) -> Any:
+        import pyrevm
+
+        # a new one each time: it keeps addresses warm from call to call, and takes no more calls after one that failed
+        evm = pyrevm.EVM(spec_id="Cancun")
+        for address, code in self._codes.items():
+            evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
+        return evm
+
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
+        evm = self._evm()
+        try:
+            address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
+        except RuntimeError as error:
+            raise ChainError(f"the contract {name} could not be deployed: {error}") from None
+        return bytes(evm.get_code(address))[:-PADDING]
+
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        evm, intrinsic = self._evm(), intrinsic_gas(data)
+        try:
+            output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas_limit + intrinsic))
+        except RuntimeError as error:
+            raise pyrevm_error(str(error), gas_limit) from None
+        return CallResult(output, evm.result.gas_used - intrinsic, intrinsic)
+
+
+def pyrevm_error(message: str, gas_limit: int) -> ChainError:
+    if message.startswith("Revert"):
+        return refusal(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
+    if "OutOfGas" in message:
+        return out_of_gas(gas_limit)
+    return RenderError(f"the call failed: {message}")
+
+
+class PyEvmChain(EmbeddedChain):
+    """The EVM of py-evm, pure Python: some hundred times slower, and runs everywhere."""
+
+    name = "embedded EVM (py-evm)"
+
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the code that it leaves."""
+        from eth.constants import CREATE_CONTRACT_ADDRESS
+
+        address = bytes.fromhex("c0de") + bytes(18)
+        state = self._state()
+        message = self._message(creation, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=address)
+        computation = state.computation_class.apply_create_message(state, message, self._transaction)
+        if computation.is_error:
+            raise ChainError(f"the contract {name} could not be deployed: {computation.error!r}")
+        return bytes(state.get_code(address))
+
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        from eth.exceptions import OutOfGas, Revert
+
+        state = self._state()
+        for warm in (SENDER, address):
+            state.mark_address_warm(warm)
+        message = self._message(self._codes[address], data, address, gas_limit)
+        computation = state.computation_class.apply_message(state, message, self._transaction)
+        if computation.is_error:
+            if isinstance(computation.error, Revert):
+                raise refusal(bytes(computation.output), gas_limit)
+            if isinstance(computation.error, OutOfGas):
+                raise out_of_gas(gas_limit)
+            raise RenderError(f"the call failed: {computation.error!r}")
+        return CallResult(bytes(computation.output), computation.get_gas_used(), intrinsic_gas(data))
+
+    def _state(self) -> Any:
+        from eth.constants import BLANK_ROOT_HASH
+        from eth.db.atomic import AtomicDB
+        from eth.vm.execution_context import ExecutionContext
+        from eth.vm.forks.cancun.state import CancunState
+        from eth_typing import Address, BlockNumber, Hash32
+
+        context = ExecutionContext(
+            coinbase=Address(bytes(20)),
+            timestamp=1,
+            block_number=BlockNumber(1),
+            difficulty=0,
+            mix_hash=Hash32(bytes(32)),
+            gas_limit=DEFAULT_GAS_LIMIT,
+            prev_hashes=(),
+            chain_id=1,
+            base_fee_per_gas=0,
+            excess_blob_gas=0,
+        )
+        state = CancunState(AtomicDB(), context, BLANK_ROOT_HASH)
+        for address, code in self._codes.items():
+            state.set_code(Address(address), code)
+        return state
+
+    def _message(self, code: bytes, data: bytes, to: bytes, gas: int, **options: Any) -> Any:
+        from eth.vm.message import Message
+        from eth_typing import Address
+
+        return Message(gas=gas, to=Address(to), sender=Address(SENDER), value=0, data=data, code=code, **options)
+
+    @cached_property
+    def _transaction(self) -> Any:
+        from eth.vm.transaction_context import BaseTransactionContext
+        from eth_typing import Address
+
+        return BaseTransactionContext(gas_price=0, origin=Address(SENDER))

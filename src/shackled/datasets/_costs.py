@@ -1,0 +1,44 @@
+"""How many triangles a piece has, and what gas it takes to render it at 128 x 128.
+
+Those that come with the package were measured by tools/dataset_costs.py, in gas.json beside this file; others are
+rendered when somebody asks.
+"""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+from ..errors import InputError
+from ._piece import Piece
+
+
+class Cost(NamedTuple):
+    """Both None for a piece that has not been fetched yet, or not whole."""
+
+    triangles: int | None
+    gas: int | None
+
+
+@cache
+def table() -> dict[str, Cost]:
+    """What was measured, by the names of the pieces."""
+    content = json.loads(files(__package__).joinpath("gas.json").read_text("utf-8"))
+    return {name: Cost(*cost) for name, cost in content.items()}
+
+
+def cost(piece: Piece) -> Cost:
+    """Of a piece of the datasets."""
+    if piece.name in table():
+        return table()[piece.name]
+    if not piece.ready():
+        return Cost(None, None)
+    from ._drawing import draw
+
+    try:
+        drawing = draw(piece)
+    except InputError:  # what was kept of it is damaged; whoever renders it is told
+        return Cost(None, None)
+    return Cost(drawing.triangles, drawing.gas)

@@ -1,0 +1,51 @@
+"""Scenes that come with the package, and models that are fetched on request.
+
+Each dataset is a module or package with `pieces()` and `find(name)`; it is imported when it is first asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+from importlib import import_module
+from typing import Any
+
+from ..errors import InputError
+from ._piece import Piece
+
+#: The datasets, and what stands before the names of their pieces.
+DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
+
+
+def pieces(dataset: str | None = None) -> Iterator[Piece]:
+    """All pieces, dataset by dataset, or those of one dataset."""
+    for each in DATASETS if dataset is None else (dataset,):
+        yield from _module(each).pieces()
+
+
+def find(name: str) -> Piece | None:
+    """The piece of that name; None if there is none. `genesis/` takes the 64 hexadecimal digits of any seed as well."""
+    dataset, prefix = _dataset_of(name)
+    piece: Piece | None = _module(dataset).find(name.removeprefix(prefix))
+    return piece
+
+
+def require(name: str) -> Piece:
+    """The piece of that name; InputError, with names that are close to it, if there is none."""
+    piece = find(name)
+    if piece is not None:
+        return piece
+    close = get_close_matches(name.lower(), [each.name for each in pieces()], n=3)
+    hint = f"close is {' or '.join(close)}; " if close else ""
+    raise InputError(f"there is no piece {name!r}; {hint}`shackled datasets list` shows all")
+
+
+def _dataset_of(name: str) -> tuple[str, str]:
+    for dataset, prefix in DATASETS.items():
+        if prefix and name.startswith(prefix):
+            return dataset, prefix
+    return "common", ""
+
+
+def _module(dataset: str) -> Any:
+    return import_module(f".{dataset}", __package__)

@@ -1,0 +1,28 @@
+from ._clean import MAX_TRIANGLES, capped, clean, creased, parts, placed, prepare, reduce, without_crumbs
+from ._cornell_box import EYE, HEIGHT, cornell_box
+from ._fetch import checksum, fetch, take
+from ._find import find, pieces
+from ._models import Model, model, models
+
+__all__ = [
+    "EYE",
+    "HEIGHT",
+    "MAX_TRIANGLES",
+    "Model",
+    "capped",
+    "checksum",
+    "clean",
+    "cornell_box",
+    "creased",
+    "fetch",
+    "find",
+    "model",
+    "models",
+    "parts",
+    "pieces",
+    "placed",
+    "prepare",
+    "reduce",
+    "take",
+    "without_crumbs",
+]

@@ -1,0 +1,204 @@
+"""From a mesh as it was scanned or modelled to one that a contract draws for little gas."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...errors import InputError
+from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld
+
+#: As many triangles as the largest object of the Shackled paper has.
+MAX_TRIANGLES = 1198
+#: Parts of fewer triangles are crumbs of a scan, if they are also a small share of the whole.
+CRUMB = 12
+CRUMB_SHARE = 0.001
+
+#: Where simplification may stop on its way.
+STOPS = (3000, 6000, 12000, 2000)
+#: Along the longest side of a mesh, and where simplification stops on its way then.
+CELLS = (512, 384, 256, 192, 128, 96, 64)
+STEPPING_STONE = 4000
+
+Faces = NDArray[np.int64]
+
+
+def prepare(
+    mesh: Mesh,
+    rotation: ArrayLike = (0, 0, 0),
+    cap: bool = False,
+    turn_inside_out: bool = False,
+    max_triangles: int = MAX_TRIANGLES,
+) -> Mesh:
+    """The mesh cleaned, upright, about the origin with its farthest vertex at the distance 1, and of at most
+    `max_triangles` triangles.
+
+    rotation: degrees about x, then y, then z. cap: whether to close its holes. turn_inside_out: whether its faces are
+    seen from inside. Colours stay, normals do not.
+    """
+    mesh = clean(mesh)
+    if cap:
+        mesh = capped(mesh)
+    if turn_inside_out:
+        mesh = Mesh(mesh.positions, mesh.faces[:, ::-1], mesh.colors)
+    # simplified in a space of its own, so that the units of the file do not matter
+    mesh = without_crumbs(reduce(placed(mesh, rotation), max_triangles))
+    return placed(mesh)
+
+
+def clean(mesh: Mesh) -> Mesh:
+    """One vertex for each position, no triangle twice, none back to back with another, and none without area."""
+    positions, first, number = np.unique(mesh.positions + 0.0, axis=0, return_index=True, return_inverse=True)
+    faces = number.reshape(-1)[mesh.faces]
+    faces = _without_doubles(faces)
+    a, b, c = positions[faces].transpose(1, 0, 2)
+    # of the indices too, for the area of a sliver may be rounded to more than zero
+    different = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    faces = faces[different & np.cross(b - a, c - a).any(axis=1)]
+    if not len(faces):
+        raise InputError("the mesh has no triangle with an area")
+    return _compact(positions, faces, mesh.colors[first])
+
+
+def _without_doubles(faces: Faces) -> Faces:
+    """Of triangles with the same corners one stays; none if as many of them face one way as the other, for those are a
+    fold that bounds nothing.
+    """
+    corners = np.sort(faces, axis=1)
+    # the sign of the permutation that sorts the corners
+    a, b, c = faces.T
+    way = np.where((a > b) ^ (b > c) ^ (a > c), -1, 1)
+    _, first, number = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    total = np.bincount(number.reshape(-1), weights=way)
+    kept = np.sort(first[total != 0])
+    turned = (np.sign(total)[number.reshape(-1)[kept]] != way[kept])[:, None]
+    return np.asarray(np.where(turned, faces[kept][:, ::-1], faces[kept]))
+
+
+def capped(mesh: Mesh) -> Mesh:
+    """The mesh with a fan of triangles over each simple hole."""
+    positions, faces = mesh.positions, mesh.faces
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    inner = set(map(tuple, edges[:, ::-1].tolist()))
+    following: dict[int, int] = {}
+    for a, b in edges.tolist():
+        if (a, b) not in inner:
+            following[b] = a  # a cap's edges run against those of the faces
+    colors, points, caps = list(mesh.colors), list(positions), []
+    while following:
+        start, at = following.popitem()
+        loop = [start]
+        while at != start and at in following:
+            loop.append(at)
+            at = following.pop(at)
+        if at == start and len(loop) >= 3:
+            caps += [(a, b, len(points)) for a, b in zip(loop, loop[1:] + loop[:1], strict=True)]
+            points.append(positions[loop].mean(axis=0))
+            colors.append(colors[start])
+    if not caps:
+        return mesh
+    return Mesh(np.array(points), np.concatenate([faces, caps]), np.array(colors))
+
+
+def without_crumbs(mesh: Mesh) -> Mesh:
+    """The mesh without parts, held together by no vertex, of a few triangles."""
+    faces = mesh.faces
+    part = parts(faces, len(mesh.positions))[faces[:, 0]]
+    count = np.bincount(part)[part]
+    least = min(CRUMB, count.max())
+    kept = (count >= least) | (_size_of_parts(mesh, part) > CRUMB_SHARE**0.5)
+    return _compact(mesh.positions, faces[kept], mesh.colors)
+
+
+def parts(faces: Faces, count: int) -> NDArray[np.int64]:
+    """(count,): for each vertex the least number among those that faces connect it with."""
+    label = np.arange(count)
+    while True:
+        least = label[faces].min(axis=1)
+        new = label.copy()
+        for corner in range(3):
+            np.minimum.at(new, faces[:, corner], least)
+        new = new[new]
+        if np.array_equal(new, label):
+            return label
+        label = new
+
+
+def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
+    """Simplified, such that a closed mesh stays closed if there is a way, for then half of it need not be drawn. Where
+    the collapse of edges stalls, the nearest vertices become one first, on grids that grow coarser.
+    """
+    try:
+        first = clean(simplify(mesh, max_triangles))
+        for stop in STOPS if is_closed(mesh) and not is_closed(first) else ():
+            other = clean(simplify(simplify(mesh, stop), max_triangles))
+            if is_closed(other):
+                return other
+        return first
+    except InputError:
+        for tries, cells in product((GENTLE, FORCEFUL), CELLS):
+            with suppress(InputError):
+                fine = simplify(clean(_clustered(mesh, cells)), max(STEPPING_STONE, max_triangles), tries)
+                return clean(simplify(fine, max_triangles, tries))
+        raise
+
+
+def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
+    """Turned, with the middle of its box at the origin, and its farthest vertex at the distance 1."""
+    positions = rotate(from_euler(rotation), mesh.positions)
+    positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
+    return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
+
+
+def creased(mesh: Mesh, degrees: float) -> Mesh:
+    """The mesh with normals that are smooth but across edges at which its faces turn by more than `degrees`: each
+    corner takes the mean, weighted by area, of the faces around it that turn away from its own by less.
+    """
+    positions, faces = mesh.positions, mesh.faces
+    a, b, c = positions[faces].transpose(1, 0, 2)
+    areas = np.cross(b - a, c - a)
+    units = areas / np.linalg.norm(areas, axis=1, keepdims=True)
+    around: list[list[int]] = [[] for _ in positions]
+    for number, face in enumerate(faces.tolist()):
+        for vertex in face:
+            around[vertex].append(number)
+    normals = np.empty((len(faces), 3, 3))
+    least = np.cos(np.radians(degrees)) - 1e-9
+    for number, face in enumerate(faces.tolist()):
+        for corner, vertex in enumerate(face):
+            near = np.array(around[vertex])
+            mean = areas[near[units[near] @ units[number] >= least]].sum(axis=0)
+            length = np.linalg.norm(mean)
+            normals[number, corner] = mean / length if length else units[number]
+    return weld(positions, faces, mesh.colors[faces], np.round(normals, 6))
+
+
+def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
+    """For each face, how large its part is across, as a share of the whole mesh."""
+    corners = mesh.positions[mesh.faces]
+    low = np.full((part.max() + 1, 3), np.inf)
+    high = -low
+    np.minimum.at(low, part, corners.min(axis=1))
+    np.maximum.at(high, part, corners.max(axis=1))
+    whole = np.linalg.norm(np.ptp(mesh.positions, axis=0))
+    return np.asarray(np.linalg.norm(high[part] - low[part], axis=1) / whole)
+
+
+def _clustered(mesh: Mesh, cells: int) -> Mesh:
+    """The vertices in each cell of a grid, `cells` along its longest side, as one in their mean place."""
+    positions = mesh.positions
+    cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / cells))
+    _, first, number = np.unique(cell, axis=0, return_index=True, return_inverse=True)
+    number = number.reshape(-1)
+    sums = np.zeros((len(first), 3))
+    np.add.at(sums, number, positions)
+    means = sums / np.bincount(number)[:, None]
+    return Mesh(means, number[mesh.faces], mesh.colors[first])
+
+
+def _compact(positions: NDArray[np.float64], faces: Faces, colors: NDArray[np.uint8]) -> Mesh:
+    used, faces = np.unique(faces, return_inverse=True)
+    return Mesh(positions[used], faces.reshape(-1, 3), colors[used])

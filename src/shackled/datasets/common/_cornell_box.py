@@ -1,0 +1,83 @@
+"""The Cornell box, from the measurements that the Cornell University Program of Computer Graphics published.
+
+C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile: Modeling the interaction of light between diffuse surfaces,
+SIGGRAPH 1984; the numbers are those of the box with two blocks, "The Cornell Box: Data", Cornell University Program of
+Computer Graphics, 1998. In millimetres; the viewer is at -z, and x grows to the left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...scene import Background, Camera, Light, Material, Mesh, Object, Scene
+
+Point = tuple[float, float, float]
+Color = tuple[int, int, int]
+Quad = tuple[Point, Point, Point, Point]
+
+#: The measured reflectances are spectra; these are colours for a screen that look like photographs of the box.
+WHITE, RED, GREEN = (226, 219, 203), (190, 52, 40), (74, 148, 62)
+LAMP_COLOR = (255, 250, 228)
+
+HEIGHT = 548.8
+LAMP: Quad = ((343, HEIGHT, 227), (343, HEIGHT, 332), (213, HEIGHT, 332), (213, HEIGHT, 227))
+CEILING: Quad = ((556, HEIGHT, 0), (556, HEIGHT, 559.2), (0, HEIGHT, 559.2), (0, HEIGHT, 0))
+FLOOR: Quad = ((552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))
+BACK_WALL: Quad = ((549.6, 0, 559.2), (0, 0, 559.2), (0, HEIGHT, 559.2), (556, HEIGHT, 559.2))
+RIGHT_WALL: Quad = ((0, 0, 559.2), (0, 0, 0), (0, HEIGHT, 0), (0, HEIGHT, 559.2))
+LEFT_WALL: Quad = ((552.8, 0, 0), (549.6, 0, 559.2), (556, HEIGHT, 559.2), (556, HEIGHT, 0))
+#: Height, and the corners (x, z) of the top, in the order of the published data.
+SHORT_BLOCK = (165.0, ((130.0, 65.0), (82.0, 225.0), (240.0, 272.0), (290.0, 114.0)))
+TALL_BLOCK = (330.0, ((423.0, 247.0), (265.0, 296.0), (314.0, 456.0), (472.0, 406.0)))
+
+EYE: Point = (278, 273, -800)
+#: The camera's focal length is 0.035, its film 0.025 by 0.025.
+HALF_HEIGHT = 0.025 / 2 / 0.035
+
+
+def cornell_box() -> Scene:
+    """The box with its lamp in the ceiling, seen by the published camera. There are no shadows: nothing in the pipeline
+    casts any.
+    """
+    room = [(FLOOR, WHITE), *((part, WHITE) for part in _ceiling()), (BACK_WALL, WHITE)]
+    room += [(RIGHT_WALL, GREEN), (LEFT_WALL, RED)]
+    material = Material("flat", ambient=0.35, diffuse=0.75, specular=0, shininess=1)
+    # in the place of the light that the walls throw back at them
+    brighter = Material("flat", ambient=0.52, diffuse=0.6, specular=0, shininess=1)
+    middle = np.mean(LAMP, axis=0)
+    return Scene(
+        [
+            Object(_quads(room), material=material),
+            Object(_quads([(side, WHITE) for side in _block(*SHORT_BLOCK)]), material=brighter),
+            Object(_quads([(side, WHITE) for side in _block(*TALL_BLOCK)]), material=brighter),
+            Object(_quads([(LAMP, LAMP_COLOR)]), material=Material("unlit")),
+        ],
+        camera=Camera(EYE, (EYE[0], EYE[1], 0), half_height=HALF_HEIGHT),
+        # a little below the ceiling, so that its light brushes along it
+        lights=[Light("point", (middle[0], HEIGHT - 60, middle[2]))],
+        background=Background((0, 0, 0)),
+    )
+
+
+def _ceiling() -> list[Quad]:
+    """The ceiling around the lamp."""
+    return [(CEILING[k], CEILING[(k + 1) % 4], LAMP[(k + 1) % 4], LAMP[k]) for k in range(4)]
+
+
+def _block(height: float, corners: Sequence[tuple[float, float]]) -> list[Quad]:
+    """The top and the four sides, from outside."""
+    top = [(x, height, z) for x, z in corners]
+    bottom = [(x, 0.0, z) for x, z in corners]
+    sides: list[Quad] = [(top[k], bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4]) for k in range(4)]
+    return [(top[0], top[1], top[2], top[3]), *sides]
+
+
+def _quads(quads: Sequence[tuple[Quad, Color]]) -> Mesh:
+    first = 4 * np.arange(len(quads))[:, None]
+    return Mesh(
+        np.array([quad for quad, _ in quads]).reshape(-1, 3),
+        np.concatenate([first + np.array(half) for half in ((0, 1, 2), (0, 2, 3))]),
+        np.repeat([color for _, color in quads], 4, axis=0),
+    )

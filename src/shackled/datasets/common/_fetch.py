@@ -1,0 +1,221 @@
+"""Downloads models and prepares them.
+
+A file is downloaded beside its place, under a name that ends in .part, and goes there only if its checksum is right. A
+download that was cut goes on where it stopped, if the server can do that. So what stands in the cache is always whole.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from ...errors import FetchError, InputError
+from ...scene import MAX_BYTES, about
+from .. import cache_folder
+from ._clean import prepare
+from ._models import Model, save_mesh
+from ._unpack import read_model
+
+#: Seconds to wait for a connection, and for more of the file.
+TIMEOUT = (10, 30)
+#: Bytes that are read and written at once; what came of the last of them is lost when a connection is cut.
+CHUNK = 1 << 13
+
+#: Called with the bytes that are here, and those that there will be, None if nobody knows.
+Progress = Callable[[int, int | None], None]
+
+
+def _no_progress(here: int, whole: int | None) -> None:
+    pass
+
+
+def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) -> bool:
+    """Downloads a model unless its file is in the cache, and prepares it; whether there was anything to do.
+
+    again: prepare it anew, and in the place of a file of one's own. FetchError if it cannot be downloaded or kept.
+    """
+    prepared = model.prepared()
+    if not again and model.kept() is not None:
+        return False
+    _keep(model, download(model, progress), prepared)
+    model.prepared(own=True).unlink(missing_ok=True)
+    return True
+
+
+def take(model: Model, path: Path) -> bool:
+    """Prepares a model from a file of one's own in the place of a download; whether it is the very file that would have
+    been downloaded. InputError if it is no mesh that can be read.
+    """
+    if not path.is_file():
+        raise InputError(
+            f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
+        )
+    same = checksum(path, model.checksum) == model.checksum
+    _keep(model, path, model.prepared(own=not same))
+    if same:
+        model.prepared(own=True).unlink(missing_ok=True)
+    return same
+
+
+def checksum(path: Path, like: str) -> str:
+    """Of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
+    kind = like.partition(":")[0]
+    digest = hashlib.sha256()
+    if kind == "git-blob":
+        digest = hashlib.sha1(f"blob {path.stat().st_size}\0".encode(), usedforsecurity=False)
+    with path.open("rb") as file:
+        while data := file.read(CHUNK):
+            digest.update(data)
+    return f"{kind}:{digest.hexdigest()}"
+
+
+def _keep(model: Model, path: Path, prepared: Path) -> None:
+    mesh = read_model(path, model.member)
+    with about(str(path)):
+        mesh = prepare(mesh, model.rotation, model.cap, model.inside_out)
+    with _on_disk(model):
+        save_mesh(mesh, prepared)
+
+
+# ---- the download ----
+
+
+def download(model: Model, progress: Progress = _no_progress) -> Path:
+    """The file of a model as it is published, from the cache or else from the first of its addresses that has it."""
+    import pooch
+
+    pooch.get_logger().setLevel(logging.ERROR)
+    place = model.original
+    with _on_disk(model):
+        if place.is_file() and checksum(place, model.checksum) == model.checksum:
+            return place
+        place.unlink(missing_ok=True)
+        place.parent.mkdir(parents=True, exist_ok=True)
+    failures: list[FetchError] = []
+    for address in model.addresses:
+        known = model.checksum if model.checksum.startswith("sha256:") else None
+        try:
+            with _on_disk(model):
+                pooch.retrieve(address, known, place.name, place.parent, downloader=_Downloader(model, progress))
+            return place
+        except FetchError as error:
+            failures.append(error)
+    raise failures[-1]
+
+
+class _Downloader:
+    """What pooch calls for a download: it checks the sum of the file again, and puts it into its place."""
+
+    def __init__(self, model: Model, progress: Progress) -> None:
+        self._model = model
+        self._progress = progress
+
+    def __call__(self, address: str, output: str, _: Any, check_only: bool = False) -> bool:
+        model = self._model
+        part = _part(model)
+        resumed = part.is_file() and part.stat().st_size > 0
+        self._transfer(address, part)
+        found = checksum(part, model.checksum)
+        if found != model.checksum and resumed:
+            # what was there may have been the beginning of something else
+            part.unlink()
+            self._transfer(address, part)
+            found = checksum(part, model.checksum)
+        if found != model.checksum:
+            part.unlink()
+            raise FetchError(
+                f"{model.name}: what {address} sends is not the file that was expected: its checksum is {found}"
+                f" instead of {model.checksum}"
+            )
+        part.replace(output)
+        return True
+
+    def _transfer(self, address: str, part: Path) -> None:
+        """Downloads what is missing of the file."""
+        import requests
+
+        name = self._model.name
+        here = part.stat().st_size if part.is_file() else 0
+        headers = {"Accept-Encoding": "identity"}
+        if here:
+            headers["Range"] = f"bytes={here}-"
+        whole, answered = self._model.size, False
+        try:
+            with requests.get(address, headers=headers, stream=True, timeout=TIMEOUT) as response:
+                answered = True
+                if response.status_code == 416:  # there is no more than what is here
+                    if whole is None or here == whole:
+                        return
+                    part.unlink()
+                    raise FetchError(f"{name}: {address} sent {here:,} bytes instead of {whole:,}; run it again")
+                if response.status_code not in (200, 206):
+                    raise FetchError(f"{name}: {address} answers {response.status_code} {response.reason}")
+                goes_on = response.status_code == 206 and response.headers.get("Content-Range", "").startswith(
+                    f"bytes {here}-"
+                )
+                if not goes_on:
+                    here = 0
+                with part.open("ab" if goes_on else "wb") as file:
+                    for data in response.iter_content(CHUNK):
+                        here += len(data)
+                        if here > (MAX_BYTES if whole is None else whole):
+                            file.close()
+                            part.unlink()
+                            raise FetchError(
+                                f"{name}: {address} sends more than the {whole or MAX_BYTES:,} bytes expected"
+                            )
+                        _write(file, data)
+                        self._progress(here, whole)
+        except requests.exceptions.ConnectTimeout:
+            raise FetchError(f"{name}: no answer from {_host(address)} within {TIMEOUT[0]} seconds") from None
+        except (
+            requests.exceptions.ConnectionError,
+            requests.exceptions.ChunkedEncodingError,
+            requests.exceptions.Timeout,
+        ):
+            if answered:
+                raise self._cut(here) from None
+            raise FetchError(
+                f"{name}: {_host(address)} cannot be reached; is there a network?"
+                f" A file that you have goes in with: shackled datasets fetch {name} --from FILE"
+            ) from None
+        except requests.exceptions.RequestException as error:
+            raise FetchError(f"{name}: {address} cannot be fetched: {type(error).__name__}") from None
+        if whole is not None and here < whole:
+            raise self._cut(here)
+
+    def _cut(self, here: int) -> FetchError:
+        name, whole = self._model.name, self._model.size
+        of = "" if whole is None else f" of {whole:,}"
+        return FetchError(f"{name}: the connection was cut after {here:,}{of} bytes; run it again to go on from there")
+
+
+def _part(model: Model) -> Path:
+    """Where a download is until it is whole."""
+    return model.original.with_name(f"{model.original.name}.part")
+
+
+def _write(file: Any, data: bytes) -> None:
+    file.write(data)
+
+
+def _host(address: str) -> str:
+    return address.split("/")[2]
+
+
+@contextmanager
+def _on_disk(model: Model) -> Iterator[None]:
+    """Says in one line what the disk does not allow."""
+    try:
+        yield
+    except OSError as error:
+        folder = cache_folder()
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            _part(model).unlink(missing_ok=True)
+            raise FetchError(f"{model.name}: the disk is full: no space for it in {folder}") from None
+        raise FetchError(f"{model.name}: the cache {folder} cannot be used: {error.strerror or error}") from None

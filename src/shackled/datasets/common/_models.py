@@ -1,0 +1,147 @@
+"""Models of other people: what is known of them, and the pieces that they become once they are fetched."""
+
+from __future__ import annotations
+
+import io
+import tomllib
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import InputError
+from ...scene import Background, Look, Material, Mesh, Scene, painted, stage
+from .. import Piece, cache_folder, keep
+from ._clean import creased
+
+#: Raised when `prepare` or what is kept changes, so that what is in caches is not taken for it.
+VERSION = 1
+
+MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
+BACKGROUND = Background((40, 46, 62), (128, 138, 156))
+OWN_LICENCE = "that of your own file"
+
+
+@dataclass(frozen=True)
+class Model:
+    """An entry of models.toml, which says what the fields mean; `size` is its `bytes`, None where it is not known."""
+
+    name: str
+    title: str
+    author: str
+    licence: str
+    commercial: bool
+    addresses: list[str]
+    checksum: str
+    size: int | None = None
+    member: str | None = None
+    rotation: list[float] = field(default_factory=lambda: [0, 0, 0])
+    color: str | None = None
+    azimuth: float = 30
+    elevation: float = 20
+    cap: bool = False
+    inside_out: bool = False
+    cull: bool | None = None
+    crease: float | None = None
+
+    @property
+    def original(self) -> Path:
+        """Where the file is kept as it was downloaded."""
+        suffix = Path(self.addresses[0]).suffix
+        return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
+
+    def prepared(self, own: bool = False) -> Path:
+        """Where the cleaned and simplified mesh is kept; `own`: the one from a file of the user."""
+        return cache_folder() / "models" / f"{self.name}{'.own' if own else ''}.v{VERSION}.npz"
+
+    def kept(self) -> Path | None:
+        """The prepared mesh, that of the user's own file before the downloaded one; None if there is none yet."""
+        return next((path for path in (self.prepared(own=True), self.prepared()) if path.is_file()), None)
+
+    def is_own(self) -> bool:
+        """Whether a file of the user stands in the place of the download."""
+        return self.prepared(own=True).is_file()
+
+    def piece(self) -> Piece:
+        """The piece, fetched or not."""
+        own = self.is_own()
+        return Piece(
+            self.name,
+            "common",
+            self.title,
+            OWN_LICENCE if own else self.licence,
+            self.scene,
+            # what is allowed with a file of which nothing is known is for its owner to say
+            commercial=self.commercial and not own,
+            credit="" if own else self.author,
+            ready=lambda: self.kept() is not None,
+        )
+
+    def scene(self) -> Scene:
+        """The scene; InputError if the model has not been fetched yet."""
+        path = self.kept()
+        if path is None:
+            raise InputError(f"{self.name} is not here yet; run: shackled datasets fetch {self.name}")
+        return self.staged(load_mesh(path, self.name))
+
+    def staged(self, mesh: Mesh) -> Scene:
+        """The scene of a prepared mesh, in the colours of its file if there are any."""
+        if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
+            mesh = painted(mesh, self.color)
+        return stage(
+            mesh if self.crease is None else creased(mesh, self.crease),
+            Look(
+                azimuth=self.azimuth,
+                elevation=self.elevation,
+                material=MATERIAL,
+                background=BACKGROUND,
+                half_height=0.3,
+                cull=self.cull,
+            ),
+        )
+
+
+@cache
+def models() -> dict[str, Model]:
+    """All models, by their names."""
+    text = files(__package__).joinpath("models.toml").read_text("utf-8")
+    return {
+        name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in tomllib.loads(text).items()
+    }
+
+
+def model(name: str) -> Model:
+    """The model of that name; InputError if there is none."""
+    if name not in models():
+        raise InputError(f"there is no model {name!r} to fetch; there are {', '.join(models())}")
+    return models()[name]
+
+
+def pieces() -> list[Piece]:
+    """All models, whether they have been fetched or not."""
+    return [each.piece() for each in models().values()]
+
+
+def save_mesh(mesh: Mesh, path: Path) -> None:
+    """Keeps a prepared mesh. OSError if it cannot be written."""
+    stream = io.BytesIO()
+    np.savez_compressed(
+        stream,
+        positions=np.asarray(mesh.positions, dtype=np.float32),
+        faces=np.asarray(mesh.faces, dtype=np.uint16),
+        colors=np.asarray(mesh.colors, dtype=np.uint8),
+    )
+    keep(path, stream.getvalue())
+
+
+def load_mesh(path: Path, name: str) -> Mesh:
+    """The mesh that `save_mesh` wrote."""
+    try:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
+            return Mesh(data["positions"], data["faces"], data["colors"])
+    except Exception as error:  # what is made of a broken file may be of any class
+        raise InputError(
+            f"{path} cannot be read ({type(error).__name__}); run: shackled datasets fetch --again {name}"
+        ) from None

@@ -1,0 +1,66 @@
+"""The whole collection in one picture."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from math import isqrt
+from pathlib import Path
+
+from PIL import Image as PillowImage
+
+from ...checks import number as check_number
+from ...errors import InputError
+from ...whole_file import write_output
+from .. import SIZE, draw_all
+from . import COUNT, pieces
+
+Progress = Callable[[int, int], None]
+
+
+def _no_progress(done: int, total: int) -> None:
+    pass
+
+
+def check_sheet(path: str | Path) -> Path:
+    """The path, if a sheet can be written there."""
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise InputError(f"the sheet {path} must end in .png")
+    if path.is_dir():
+        raise InputError(f"{path} is a folder, not the file of a sheet")
+    if not path.parent.is_dir():
+        raise InputError(f"the folder {path.parent} of the sheet {path.name} does not exist")
+    return path
+
+
+def render_sheet(
+    path: str | Path,
+    count: int = COUNT,
+    size: int = SIZE,
+    workers: int | None = None,
+    progress: Progress = _no_progress,
+) -> None:
+    """Draws the first `count` pieces by the contracts, size x size pixels each, in rows, into one PNG.
+
+    workers: how many processes draw at once; None takes as many as there are cores. Each drawing is kept in the cache
+    folder when it is done: a run that was stopped goes on where it was. progress is told how many are done, and of how
+    many. InputError if the file cannot be written.
+    """
+    path = check_sheet(path)
+    check_number(count, "the number of pieces of a sheet", 1, COUNT)
+    check_number(size, "the size of a piece in pixels", 1, 1024)
+    shown = [piece for piece, _ in zip(pieces(), range(count), strict=False)]
+    places = {piece.name: place for place, piece in enumerate(shown)}
+    columns = isqrt(count - 1) + 1
+    rows = -(-count // columns)
+    sheet = PillowImage.new("RGB", (columns * size, rows * size))
+    progress(0, count)
+    for done, drawing in enumerate(draw_all(shown, size, workers), 1):
+        row, column = divmod(places[drawing.name], columns)
+        with PillowImage.open(io.BytesIO(drawing.png)) as picture:
+            sheet.paste(picture, (column * size, row * size))
+        progress(done, count)
+    stream = io.BytesIO()
+    sheet.save(stream, "png")
+    write_output(path, stream.getvalue())

@@ -1,0 +1,4 @@
+from ._collection import ICONS, find, pieces
+from ._icon import Icon
+
+__all__ = ["ICONS", "Icon", "find", "pieces"]

@@ -1,0 +1,52 @@
+"""Shackled Icons: small models of our own, each with a light, a pose and a background."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .. import Piece
+from . import _chains as chains
+from . import _faces as faces
+from . import _treasure as treasure
+from . import _world as world
+
+ICONS = (
+    chains.ethereum,
+    chains.coin,
+    chains.chain,
+    chains.shackle,
+    chains.padlock,
+    chains.key,
+    chains.block,
+    treasure.diamond,
+    treasure.crystals,
+    treasure.crown,
+    treasure.trophy,
+    treasure.sword,
+    treasure.hourglass,
+    treasure.bell,
+    faces.skull,
+    faces.head,
+    faces.glasses,
+    faces.cat,
+    faces.robot,
+    world.heart,
+    world.lightning,
+    world.mushroom,
+    world.cactus,
+    world.rocket,
+    world.planet,
+    world.saucer,
+    world.die,
+    chains.candles,
+)
+
+
+def pieces() -> Iterable[Piece]:
+    """All icons."""
+    return [icon.piece() for icon in ICONS]
+
+
+def find(name: str) -> Piece | None:
+    """The icon of that name, without the dataset's: `find("diamond")`."""
+    return next((icon.piece() for icon in ICONS if icon.name == name), None)

@@ -1,0 +1,127 @@
+"""An icon: a solid, and how it is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from attrs import evolve
+from numpy.typing import ArrayLike, NDArray
+
+from ...scene import (
+    NORMAL_UNIT,
+    Background,
+    Camera,
+    Light,
+    Look,
+    Material,
+    Mesh,
+    Object,
+    Scene,
+    from_euler,
+    stage,
+    view_axes,
+)
+from .. import Piece
+from .modelling import Solid
+
+DULL = Material("smooth", ambient=0.42, diffuse=0.68, specular=0, shininess=10)
+GLOSSY = Material("smooth", ambient=0.4, diffuse=0.66, specular=0.5, shininess=36)
+METAL = Material("smooth", ambient=0.42, diffuse=0.68, specular=0.6, shininess=24)
+FACETED = Material("flat", ambient=0.44, diffuse=0.68, specular=0.3, shininess=16)
+SPARKLING = Material("flat", ambient=0.58, diffuse=0.54, specular=0.4, shininess=10)
+
+#: Toward the light, right, up and toward the viewer: from the upper left, low enough for what stands upright.
+LIGHT = (-0.45, 0.5, 0.9)
+
+#: `half_height` of the camera: a long lens, so that what is near does not look large.
+LENS = 0.2
+
+#: Edges at which a surface turns by more degrees than this are seen.
+CREASE = 42.0
+
+
+@dataclass(frozen=True)
+class Icon:
+    """A model with its pose, light and background."""
+
+    name: str
+    title: str
+    model: Callable[[], Solid]
+    look: Look
+    licence: str = "MIT"
+    crease: float = CREASE
+
+    def scene(self) -> Scene:
+        """The scene, 128 x 128 pixels unless it is rendered otherwise."""
+        smooth = self.look.material.shading == "smooth"
+        scene = stage(self.model().mesh(self.crease if smooth else None), self.look)
+        return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
+
+    def piece(self) -> Piece:
+        """The icon as a piece of the dataset."""
+        return Piece(f"icons/{self.name}", "icons", self.title, self.licence, self.scene)
+
+
+def icon(
+    title: str,
+    top: str,
+    bottom: str,
+    material: Material = DULL,
+    *,
+    view: tuple[float, float] = (20, 12),
+    turn: ArrayLike = (0, 0, 0),
+    light: ArrayLike = LIGHT,
+    margin: float = 0.06,
+    licence: str = "MIT",
+    crease: float = CREASE,
+) -> Callable[[Callable[[], Solid]], Icon]:
+    """Makes an icon, named as the function is that models it.
+
+    title: for people. top, bottom: the colours of the background. view: azimuth and elevation of the viewer, and turn:
+    of the model about x, y and z, in degrees. light: toward the only light, right, up and toward the viewer.
+    margin: as in `Look`. crease: as in `Solid.mesh`.
+    """
+    look = Look(
+        rotation=from_euler(turn),
+        azimuth=view[0],
+        elevation=view[1],
+        half_height=LENS,
+        margin=margin,
+        material=material,
+        background=Background(top, bottom),
+        cull=True,
+    )
+    look = evolve(look, lights=[Light("directional", np.asarray(light) @ np.stack(view_axes(look)))])
+    return lambda model: Icon(model.__name__, title, model, look, licence, crease)
+
+
+def _cheaper(o: Object, camera: Camera) -> list[Object]:
+    """Objects that look the same and cost less: the nearest triangles first, for what they hide is not lit; and those
+    that are flat apart from the others, for they need no normals.
+    """
+    faces = o.mesh.faces
+    distance = np.linalg.norm(o.world_positions() - camera.eye, axis=1)[faces].mean(axis=1)
+    order = np.argsort(distance, kind="stable")
+    if o.mesh.normals is None:
+        return [evolve(o, mesh=evolve(o.mesh, faces=faces[order]))]
+    normals = o.mesh.normals[faces[order]]
+    flat = np.abs(normals - normals[:, :1]).max(axis=(1, 2)) < 1 / NORMAL_UNIT
+    parts = []
+    if flat.any():
+        material = evolve(o.material, shading="flat")
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[flat]], smooth=False), material=material))
+    if not flat.all():
+        parts.append(evolve(o, mesh=_part(o.mesh, faces[order[~flat]], smooth=True)))
+    flat_is_nearer = flat.any() and distance[order[flat]].mean() < distance.mean()
+    return parts if flat_is_nearer else parts[::-1]
+
+
+def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
+    """Some of the faces, in that order, with the vertices that they need."""
+    columns: list[NDArray[np.float64]] = [mesh.positions, mesh.colors.astype(np.float64)]
+    if smooth and mesh.normals is not None:
+        columns.append(mesh.normals)
+    table, numbers = np.unique(np.hstack(columns)[faces.reshape(-1)], axis=0, return_inverse=True)
+    return Mesh(table[:, :3], numbers.reshape(-1, 3), table[:, 3:6].astype(np.uint8), table[:, 6:] if smooth else None)

@@ -1,0 +1,36 @@
+from ._account import environment_account, keystore_account, read_keystore
+from ._contract import CONTRACTS, PROXY_CODE, STANDARD, Deployment, deployment, deployments, in_order, local_chain
+from ._deployer import Deployer, Plan, Step, create
+from ._proxy import COST, SIGNED, SIGNER
+from ._quote import Call, Fees, Quote, current_fees, make_quotes
+from ._transactor import Receipt, Transactor
+from ._verification import write_verification
+
+__all__ = [
+    "CONTRACTS",
+    "COST",
+    "PROXY_CODE",
+    "SIGNED",
+    "SIGNER",
+    "STANDARD",
+    "Call",
+    "Deployer",
+    "Deployment",
+    "Fees",
+    "Plan",
+    "Quote",
+    "Receipt",
+    "Step",
+    "Transactor",
+    "create",
+    "current_fees",
+    "deployment",
+    "deployments",
+    "environment_account",
+    "in_order",
+    "keystore_account",
+    "local_chain",
+    "make_quotes",
+    "read_keystore",
+    "write_verification",
+]

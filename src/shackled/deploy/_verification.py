@@ -1,0 +1,44 @@
+"""What a block explorer needs to compare a contract with its sources."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from ..ethereum import checksum_address
+from ..whole_file import make_output_folder, write_output
+from ._contract import Deployment
+
+SUMMARY = "contracts.json"
+
+
+def write_verification(folder: Path, chain_id: int, standing: Sequence[Deployment]) -> list[Path]:
+    """Writes the compiler's input in standard JSON, and a list of the contracts with all that is asked about them.
+
+    Raises OutputError if the folder cannot be written to.
+    """
+    contracts, inputs = [], {}
+    artifacts = files("shackled.artifacts")
+    for each in standing:
+        built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
+        # of its group, whose settings are those of the contract
+        name = f"standard-input-{built['group']}.json"
+        inputs[name] = artifacts.joinpath(name).read_bytes()
+        contracts.append(
+            {
+                "name": f"{built['source']}:{each.name}",
+                "address": checksum_address(each.address),
+                "compiler": built["compiler"],
+                "standardInput": name,
+                "constructorArguments": each.creation[len(built["bytecode"]) // 2 :].hex(),
+            }
+        )
+    summary = json.dumps({"chainId": chain_id, "contracts": contracts}, indent=2) + "\n"
+    written = []
+    make_output_folder(folder)
+    for name, data in {**inputs, SUMMARY: summary.encode()}.items():
+        write_output(folder / name, data)
+        written.append(folder / name)
+    return written

@@ -1,0 +1,75 @@
+"""The header of a block in the form in which it is hashed: what reveals a round of tokens."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..errors import InputError
+from ._data import keccak256, to_hex
+
+#: The fields in their order: as JSON-RPC names them, and how many bytes they have; 0 for a number, None for any length.
+FIELDS: dict[str, int | None] = {
+    "parentHash": 32,
+    "sha3Uncles": 32,
+    "miner": 20,
+    "stateRoot": 32,
+    "transactionsRoot": 32,
+    "receiptsRoot": 32,
+    "logsBloom": 256,
+    "difficulty": 0,
+    "number": 0,
+    "gasLimit": 0,
+    "gasUsed": 0,
+    "timestamp": 0,
+    "extraData": None,
+    "mixHash": 32,
+    "nonce": 8,
+}
+#: Those that forks have added since, the oldest first; a header has them up to that of its fork.
+LATER_FIELDS: dict[str, int | None] = {
+    "baseFeePerGas": 0,
+    "withdrawalsRoot": 32,
+    "blobGasUsed": 0,
+    "excessBlobGas": 0,
+    "parentBeaconBlockRoot": 32,
+    "requestsHash": 32,
+    "blockAccessListHash": 32,
+}
+
+
+def encode_header(block: Mapping[str, Any]) -> bytes:
+    """Encode the header of a block, as `eth_getBlockByNumber` returns it, in RLP.
+
+    Values may be hexadecimal, bytes or numbers. Raises InputError if a field is missing, or if the hash is not the
+    block's: its chain has fields that are not known here.
+    """
+    import rlp
+
+    items = []
+    for name, size in (FIELDS | LATER_FIELDS).items():
+        if block.get(name) is None:
+            if name in LATER_FIELDS:
+                break
+            raise InputError(f"the node does not tell the {name} of block {_number(block)}: its header cannot be made")
+        items.append(_field(block[name], size))
+    header: bytes = rlp.encode(items)
+    found, said = keccak256(header), _field(block.get("hash") or b"", 32)
+    if found != said:
+        raise InputError(
+            f"the header of block {_number(block)} has the hash {to_hex(found)}, not {to_hex(said)}:"
+            " its chain has other fields than Ethereum's"
+        )
+    return header
+
+
+def _number(block: Mapping[str, Any]) -> int:
+    return int.from_bytes(_field(block.get("number") or 0, 0), "big")
+
+
+def _field(value: Any, size: int | None) -> bytes:
+    """Return a value as RLP takes it: a number without leading zeros, anything else in its full length."""
+    from eth_utils.conversions import to_bytes
+
+    data = to_bytes(hexstr=value) if isinstance(value, str) else to_bytes(value)
+    return data.lstrip(b"\0") if size == 0 else data.rjust(size or 0, b"\0")

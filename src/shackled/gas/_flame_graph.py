@@ -1,0 +1,98 @@
+"""A profile as a picture: an SVG flame graph, from stages at the top through functions down to lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from html import escape
+
+from ._profile import Profile
+from ._stages import STAGES
+
+WIDTH, ROW, MARGIN = 1200, 18, 8
+
+#: Boxes that are narrower, in pixels, are left out.
+NARROWEST = 0.4
+#: Pixels of a character of the text, and what it leaves free in its box.
+CHARACTER, PADDING = 6.3, 8
+
+STYLE = (
+    "text{font:11px ui-monospace,Menlo,Consolas,monospace;fill:#1b1b1b}"
+    ".title{font-size:13px;fill:#222}"
+    "rect{stroke:#fff;stroke-width:.6}"
+    "@media(prefers-color-scheme:dark){.title{fill:#ddd}rect{stroke:#14161a}}"
+)
+
+
+@dataclass
+class _Box:
+    gas: int = 0
+    inside: dict[str, _Box] = field(default_factory=dict)
+
+
+def flame_graph(profile: Profile, name: str) -> str:
+    """Return the SVG document. A box is as wide as its gas; pointing at one says how much that is.
+
+    Calls that are common to all of a stage, such as that of the Engine, are left out.
+    """
+    root = _Box()
+    common = _common_calls(profile)
+    for cost in profile.costs:
+        box = root
+        box.gas += cost.gas
+        for key in (cost.stage, *cost.calls[common[cost.stage] :], cost.place.rpartition("/")[2]):
+            box = box.inside.setdefault(key, _Box())
+            box.gas += cost.gas
+    parts: list[str] = []
+    head = MARGIN + ROW + 6
+    scale = (WIDTH - 2 * MARGIN) / max(root.gas, 1)
+    depth, left = 0, float(MARGIN)
+    for index, stage in enumerate(STAGES):
+        if stage in root.inside:
+            box = root.inside[stage]
+            # hues apart from stage to stage, pale enough for dark text in either scheme
+            hue = (18 + 137 * index) % 360
+            depth = max(depth, _draw(parts, stage, box, left, head, scale, root.gas, hue, 0))
+            left += box.gas * scale
+    height = head + depth * ROW + MARGIN
+    title = escape(f"{name}: {root.gas:,} gas, by stage, function and line")
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}">'
+        f'<style>{STYLE}</style><text class="title" x="{MARGIN}" y="{MARGIN + 13}">{title}</text>\n'
+        + "\n".join(parts)
+        + "\n</svg>\n"
+    )
+
+
+def _common_calls(profile: Profile) -> dict[str, int]:
+    """Return how many of the first calls are the same for all of a stage: they would be rows of one box each."""
+    first: dict[str, tuple[str, ...]] = {}
+    for cost in profile.costs:
+        # the function itself stays
+        calls = first.setdefault(cost.stage, cost.calls[:-1])
+        same = next((i for i, (a, b) in enumerate(zip(calls, cost.calls[:-1], strict=False)) if a != b), None)
+        first[cost.stage] = calls[: min(len(calls), len(cost.calls) - 1) if same is None else same]
+    return {stage: len(calls) for stage, calls in first.items()}
+
+
+def _draw(
+    parts: list[str], name: str, box: _Box, left: float, top: float, scale: float, total: int, hue: int, depth: int
+) -> int:
+    """Adds a box and what is inside; how many rows that takes."""
+    width = box.gas * scale
+    if width < NARROWEST:
+        return depth
+    fits = int((width - PADDING) / CHARACTER)
+    label = name if len(name) <= fits else name[: fits - 1] + "…" if fits >= 4 else ""
+    y = top + depth * ROW
+    text = f'<text x="{left + PADDING / 2:.1f}" y="{y + 12.5:.1f}">{escape(label)}</text>' if label else ""
+    share = 100 * box.gas / max(total, 1)
+    parts.append(
+        f"<g><title>{escape(name)}: {box.gas:,} gas, {share:.2f} %</title>"
+        f'<rect x="{left:.2f}" y="{y:.1f}" width="{width:.2f}" height="{ROW - 1}" '
+        f'fill="hsl({hue},{62 - 3 * (depth % 4)}%,{70 + 3 * (depth % 4)}%)"/>{text}</g>'
+    )
+    rows = depth + 1
+    for key, inner in sorted(box.inside.items(), key=lambda item: -item[1].gas):
+        rows = max(rows, _draw(parts, key, inner, left, top, scale, total, hue, depth + 1))
+        left += inner.gas * scale
+    return rows

@@ -1,0 +1,165 @@
+"""A call, instruction by instruction: what each cost, in which function, called from where, at work for which stage."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from typing import Any
+
+from ..chain import CallResult, PyEvmChain
+from ..errors import InputError
+from ._source_map import source_map
+from ._stages import REST, stages_of
+
+_JUMPS, _FIRST_CALL = (0x56, 0x57), 0xF0
+
+#: Instructions between two reports of progress.
+_STRIDE = 1 << 16
+
+
+@dataclass(eq=False)
+class Frame:
+    """A function with the calls that led to it; the same for every call by the same way.
+
+    contract: the name of its artifact. entry: the position at which it begins; 0 is the contract itself.
+    costs: gas by stage and position of the instruction, without that of calls.
+    """
+
+    contract: str
+    entry: int
+    parent: Frame | None
+    costs: defaultdict[str, defaultdict[int, int]] = field(
+        default_factory=lambda: defaultdict(lambda: defaultdict(int))
+    )
+    calls: dict[tuple[str, int], Frame] = field(default_factory=dict)
+
+    def call(self, contract: str, entry: int) -> Frame:
+        """Return the frame of a function that is called here."""
+        key = contract, entry
+        if key not in self.calls:
+            self.calls[key] = Frame(contract, entry, self)
+        return self.calls[key]
+
+    def frames(self) -> list[Frame]:
+        """This frame and all below it."""
+        return [self, *(frame for each in self.calls.values() for frame in each.frames())]
+
+    def gas(self) -> int:
+        """Return the gas of this frame without what it calls."""
+        return sum(sum(costs.values()) for costs in self.costs.values())
+
+
+#: What tracing needs, for messages.
+TRACER = "the package py-evm: pip install 'shackled[profile]'"
+
+
+def can_trace() -> bool:
+    """Return whether there is an EVM that can be traced."""
+    return find_spec("eth") is not None
+
+
+def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[Frame, CallResult]:
+    """Makes a call in py-evm; the frame of the contract, and the result.
+
+    report: is told now and then how much gas has been used. InputError if py-evm is not installed.
+    """
+    if not can_trace():
+        raise InputError(f"gas by stage and line needs {TRACER}")
+    chain = _Tracer(report)
+    result = chain.call(contract, data)
+    assert chain.root is not None
+    assert sum(frame.gas() for frame in chain.root.frames()) == result.gas
+    return chain.root, result
+
+
+class _Tracer(PyEvmChain):
+    """Keeps what the last call cost."""
+
+    def __init__(self, report: Callable[[int], None] | None) -> None:
+        super().__init__()
+        self.root: Frame | None = None
+        self._report = report
+
+    def _state(self) -> Any:
+        state = super()._state()
+        self.root = None
+        #: Who is calling, for which stage; and the gas of the call that ended last.
+        self._caller: tuple[Frame | None, str] = None, REST
+        self._called = 0
+        tracer, base = self, state.computation_class
+
+        def apply_computation(cls: Any, state: Any, message: Any, *rest: Any, **named: Any) -> Any:
+            if message.is_create or message.code_address not in tracer._addresses.values():
+                return base.apply_computation.__func__(cls, state, message, *rest, **named)
+            with cls(state, message, *rest) as computation:
+                computation.contracts_created = []
+                tracer._run_code(computation)
+            return computation
+
+        members = {"apply_computation": classmethod(apply_computation)}
+        state.computation_class = type("TracedComputation", (base,), members)
+        return state
+
+    def _run_code(self, computation: Any) -> None:
+        """Run the loop of py-evm, and count the gas of each instruction."""
+        from eth.exceptions import Halt
+        from eth.vm.logic.invalid import InvalidOpcode
+
+        address = computation.msg.code_address
+        contract = next(name for name, each in self._addresses.items() if each == address)
+        mapped = source_map(contract)
+        stages = stages_of(mapped)
+        jumps = {at: place.jump for at, place in mapped.places.items() if place.jump in "io"}
+        caller, stage = self._caller
+        frame = Frame(contract, 0, None) if caller is None else caller.call(contract, 0)
+        if self.root is None:
+            self.root = frame
+        #: Frame and stage of each call that is open, and where it should return to.
+        returns: list[tuple[Frame, str, int]] = []
+        costs = frame.costs[stage]
+        code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
+        start = before = meter.gas_remaining
+        countdown = _STRIDE
+        for opcode in code:
+            at = code.program_counter - 1
+            new = stages.get(at, stage)
+            if new != stage:
+                stage = new
+                costs = frame.costs[stage]
+            operation = opcodes.get(opcode) or InvalidOpcode(opcode)
+            halted = False
+            if opcode >= _FIRST_CALL:
+                self._caller, self._called = (frame, stage), 0
+            try:
+                operation(computation=computation)
+            except Halt:
+                halted = True
+            after = meter.gas_remaining
+            costs[at] += before - after
+            before = after
+            if opcode >= _FIRST_CALL:
+                # what was called has books of its own
+                costs[at] -= self._called
+            if halted:
+                break
+            if opcode in _JUMPS and at in jumps and code.program_counter != at + 1:
+                target = code.program_counter
+                if jumps[at] == "i":
+                    returns.append((frame, stage, at + 1))
+                    frame = frame.call(contract, target)
+                elif any(target == back for _, _, back in returns):
+                    back = -1
+                    while back != target:
+                        frame, stage, back = returns.pop()
+                elif returns and mapped.places[target].function not in (None, mapped.entries.get(frame.entry)):
+                    frame, stage, _ = returns.pop()
+                # else the common end of several functions, of the compiler's making, from where it goes on
+                costs = frame.costs[stage]
+            countdown -= 1
+            if not countdown:
+                countdown = _STRIDE
+                if self._report is not None:
+                    self._report(start - after)
+        self._called = start - before

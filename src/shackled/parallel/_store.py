@@ -1,0 +1,122 @@
+"""Finished parts on the disk, so that a long job goes on where it stopped.
+
+Each part is a file, named by the hash of the contracts and of the call that made it, and there whole or not at all.
+What is read is verified; what is not as it was written is as good as not there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from ..artifacts import RENDERER, artifact
+from ..chain import Drawing
+from ..errors import ChainError
+from ..scene import Rectangle, Scene, encode_scene, fit
+from ..whole_file import make_output_folder, write_output
+from ._part import Part, check_part
+from ._tiles import covers
+
+SUFFIX = ".part"
+PLAN = "plan.json"
+
+
+def folder_of(output: Path) -> Path:
+    """Where the parts of a picture are kept until it is finished."""
+    return output.with_name(output.name + ".parts")
+
+
+def remove_parts(folder: Path) -> None:
+    """Takes away all that a store keeps in a folder, and the folder if nothing else is in it."""
+    with suppress(OSError):
+        # with a dot before and more behind: what was being written when the machine went down
+        halves = (*folder.glob(f".*{SUFFIX}.*"), *folder.glob(f".{PLAN}.*"))
+        for path in (*folder.glob(f"*{SUFFIX}"), folder / PLAN, *halves):
+            path.unlink(missing_ok=True)
+        folder.rmdir()
+
+
+def contracts_digest() -> bytes:
+    """A hash of the contracts that draw."""
+    return hashlib.sha256(b"".join(artifact(name).creation for name in RENDERER)).digest()
+
+
+class Store:
+    """The finished parts of a job."""
+
+    def __init__(self, folder: Path, frames: Sequence[Scene], compared: bool = True) -> None:
+        """compared: whether all parts are known to be right; those of a run in which they were not do not do then.
+
+        Errors as of `make_output_folder`.
+        """
+        self.folder = folder
+        self._frames = frames
+        self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
+        self._salt = contracts_digest() + bytes([compared])
+        self._kept = 0
+        make_output_folder(folder)
+
+    def read(self, part: Part) -> Drawing | None:
+        """A finished part, if it is there."""
+        try:
+            data = self._path(part).read_bytes()
+            head, bmp = data[32:].split(b"\n", 1)
+            numbers = json.loads(head)
+        except (OSError, ValueError):
+            return None
+        if hashlib.sha256(data[32:]).digest() != data[:32]:
+            return None
+        piece = Drawing(bmp, *numbers)
+        try:
+            check_part(piece, part.tile)
+        except ChainError:
+            return None
+        return piece
+
+    def write(self, part: Part, piece: Drawing) -> None:
+        """Keeps a finished part. OutputError if the disk does not take it."""
+        numbers = [piece.gas, piece.intrinsic_gas]
+        body = json.dumps(numbers).encode() + b"\n" + piece.bmp
+        write_output(self._path(part), hashlib.sha256(body).digest() + body)
+        self._kept += 1
+
+    def forget(self, part: Part) -> None:
+        """Takes a part away that turned out to be wrong."""
+        self._path(part).unlink(missing_ok=True)
+
+    def read_plan(self) -> list[Part] | None:
+        """The parts into which the same job was cut before, if there is such a plan."""
+        try:
+            plan = json.loads((self.folder / PLAN).read_bytes())
+            if plan["job"] != self._job():
+                return None
+            parts = [Part(frame, Rectangle(*tile)) for frame, tile in plan["parts"]]
+        except (OSError, ValueError, TypeError, KeyError):
+            return None
+        for number, scene in enumerate(self._frames):
+            if not covers([part.tile for part in parts if part.frame == number], scene.width, scene.height):
+                return None
+        return parts if all(0 <= part.frame < len(self._frames) for part in parts) else None
+
+    def write_plan(self, parts: Sequence[Part]) -> None:
+        """Keeps how the job is cut."""
+        tiles = [[p.frame, [p.tile.x, p.tile.y, p.tile.width, p.tile.height]] for p in parts]
+        write_output(self.folder / PLAN, json.dumps({"job": self._job(), "parts": tiles}).encode())
+
+    def leave(self) -> bool:
+        """Ends an unfinished job: whether anything is kept for the next time."""
+        if self._kept or any(self.folder.glob(f"*{SUFFIX}")):
+            return True
+        remove_parts(self.folder)
+        return False
+
+    def _job(self) -> str:
+        return hashlib.sha256(self._salt + b"".join(self._scenes)).hexdigest()
+
+    def _path(self, part: Part) -> Path:
+        tile = part.tile
+        place = f"{tile.x},{tile.y},{tile.width},{tile.height}".encode()
+        return self.folder / (hashlib.sha256(self._salt + self._scenes[part.frame] + place).hexdigest() + SUFFIX)

@@ -1,0 +1,75 @@
+"""How a canvas is cut into tiles.
+
+Tiles are strips as wide as the canvas wherever that is possible: the rows of a triangle are then cut as little as they
+can be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ..scene import Rectangle
+
+#: A tile of fewer pixels is not cut any further: what it costs is the geometry, not the pixels.
+SMALLEST = 64
+#: Strips of fewer rows are cut into columns first.
+FEWEST_ROWS = 4
+
+
+def cut(width: int, height: int, pixels: int, at_least: int = 1) -> list[Rectangle]:
+    """Tiles of a canvas, rows from the top.
+
+    pixels: of a tile at most, 1 or more. at_least: so many tiles, if there are so many rows.
+    """
+    rows = max(1, min(height // max(1, at_least), pixels // width))
+    columns = width
+    if pixels < min(height, FEWEST_ROWS) * width:
+        rows = max(1, min(FEWEST_ROWS, height, pixels))
+        columns = pixels // rows
+    return list(grid(width, height, columns, rows))
+
+
+def grid(width: int, height: int, tile_width: int, tile_height: int) -> Iterator[Rectangle]:
+    """Tiles of at most that size, as equal as they can be."""
+    for y, rows in _shares(height, tile_height):
+        for x, columns in _shares(width, tile_width):
+            yield Rectangle(x, y, columns, rows)
+
+
+def halves(tile: Rectangle) -> list[Rectangle]:
+    """The two halves of a tile; the tile alone where it is too small to be cut."""
+    x, y, width, height = tile.x, tile.y, tile.width, tile.height
+    if width * height < 2 * SMALLEST:
+        return [tile]
+    if height >= 2 * FEWEST_ROWS or height >= width:
+        half = height // 2
+        return [Rectangle(x, y, width, half), Rectangle(x, y + half, width, height - half)]
+    half = width // 2
+    return [Rectangle(x, y, half, height), Rectangle(x + half, y, width - half, height)]
+
+
+def covers(tiles: Iterable[Rectangle], width: int, height: int) -> bool:
+    """Whether the tiles are on the canvas and cover each pixel of it once."""
+    seen = [bytearray(width) for _ in range(height)]
+    for tile in tiles:
+        inside = 0 <= tile.x < tile.x + tile.width <= width and 0 <= tile.y < tile.y + tile.height <= height
+        if not inside:
+            return False
+        for row in seen[tile.y : tile.y + tile.height]:
+            if any(row[tile.x : tile.x + tile.width]):
+                return False
+            row[tile.x : tile.x + tile.width] = b"\1" * tile.width
+    return all(all(row) for row in seen)
+
+
+def area(tile: Rectangle) -> int:
+    """The pixels of a tile."""
+    return tile.width * tile.height
+
+
+def _shares(whole: int, largest: int) -> Iterator[tuple[int, int]]:
+    """Begin and length of equal shares, none above `largest`."""
+    count = -(-whole // largest)
+    for i in range(count):
+        begin = whole * i // count
+        yield begin, whole * (i + 1) // count - begin

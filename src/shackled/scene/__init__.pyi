@@ -1,0 +1,124 @@
+from ._background import Background
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection
+from ._codec import (
+    CULL_BACKFACES,
+    LIGHTS,
+    ONE,
+    PROJECTIONS,
+    SHADINGS,
+    WIREFRAME,
+    Rectangle,
+    encode,
+    encode_scene,
+    extensions,
+)
+from ._files.content import MAX_BYTES
+from ._files.load import SCENES, load
+from ._files.mesh_file import READERS, read_mesh
+from ._files.obj import write_obj
+from ._files.original import original_scene
+from ._files.polygons import cut, fans
+from ._files.scene_file import encode_scene_file, write_scene
+from ._files.table import about
+from ._files.texture import TEXTURED, sample
+from ._files.weld import weld
+from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, near_plane
+from ._from_trimesh import is_trimesh, mesh_of, objects_of
+from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
+from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of
+from ._material import Material, Shading
+from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals
+from ._object import Object
+from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
+from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
+from ._scene import MAX_SIDE, Scene
+from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
+from ._staging import BACKGROUND, Look, is_closed, painted, signed_volume, stage, view_axes
+from ._turning import FILLED, full_turn, middle, turn
+from ._value import array_key, plural
+
+__all__ = [
+    "BACKGROUND",
+    "CULL_BACKFACES",
+    "DEFAULT_COLOR",
+    "DEFAULT_HALF_HEIGHT",
+    "EXACT_SIZES",
+    "FILLED",
+    "FORCEFUL",
+    "GENTLE",
+    "INNER_ANGLE",
+    "LIGHTS",
+    "LIGHT_KINDS",
+    "MAX_BYTES",
+    "MAX_COORDINATE",
+    "MAX_SIDE",
+    "MAX_VERTICES",
+    "NORMALS",
+    "NORMAL_UNIT",
+    "ONE",
+    "PROJECTIONS",
+    "READERS",
+    "SCENES",
+    "SETTINGS",
+    "SHADINGS",
+    "TEXTURED",
+    "WHITE",
+    "WIDE",
+    "WIREFRAME",
+    "Background",
+    "Camera",
+    "Kind",
+    "Light",
+    "Look",
+    "LookOptions",
+    "Material",
+    "Mesh",
+    "Object",
+    "Projection",
+    "Rectangle",
+    "Scene",
+    "Setting",
+    "Shading",
+    "about",
+    "array_key",
+    "checked_look",
+    "cut",
+    "encode",
+    "encode_scene",
+    "encode_scene_file",
+    "euler",
+    "extensions",
+    "fans",
+    "fit",
+    "from_axis_angle",
+    "from_euler",
+    "full_turn",
+    "is_closed",
+    "is_trimesh",
+    "load",
+    "look_at",
+    "mesh_of",
+    "middle",
+    "multiply",
+    "near_plane",
+    "objects_of",
+    "original_scene",
+    "pack",
+    "painted",
+    "plural",
+    "read_mesh",
+    "resize",
+    "rotate",
+    "sample",
+    "signed_volume",
+    "simplify",
+    "simplify_scene",
+    "size_of",
+    "stage",
+    "turn",
+    "vertex_normals",
+    "view_axes",
+    "weld",
+    "write_obj",
+    "write_scene",
+]

@@ -1,0 +1,43 @@
+"""What is seen where nothing is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from attrs import field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import Color, color
+from ._value import checked, with_names
+
+
+def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
+    # None is replaced by the top right after
+    return value if value is None else color(value, name)  # type: ignore[return-value]
+
+
+@frozen(field_transformer=with_names)
+class Background:
+    """A vertical gradient from the colour of the top row to that of the bottom row, which is the same if it is None.
+
+    Colours are given as red, green, blue, 0..255, floats 0..1, "#rrggbb" or a name, and kept as the first.
+    """
+
+    top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
+    bottom: Color = field(
+        default=None, converter=_bottom, metadata=checked("the colour at the bottom of the background")
+    )
+
+    def __attrs_post_init__(self) -> None:
+        """Take the top's colour where none is given for the bottom."""
+        if self.bottom is None:
+            object.__setattr__(self, "bottom", self.top)
+
+
+def background_of(value: Background | ArrayLike | str | Sequence[ArrayLike | str]) -> Background:
+    """Return the background that is meant: itself, of one colour, or of two, (top, bottom)."""
+    if isinstance(value, Background):
+        return value
+    if isinstance(value, list | tuple) and len(value) == 2:
+        return Background(*value)
+    return Background(value)  # type: ignore[arg-type]

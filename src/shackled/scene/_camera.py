@@ -1,0 +1,89 @@
+"""Where the eye is and how it projects."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, cast
+
+from attrs import field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import Floats, choice, number, vector
+from ..errors import InputError
+from ._value import array_key, checked, with_names
+
+Projection = Literal["perspective", "orthographic"]
+PROJECTIONS: tuple[Projection, ...] = ("perspective", "orthographic")
+
+#: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).
+DEFAULT_HALF_HEIGHT = 1 / 2.145
+
+_EYE, _TARGET, _UP = (0, 0, 0), (0, 0, -1), (0, 1, 0)
+
+
+def _projection(value: str) -> Projection:
+    return cast(Projection, choice(value, "the camera's projection", PROJECTIONS))
+
+
+def _near(value: float | None) -> float | None:
+    return None if value is None else number(value, "the camera's near distance")
+
+
+@frozen(field_transformer=with_names)
+class Camera:
+    """A camera anywhere in a right-handed world with +y up.
+
+    eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
+    half_height: half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half
+        the vertical field of view, 2^-10..2^10), in world units for an orthographic one.
+    near: distance of the near plane; what is nearer is clipped. Positive for a perspective camera. None chooses a
+        1,024th of how far any object reaches from the eye; all that is before an orthographic one is shown.
+    """
+
+    eye: Floats = field(default=_EYE, converter=vector, eq=array_key, metadata=checked("the camera's eye"))
+    target: Floats = field(default=_TARGET, converter=vector, eq=array_key, metadata=checked("the camera's target"))
+    up: Floats = field(default=_UP, converter=vector, eq=array_key, metadata=checked("the camera's up"))
+    projection: Projection = field(default="perspective", converter=_projection)
+    half_height: float = field(
+        default=DEFAULT_HALF_HEIGHT, converter=number, metadata=checked("the camera's half_height")
+    )
+    near: float | None = field(default=None, converter=_near)
+
+    def __attrs_post_init__(self) -> None:
+        """Check the lengths, whose ranges depend on the projection."""
+        perspective = self.projection == "perspective"
+        low, high = (2**-10, 2**10) if perspective else (1e-30, 1e30)
+        number(self.half_height, "the camera's half_height", low, high)
+        if perspective and self.near is not None and self.near <= 0:
+            raise InputError(f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}")
+
+    @classmethod
+    def perspective(
+        cls,
+        eye: ArrayLike = _EYE,
+        target: ArrayLike = _TARGET,
+        up: ArrayLike = _UP,
+        *,
+        fov: float = 50,
+        near: float | None = None,
+    ) -> Camera:
+        """Return a perspective camera. fov: its vertical field of view in degrees, 0.2..179.8."""
+        return cls(eye, target, up, "perspective", half_height_of(fov), near)
+
+    @classmethod
+    def orthographic(
+        cls,
+        eye: ArrayLike = _EYE,
+        target: ArrayLike = _TARGET,
+        up: ArrayLike = _UP,
+        *,
+        height: float,
+        near: float | None = None,
+    ) -> Camera:
+        """Return an orthographic camera. height: of what the picture shows, in world units."""
+        return cls(eye, target, up, "orthographic", number(height, "the height that the camera shows") / 2, near)
+
+
+def half_height_of(fov: float) -> float:
+    """Return the `half_height` of a perspective camera with a vertical field of view of `fov` degrees."""
+    return math.tan(math.radians(number(fov, "the field of view in degrees", 0.2, 179.8)) / 2)

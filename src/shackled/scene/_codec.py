@@ -1,0 +1,149 @@
+"""A scene as the data of a call: the ABI encoding of contracts/src/scene/Scene.sol.
+
+Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..checks import Color
+from ..errors import InputError
+from ._fit import fit
+from ._light import Light
+from ._object import Object
+from ._packed_mesh import pack
+from ._scene import Scene
+
+ONE = 1 << 32
+
+PROJECTIONS = {"perspective": 0, "orthographic": 1}
+LIGHTS = {"directional": 0, "point": 1, "spot": 1}
+SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
+#: Kinds of records in contracts/src/scene/Extensions.sol.
+SPOT = 1
+OPACITY = 2
+#: Opacities are multiples of this.
+OPACITY_STEP = 2.0**-24
+
+CULL_BACKFACES = 1
+WIREFRAME = 2
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """A part of the canvas, in pixels from the top left corner."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words: int) -> bytes:
+    """Return the calldata of a function f(Scene), or f(Scene, Rectangle) if a tile is given, and words after it."""
+    rectangle: list[int] = []
+    if tile is not None:
+        rectangle = [tile.x, tile.y, tile.width, tile.height]
+        across = 0 <= tile.x < tile.x + tile.width <= scene.width
+        if not (across and 0 <= tile.y < tile.y + tile.height <= scene.height):
+            raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
+    head = [*rectangle, *words]
+    return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
+
+
+def encode_scene(scene: Scene) -> bytes:
+    """Return the struct Scene, of a scene as `fit` makes it."""
+    camera = scene.camera
+    head = _words(
+        [
+            scene.width,
+            scene.height,
+            *_q32(camera.eye),
+            *_q32(camera.target),
+            *_q32(camera.up),
+            PROJECTIONS[camera.projection],
+            *_q32([camera.half_height, camera.near or 0.0]),
+            _rgb(scene.background.top),
+            _rgb(scene.background.bottom),
+            int(scene.invert),
+            _rgb(scene.ambient_light),
+        ]
+    )
+    lights = _words([len(scene.lights)]) + b"".join(map(_light, scene.lights))
+    objects = _array_of_dynamic([_object(o) for o in scene.objects])
+    more = extensions(scene)
+    first = len(head) + 3 * 32
+    offsets = [first, first + len(lights), first + len(lights) + len(objects)]
+    return head + _words([*offsets]) + lights + objects + _bytes(more)
+
+
+def extensions(scene: Scene) -> bytes:
+    """Return what is not in the structs: records that ascend by kind and index."""
+    records = []
+    for index, light in enumerate(scene.lights):
+        if light.direction is not None:
+            cosines = [math.cos(math.radians(angle)) for angle in (light.inner_angle, light.outer_angle)]
+            numbers = [*_q32(light.direction), *_q32(cosines)]
+            records.append(_record(SPOT, index, b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)))
+    for index, thing in enumerate(scene.objects):
+        opacity = round(thing.opacity / OPACITY_STEP)
+        if opacity < 1 / OPACITY_STEP:
+            records.append(_record(OPACITY, index, opacity.to_bytes(4, "big")))
+    return b"".join(records)
+
+
+def _record(kind: int, index: int, content: bytes) -> bytes:
+    if index >> 16:
+        raise InputError(f"objects that are not opaque must be among the first 65,536 of a scene, not number {index:,}")
+    return bytes([kind]) + index.to_bytes(2, "big") + len(content).to_bytes(2, "big") + content
+
+
+def _light(light: Light) -> bytes:
+    return _words([LIGHTS[light.kind], *_q32(light.vector), _rgb(light.color)])
+
+
+def _object(o: Object) -> bytes:
+    material = o.material
+    fields = [
+        *_q32(o.position),
+        *_q32(o.rotation),
+        *_q32([o.scale]),
+        SHADINGS[material.shading],
+        *_q32([material.ambient, material.diffuse, material.specular]),
+        material.shininess,
+        CULL_BACKFACES * o.cull + WIREFRAME * o.wireframe,
+    ]
+    mesh = pack(o.mesh, smooth=material.shading == "smooth")
+    return _words([32 * (1 + len(fields)), *fields]) + _bytes(mesh)
+
+
+def _bytes(content: bytes) -> bytes:
+    return _words([len(content)]) + content + bytes(-len(content) % 32)
+
+
+def _array_of_dynamic(items: list[bytes]) -> bytes:
+    offsets, end = [], 32 * len(items)
+    for item in items:
+        offsets.append(end)
+        end += len(item)
+    return _words([len(items), *offsets]) + b"".join(items)
+
+
+def _q32(values: ArrayLike) -> list[int]:
+    """Return numbers as multiples of 2^-32, rounded to nearest, ties to even."""
+    return [round(value * ONE) for value in np.asarray(values, dtype=np.float64).tolist()]
+
+
+def _rgb(color: Color) -> int:
+    red, green, blue = color
+    return red << 16 | green << 8 | blue
+
+
+def _words(values: Iterable[int]) -> bytes:
+    return b"".join((value % (1 << 256)).to_bytes(32, "big") for value in values)

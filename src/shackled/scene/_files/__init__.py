@@ -1,0 +1,1 @@
+"""Scenes and meshes from files."""

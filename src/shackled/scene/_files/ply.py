@@ -1,0 +1,301 @@
+"""PLY, the Stanford polygon format, as text or binary.
+
+An own reader: trimesh refuses binary files that mix triangles with other polygons, and drops colours beside texture
+coordinates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import InputError
+from .._mesh import Mesh
+from .colors import to_bytes
+from .content import read_bytes, unix_lines, warn
+from .polygons import cut
+from .weld import weld
+
+_TYPES = {
+    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
+    "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
+    "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4",
+    "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
+}  # fmt: skip
+
+#: How many bits of a larger integer a colour has: 0..65535 becomes 0..255.
+_LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
+
+
+def read_ply(path: Path) -> Mesh:
+    """Return the mesh of a PLY file.
+
+    A corner has the colour of its face if faces have colours, else that of its vertex, else light grey. Where all faces
+    have the same colour, those of vertices come first. An InputWarning tells of textures, which are left out.
+    """
+    header, source = _open(read_bytes(path))
+    for element in header.elements:
+        _read_element(element, source)
+    if isinstance(source, _Text):
+        source.finish()
+    elements = {element.name: element for element in header.elements}
+    if "vertex" not in elements or "face" not in elements:
+        raise InputError("a mesh needs the elements vertex and face; this file has " + (", ".join(elements) or "none"))
+    vertex, face = elements["vertex"], elements["face"]
+    positions = vertex.table("x", "y", "z")
+    polygons = face.lists("vertex_indices", "vertex_index")
+    if positions is None or polygons is None:
+        raise InputError("the element vertex needs x, y and z, the element face a list vertex_indices")
+    sizes, numbers = polygons
+    triangles = cut(positions, sizes, numbers)
+    corners = numbers[triangles[:, :3]]
+    face_colors, vertex_colors = face.colors(), vertex.colors()
+    colors = None
+    if face_colors is not None and (vertex_colors is None or (face_colors != face_colors[0]).any()):
+        colors = np.repeat(face_colors[triangles[:, 3]][:, None, :], 3, axis=1)
+    elif vertex_colors is not None:
+        colors = vertex_colors[corners]
+    if header.textures:
+        warn(f"{path}: its texture {', '.join(header.textures)} is left out; of PLY files only colours are read")
+    normals = vertex.table("nx", "ny", "nz")
+    return weld(positions, corners, colors, None if normals is None else normals[corners])
+
+
+@dataclass
+class _Property:
+    name: str
+    type: str
+    #: the type of the length if this is a list
+    length: str | None = None
+
+
+@dataclass
+class _Element:
+    name: str
+    count: int
+    properties: list[_Property] = field(default_factory=list)
+    #: by property: (count,) numbers; of lists (count, length), or a list of lists if their lengths differ
+    values: dict[str, Any] = field(default_factory=dict)
+
+    def table(self, *names: str) -> NDArray[np.float64] | None:
+        """Return the scalar properties of these names side by side, or None if one is missing."""
+        scalars = {p.name for p in self.properties if p.length is None}
+        if not scalars.issuperset(names):
+            return None
+        return np.stack([np.asarray(self.values[name], dtype=np.float64) for name in names], axis=1)
+
+    def lists(self, *names: str) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
+        """Return the first list property of one of these names, as lengths of its lists and all numbers; or None."""
+        for name in names:
+            if any(p.name == name and p.length is not None for p in self.properties):
+                rows = self.values[name]
+                if isinstance(rows, np.ndarray):
+                    sizes, numbers = np.full(len(rows), rows.shape[1]), rows.reshape(-1)
+                else:
+                    sizes = np.array([len(row) for row in rows], dtype=np.int64)
+                    numbers = np.fromiter(chain.from_iterable(rows), dtype=np.float64)
+                bad = np.flatnonzero(numbers % 1 != 0)
+                if len(bad):
+                    raise InputError(f"the numbers of vertices must be whole, not {numbers[bad[0]]}")
+                return sizes, numbers.astype(np.int64)
+        return None
+
+    def colors(self) -> NDArray[np.float64] | None:
+        for names in (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b")):
+            table = self.table(*names)
+            if table is not None and len(table):
+                kind = next(p.type for p in self.properties if p.name == names[0])
+                return to_bytes(table, _LARGEST.get(kind))
+        return None
+
+
+@dataclass
+class _Header:
+    encoding: str = ""
+    elements: list[_Element] = field(default_factory=list)
+    textures: list[str] = field(default_factory=list)
+
+
+def _open(data: bytes) -> tuple[_Header, _Text | _Binary]:
+    """Return the header, with elements that have no values yet, and where these are."""
+    header, start, number = _Header(), 0, 0
+    if not data.startswith(b"ply"):
+        raise InputError("a PLY file begins with the line ply")
+    line_end = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
+    line = ""
+    while line != "end_header":
+        end = data.find(line_end, start)
+        if end < 0:
+            raise InputError("its header has no line end_header")
+        line = data[start:end].decode("ascii", errors="replace").strip()
+        start, number = end + 1, number + 1
+        try:
+            _read_header_line(header, line)
+        except (ValueError, KeyError, IndexError):
+            raise InputError(
+                f"line {number} of its header is {line[:60]!r}; known are format, element and its count, then property "
+                "and its type, and comment, obj_info, end_header"
+            ) from None
+    if not header.encoding:
+        raise InputError("its header has no line format")
+    if header.encoding == "ascii":
+        return header, _Text(data[start:], number)
+    return header, _Binary(data[start:], "<" if "little" in header.encoding else ">")
+
+
+def _read_header_line(header: _Header, line: str) -> None:
+    match line.split():
+        case ["format", name, _] if name in ("ascii", "binary_little_endian", "binary_big_endian"):
+            header.encoding = name
+        case ["element", name, count] if int(count) >= 0:
+            header.elements.append(_Element(name, int(count)))
+        case ["property", "list", length, kind, name]:
+            header.elements[-1].properties.append(_Property(name, _TYPES[kind], _TYPES[length]))
+        case ["property", kind, name]:
+            header.elements[-1].properties.append(_Property(name, _TYPES[kind]))
+        case ["comment", "TextureFile", *words]:
+            header.textures.append(" ".join(words))
+        case ["ply"] | ["end_header"] | ["comment" | "obj_info", *_] | []:
+            pass
+        case _:
+            raise ValueError
+
+
+_Field = tuple[str, str, int]
+
+
+class _Text:
+    """Lines of numbers, a line for each row of an element."""
+
+    def __init__(self, data: bytes, before: int) -> None:
+        """`before`: how many lines of the file come before."""
+        self.lines = unix_lines(data.decode("ascii", errors="replace")).split("\n")
+        self.before = before
+        self.at = 0
+
+    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
+        """`count` rows of these fields (name, type, how many numbers), or None if the lines are not of that form."""
+        self._skip_blank()
+        try:
+            table = np.loadtxt(self.lines[self.at : self.at + count], ndmin=2, comments=None)
+        except ValueError:
+            return None
+        if table.shape != (count, sum(size for _, _, size in fields)):
+            return None
+        self.at += count
+        starts = np.cumsum([0, *(size for _, _, size in fields)]).tolist()
+        return {name: table[:, at : at + size] for (name, _, size), at in zip(fields, starts, strict=False)}
+
+    def row(self, element: _Element) -> dict[str, list[float]]:
+        """Return the values of a line, by property."""
+        self._skip_blank()
+        if self.at == len(self.lines):
+            raise _ended(element)
+        line, place = self.lines[self.at], f"line {self.before + self.at + 1}"
+        self.at += 1
+        words = line.split()
+        row, used = {}, 0
+        try:
+            for p in element.properties:
+                size = 1
+                if p.length is not None:
+                    size, used = int(words[used]), used + 1
+                row[p.name] = [float(word) for word in words[used : used + size]]
+                if len(row[p.name]) != size:
+                    raise ValueError
+                used += size
+            if used < len(words):
+                raise ValueError
+        except (ValueError, IndexError):
+            form = ", ".join(f"a list {p.name} after its length" if p.length else p.name for p in element.properties)
+            raise InputError(
+                f"{place} should hold an element {element.name} ({form}) and nothing else, not {line.strip()[:60]!r}"
+            ) from None
+        return row
+
+    def _skip_blank(self) -> None:
+        while self.at < len(self.lines) and not self.lines[self.at].strip():
+            self.at += 1
+
+    def finish(self) -> None:
+        """Refuse what is left over."""
+        for number, line in enumerate(self.lines[self.at :], self.before + self.at + 1):
+            if line.strip():
+                raise InputError(f"line {number} is left over behind the elements of its header: {line.strip()[:60]!r}")
+
+
+class _Binary:
+    """Numbers one after the other, each in the bytes of its type."""
+
+    def __init__(self, data: bytes, order: str) -> None:
+        self.data = data
+        self.order = order
+        self.at = 0
+
+    def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
+        """`count` rows of these fields (name, type, how many numbers), or None if so many are not there."""
+        row = np.dtype([(name, self.order + kind, (size,)) for name, kind, size in fields])
+        if self.at + row.itemsize * count > len(self.data):
+            return None
+        table = np.frombuffer(self.data, row, count, self.at)
+        self.at += row.itemsize * count
+        return {name: table[name] for name, _, _ in fields}
+
+    def row(self, element: _Element) -> dict[str, list[float]]:
+        """Return the values of a row, by property."""
+        row = {}
+        for p in element.properties:
+            size = 1 if p.length is None else int(self._numbers(element, p.length, 1)[0])
+            row[p.name] = self._numbers(element, p.type, size)
+        return row
+
+    def _numbers(self, element: _Element, kind: str, size: int) -> list[float]:
+        found = self.table([("numbers", kind, size)], 1) if size >= 0 else None
+        if found is None:
+            raise _ended(element)
+        numbers: list[float] = found["numbers"][0].tolist()
+        return numbers
+
+
+def _ended(element: _Element) -> InputError:
+    return InputError(f"it ends before its {element.count} elements {element.name} are complete")
+
+
+def _read_element(element: _Element, source: _Text | _Binary) -> None:
+    lists = [p for p in element.properties if p.length is not None]
+    if not element.count or not element.properties:
+        element.values = {p.name: [] for p in element.properties}
+        return
+    start = source.at
+    first = source.row(element)
+    source.at = start
+    # nearly always all lists of an element are of one length: then it is read as one table
+    table = source.table(
+        [
+            part
+            for p in element.properties
+            for part in (
+                [(p.name, p.type, 1)]
+                if p.length is None
+                else [(f"length of {p.name}", p.length, 1), (p.name, p.type, len(first[p.name]))]
+            )
+        ],
+        element.count,
+    )
+    if table is not None and all((table[f"length of {p.name}"] == len(first[p.name])).all() for p in lists):
+        element.values = {
+            p.name: table[p.name][:, 0] if p.length is None else table[p.name] for p in element.properties
+        }
+        return
+    if not lists and isinstance(source, _Binary):
+        raise _ended(element)
+    source.at = start
+    rows = [source.row(element) for _ in range(element.count)]
+    element.values = {
+        p.name: [row[p.name][0] if p.length is None else row[p.name] for row in rows] for p in element.properties
+    }

@@ -1,0 +1,254 @@
+"""The same picture, described in the numbers that the contracts take.
+
+A contract counts lengths in multiples of 2^-32 up to 2^26, and vertices in whole numbers. A scene all of whose numbers
+are exact in that form is left as it is. Any other is moved, so that the eye is at the origin, and scaled by a power of
+two, so that its largest object is about 2^12 units: neither changes what is seen. Its meshes, unless their coordinates
+are whole numbers already, are laid on a grid of 2^16 steps across their largest side; on a finer one, for which each
+vertex takes three more bytes, where a step of that would show in the picture.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from attrs import evolve
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ._camera import Camera
+from ._light import Light
+from ._mesh import Mesh, vertex_normals
+from ._object import Object
+from ._packed_mesh import MAX_SHORT, MAX_WIDE, fits, is_integral
+from ._rotation import rotate
+from ._scene import Scene
+
+Array = NDArray[np.float64]
+
+#: Limits of the contracts (contracts/src/scene/Checks.sol), in world units.
+MAX_COORDINATE = 2.0**26
+MIN_HALF_HEIGHT = 2.0**-12
+STEP = 2.0**-32
+#: A mesh of so many bits a coordinate must not be scaled by more.
+MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
+
+#: What part of a pixel a step of the grid of a mesh may be before a finer grid is taken.
+STEP_IN_PIXELS = 1 / 32
+
+#: Where scenes are left alone.
+EXACT_SIZES = (2.0**-2, 2.0**22)
+#: Where others are brought: the exponents of their largest object, and of the farthest point at most.
+SIZE_EXPONENT = 12
+REACH_EXPONENT = 25
+
+#: The near plane that is chosen, as a part of the farthest distance.
+NEAR_PART = 2.0**-10
+#: Directions of these lengths keep their precision in multiples of 2^-32.
+DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def fit(scene: Scene) -> Scene:
+    """Return the scene in numbers that the contracts take: mesh coordinates are whole, and the near plane is chosen."""
+    _check_view(scene.camera)
+    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    objects: list[Object]
+    if _is_exact(scene):
+        camera = evolve(scene.camera, near=near_plane(scene, 1.0, most=1.0))
+        lights = list(scene.lights)
+        objects = list(scene.objects)
+    else:
+        factor = _factor(scene)
+        camera = _move_camera(scene, factor)
+        lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
+        objects = [_move_object(o, scene, factor) for o in scene.objects]
+    camera = evolve(camera, up=_direction(camera.up))
+    objects = [evolve(o, rotation=_direction(o.rotation)) for o in objects]
+    lights = [_pointed(light) for light in lights]
+    return evolve(scene, objects=objects, camera=camera, lights=lights)
+
+
+def _pointed(light: Light) -> Light:
+    if light.kind == "directional":
+        return evolve(light, vector=_direction(light.vector))
+    return light if light.direction is None else evolve(light, direction=_direction(light.direction))
+
+
+def _check_view(camera: Camera) -> None:
+    eye, target, up = camera.eye, camera.target, camera.up
+    if (eye == target).all():
+        raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
+    if not up.any():
+        raise InputError("the camera's up must not be (0, 0, 0)")
+    if np.linalg.norm(np.cross(_unit(target - eye), _unit(up))) < 1e-9:
+        raise InputError(f"the camera looks along its up direction, {_show(up)}; choose another up")
+
+
+def _prepare(o: Object) -> Object:
+    """Return the object without vertices that no face names, with the normals that smooth shading needs."""
+    mesh = o.mesh
+    positions, faces = mesh.positions, mesh.faces
+    normals = None
+    if o.material.shading == "smooth":
+        center, radius = _box(positions)
+        # of any size: squares of its lengths stay within floats
+        unit = (positions - center) / (radius or 1.0)
+        normals = vertex_normals(unit, faces) if mesh.normals is None else mesh.normals
+    used, inverse = np.unique(faces, return_inverse=True)
+    if len(used) < len(positions):
+        positions, faces = positions[used], inverse.reshape(-1, 3)
+        normals = None if normals is None else normals[used]
+        mesh = Mesh(positions, faces, mesh.colors[used], normals)
+    elif normals is not mesh.normals:
+        mesh = evolve(mesh, normals=normals)
+    return o if mesh is o.mesh else evolve(o, mesh=mesh)
+
+
+def _is_exact(scene: Scene) -> bool:
+    """Return whether the contracts' numbers hold the scene as it is, well within their range."""
+    camera = scene.camera
+    lengths = [*camera.eye, *camera.target, camera.near or 0.0]
+    if camera.projection == "orthographic":
+        lengths.append(camera.half_height)
+    for light in scene.lights:
+        if light.kind != "directional":
+            lengths += list(light.vector)
+    reach = max(map(abs, lengths))
+    for o in scene.objects:
+        positions = o.mesh.positions
+        if not is_integral(positions) or o.scale > MAX_SCALE[_bits(positions)]:
+            return False
+        lengths += [o.scale, *o.position]
+        reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
+    view = np.cross(_unit(camera.target - camera.eye), _unit(camera.up))
+    return (
+        EXACT_SIZES[0] <= reach <= EXACT_SIZES[1]
+        and all(length % STEP == 0 for length in lengths)
+        and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
+        and bool(np.linalg.norm(view) >= DIRECTION_LENGTHS[0])
+    )
+
+
+def _factor(scene: Scene) -> float:
+    """Return the factor by which a scene is scaled, a power of two."""
+    size, reach = _extent(scene)
+    if scene.camera.projection == "orthographic":
+        reach = max(reach, scene.camera.half_height)
+    for light in scene.lights:
+        if light.kind != "directional":
+            # what is a thousand times as far as all that is seen may come nearer: its direction hardly changes
+            distance = float(np.abs(light.vector - scene.camera.eye).max())
+            reach = max(reach, min(distance, 1024 * reach))
+    exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
+    if size:
+        exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
+    return math.ldexp(1.0, min(max(exponent, -1000), 1000))
+
+
+def _extent(scene: Scene) -> tuple[float, float]:
+    """Return half the largest side of an object, and how far any reaches from the eye along an axis."""
+    sizes, reaches = [0.0], [0.0]
+    for o in scene.objects:
+        center, radius = _box(o.mesh.positions)
+        place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
+        sizes.append(o.scale * radius)
+        reaches.append(float(np.abs(place).max()) + o.scale * radius)
+    if not np.isfinite(reaches).all():
+        raise InputError("the scene is too large: its coordinates, scaled and moved, are beyond what a float holds")
+    return max(sizes), max(reaches)
+
+
+def _move_camera(scene: Scene, factor: float) -> Camera:
+    camera = scene.camera
+    forward = _unit(camera.target - camera.eye)
+    up = _unit(camera.up)
+    half_height = camera.half_height
+    if camera.projection == "orthographic":
+        half_height *= factor
+        if half_height < MIN_HALF_HEIGHT:
+            raise InputError(f"the camera's half_height {camera.half_height:g} is too small for the size of the scene")
+    return evolve(
+        camera,
+        eye=(0, 0, 0),
+        target=forward * 2.0**SIZE_EXPONENT,
+        # upright on the line of sight, so that the cross product loses nothing
+        up=_unit(up - (up @ forward) * forward),
+        half_height=half_height,
+        near=near_plane(scene, factor, most=MAX_COORDINATE),
+    )
+
+
+def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> float:
+    """Return the distance of the near plane, times the factor.
+
+    It is the camera's own, or else `NEAR_PART` of how far any object reaches from the eye, at most `most`.
+    """
+    camera = scene.camera
+    if camera.projection == "orthographic":
+        near = -math.inf if camera.near is None else camera.near * factor
+        return min(max(near, -MAX_COORDINATE), MAX_COORDINATE)
+    if camera.near is not None:
+        return min(max(camera.near * factor, STEP), MAX_COORDINATE)
+    _, farthest = _extent(scene)
+    return max(min(farthest * factor * NEAR_PART, most), STEP) if farthest else 1.0
+
+
+def _move_light(light: Light, eye: Array, factor: float) -> Light:
+    if light.kind == "directional":
+        return light
+    place = (light.vector - eye) * factor
+    # a light so far away keeps its direction
+    largest = float(np.abs(place).max())
+    return evolve(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
+
+
+def _move_object(o: Object, scene: Scene, factor: float) -> Object:
+    positions = o.mesh.positions
+    center, step = np.zeros(3), 1.0
+    if not is_integral(positions) or o.scale * factor > MAX_SCALE[_bits(positions)]:
+        center, radius = _box(positions)
+        step = radius / _steps(o, radius, scene, factor)
+        grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
+        o = evolve(o, mesh=evolve(o.mesh, positions=grid))
+    place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
+    return evolve(o, position=place * factor, scale=o.scale * step * factor)
+
+
+def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
+    """Return how many steps the grid of an object has across half its largest side."""
+    camera = scene.camera
+    pixels = scene.height / (2 * camera.half_height)
+    if camera.projection == "perspective":
+        forward = _unit(camera.target - camera.eye)
+        places = o.world_positions() - camera.eye
+        pixels /= max(float((places @ forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
+    size = o.scale * radius
+    if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
+        return MAX_SHORT
+    # the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
+    return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
+
+
+def _bits(positions: Array) -> int:
+    return 16 if fits(positions, MAX_SHORT) else 24
+
+
+def _box(positions: Array) -> tuple[Array, float]:
+    """Return the middle of the bounding box, and the largest distance from it along an axis."""
+    low, high = positions.min(axis=0) / 2, positions.max(axis=0) / 2
+    return low + high, float((high - low).max())
+
+
+def _direction(v: Array) -> Array:
+    low, high = DIRECTION_LENGTHS
+    return v if low <= np.abs(v).max() <= high else _unit(v)
+
+
+def _unit(v: Array) -> Array:
+    v = v / np.abs(v).max()
+    return np.asarray(v / np.linalg.norm(v))
+
+
+def _show(v: Array) -> str:
+    return f"({', '.join(f'{x:g}' for x in v)})"

@@ -1,0 +1,90 @@
+"""Lights."""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+from attrs import field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import Color, Floats, choice, color, number, optional_vector, vector
+from ..errors import InputError
+from ._value import array_key, checked, with_names
+
+LightKind = Literal["directional", "point", "spot"]
+LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
+
+#: Degrees, of a spot light whose angles are not given; as in glTF.
+INNER_ANGLE = 0.0
+OUTER_ANGLE = 45.0
+WHITE = (255, 255, 255)
+
+
+def _kind(value: str) -> LightKind:
+    return cast(LightKind, choice(value, "the kind of a light", LIGHT_KINDS))
+
+
+@frozen(field_transformer=with_names)
+class Light:
+    """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
+
+    kind: "directional", "point", or "spot", a point light that shines into a cone only.
+    vector: (3,) float; the direction toward a directional light (any length but zero), the position of any other.
+    color: red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
+    direction: (3,) float; where a spot light points, any length but zero; others have none.
+    inner_angle, outer_angle: of a spot light, in degrees from its direction, 0..180: its light is whole up to the inner
+        angle and falls to nothing at the outer one.
+    """
+
+    kind: LightKind = field(converter=_kind)
+    vector: Floats = field(converter=vector, eq=array_key, metadata=checked("the direction or position of a light"))
+    color: Color = field(default=WHITE, converter=color, metadata=checked("the colour of a light"))
+    direction: Floats | None = field(
+        default=None, converter=optional_vector, eq=array_key, metadata=checked("the direction of a spot light")
+    )
+    inner_angle: float = field(
+        default=INNER_ANGLE, converter=number, metadata=checked("the inner_angle of a spot light", 0, 180)
+    )
+    outer_angle: float = field(
+        default=OUTER_ANGLE, converter=number, metadata=checked("the outer_angle of a spot light", 0, 180)
+    )
+
+    def __attrs_post_init__(self) -> None:
+        """Check the fields against one another."""
+        if self.kind == "directional" and not self.vector.any():
+            raise InputError("the direction of a light must not be zero")
+        if self.kind != "spot":
+            if self.direction is not None or (self.inner_angle, self.outer_angle) != (INNER_ANGLE, OUTER_ANGLE):
+                raise InputError(f"only a spot light has direction, inner_angle and outer_angle, not a {self.kind} one")
+            return
+        if self.direction is None:
+            raise InputError("a spot light needs a direction, in which it points")
+        if not self.direction.any():
+            raise InputError("the direction of a spot light must not be zero")
+        if self.inner_angle > self.outer_angle:
+            raise InputError(
+                f"the inner_angle of a spot light, {self.inner_angle:g}, must not be above its outer_angle, "
+                f"{self.outer_angle:g}"
+            )
+
+    @classmethod
+    def directional(cls, toward: ArrayLike, color: ArrayLike | str = WHITE) -> Light:
+        """Return a light so far away that it comes from one direction. toward: (3,) from the scene to the light."""
+        return cls("directional", toward, color)
+
+    @classmethod
+    def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE) -> Light:
+        """Return a light that shines in all directions from a position, (3,) in the world; it does not fade."""
+        return cls("point", position, color)
+
+    @classmethod
+    def spot(
+        cls,
+        position: ArrayLike,
+        direction: ArrayLike,
+        color: ArrayLike | str = WHITE,
+        inner_angle: float = INNER_ANGLE,
+        outer_angle: float = OUTER_ANGLE,
+    ) -> Light:
+        """Return a light that shines from a position into a cone about a direction, (3,) each, angles in degrees."""
+        return cls("spot", position, color, direction, inner_angle, outer_angle)

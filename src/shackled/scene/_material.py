@@ -1,0 +1,42 @@
+"""How a surface answers light."""
+
+from __future__ import annotations
+
+from typing import Literal, cast
+
+from attrs import field, frozen
+
+from ..checks import choice, number
+from ._value import checked, with_names
+
+Shading = Literal["unlit", "flat", "smooth"]
+SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
+
+
+def _shading(value: str) -> Shading:
+    return cast(Shading, choice(value, "the shading of a material", SHADINGS))
+
+
+def _shininess(value: float) -> int:
+    return round(number(value, "the shininess of a material", 1, 128))
+
+
+@frozen(field_transformer=with_names)
+class Material:
+    """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
+
+    shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
+        vertices.
+    """
+
+    shading: Shading = field(default="flat", converter=_shading)
+    ambient: float = field(
+        default=0.2, converter=number, metadata=checked("the ambient coefficient of a material", 0, 4)
+    )
+    diffuse: float = field(
+        default=0.7, converter=number, metadata=checked("the diffuse coefficient of a material", 0, 4)
+    )
+    specular: float = field(
+        default=0.4, converter=number, metadata=checked("the specular coefficient of a material", 0, 4)
+    )
+    shininess: int = field(default=20, converter=_shininess)

@@ -1,0 +1,171 @@
+"""Triangles with a colour per vertex."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import ArrayLike, NDArray
+
+from ..checks import Floats, Number, channels, color, fixed
+from ..errors import InputError
+from ._value import array_key, checked, plural, with_names
+
+#: What a contract takes: vertices and faces are counted in 16 bits.
+MAX_VERTICES = 65535
+MAX_FACES = 65535
+
+DEFAULT_COLOR = (200, 200, 200)
+
+#: One colour, or one for each vertex.
+Colors = ArrayLike | str | Sequence[str]
+
+
+def _table(values: ArrayLike, name: str = "a table") -> Floats:
+    try:
+        rows = fixed(values, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be rows of 3 numbers") from None
+    return _rows_of_3(rows, name)
+
+
+def _optional_table(values: ArrayLike | None, name: str = "a table") -> Floats | None:
+    return None if values is None else _table(values, name)
+
+
+def _faces(values: ArrayLike) -> NDArray[np.int64]:
+    name = "the faces of a mesh"
+    if isinstance(values, np.ndarray) and values.dtype == np.int64:
+        return _rows_of_3(fixed(values, np.int64), name)
+    rows = _table(values, name)
+    bad = np.flatnonzero(~((rows % 1 == 0) & (np.abs(rows) < 2**53)).all(axis=1))
+    if len(bad):
+        named = ", ".join(f"{number:.17g}" for number in rows[bad[0]])
+        raise InputError(f"face {bad[0]} names the vertices [{named}], which must be whole numbers")
+    return fixed(rows, np.int64)
+
+
+def _colors(values: Colors | None) -> NDArray[np.uint8]:
+    """Return (n, 3) colours, or (3,) for one of all vertices."""
+    name = "the colours of a mesh"
+    if values is None:
+        values = DEFAULT_COLOR
+    if isinstance(values, np.ndarray) and values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] == 3:
+        return fixed(values, np.uint8)
+    if isinstance(values, str):
+        return fixed(color(values, "the colour of a mesh"), np.uint8)
+    if isinstance(values, list | tuple) and any(isinstance(each, str) for each in values):
+        values = [color(each, f"the colour of vertex {number}") for number, each in enumerate(values)]
+    try:
+        levels = np.array(channels(values), dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be rows of 3 numbers") from None
+    if levels.ndim == 1 and levels.size:
+        return fixed(color(values, "the colour of a mesh"), np.uint8)
+    if levels.ndim == 2 and levels.shape[1] == 4:
+        _check_levels(levels)
+        bad = np.flatnonzero(levels[:, 3] != 255)
+        if len(bad):
+            raise InputError(
+                f"the colour of vertex {bad[0]} must be opaque, not of alpha {levels[bad[0], 3]:g}; "
+                "an Object has an opacity"
+            )
+        levels = levels[:, :3]
+    levels = _rows_of_3(levels, name)
+    _check_levels(levels)
+    return fixed(levels, np.uint8)
+
+
+def _check_levels(levels: NDArray[np.float64]) -> None:
+    bad = np.flatnonzero(~((levels >= 0) & (levels <= 255) & (levels % 1 == 0)).all(axis=1))
+    if len(bad):
+        found = ", ".join(f"{level:g}" for level in levels[bad[0]])
+        raise InputError(
+            f"the colour of vertex {bad[0]} must be from 0 to 255, in whole numbers unless all colours are from 0 "
+            f"to 1, not [{found}]"
+        )
+
+
+def _rows_of_3(rows: NDArray[Number], name: str) -> NDArray[Number]:
+    if rows.size == 0:
+        return rows.reshape(0, 3)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise InputError(f"{name} must be rows of 3 numbers, not of shape {rows.shape}")
+    return rows
+
+
+@frozen(field_transformer=with_names, repr=False)
+class Mesh:
+    """A triangle mesh; counter-clockwise faces are seen from the front.
+
+    positions: (n, 3) float. faces: (m, 3) int, vertex numbers.
+    colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
+        opaque alpha, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
+    normals: (n, 3) float, or None; needed for smooth shading, where the codec computes them if they are absent.
+
+    A Mesh may be larger than a contract takes; `render` says so.
+    """
+
+    positions: Floats = field(converter=_table, eq=array_key, metadata=checked("the positions of a mesh"))
+    faces: NDArray[np.int64] = field(converter=_faces, eq=array_key)
+    colors: NDArray[np.uint8] = field(default=None, converter=_colors, eq=array_key)
+    normals: Floats | None = field(
+        default=None, converter=_optional_table, eq=array_key, metadata=checked("the normals of a mesh")
+    )
+
+    def __attrs_post_init__(self) -> None:
+        """Check the fields against one another."""
+        count = len(self.positions)
+        if count == 0 or len(self.faces) == 0:
+            raise InputError(f"a mesh needs vertices and faces; this one has {count} and {len(self.faces)}")
+        bad = np.flatnonzero(~np.isfinite(self.positions).all(axis=1))
+        if len(bad):
+            raise InputError(
+                f"vertex {bad[0]} has a coordinate that is not a finite number: {self.positions[bad[0]].tolist()}"
+            )
+        bad = np.flatnonzero(((self.faces < 0) | (self.faces >= count)).any(axis=1))
+        if len(bad):
+            raise InputError(
+                f"face {bad[0]} names the vertices {self.faces[bad[0]].tolist()}, "
+                f"but they are numbered 0 to {count - 1}"
+            )
+        if self.colors.ndim == 1:
+            object.__setattr__(self, "colors", fixed(np.tile(self.colors, (count, 1)), np.uint8))
+        if len(self.colors) != count:
+            raise InputError(f"a mesh of {count} vertices needs as many colours, not {len(self.colors)}")
+        if self.normals is not None and (len(self.normals) != count or not np.isfinite(self.normals).all()):
+            raise InputError(f"a mesh needs a finite normal for each of its {count} vertices, not {len(self.normals)}")
+
+    @classmethod
+    def from_trimesh(cls, mesh: Any) -> Mesh:
+        """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
+
+        InputError if it is something else, or empty.
+        """
+        from ._from_trimesh import mesh_of
+
+        return mesh_of(mesh)
+
+    @property
+    def triangles(self) -> int:
+        """The number of faces."""
+        return len(self.faces)
+
+    def __repr__(self) -> str:
+        """Count in one line."""
+        vertices = plural(len(self.positions), "vertex", "vertices")
+        return f"<Mesh {vertices}, {plural(self.triangles, 'triangle')}>"
+
+
+def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """(n, 3) unit normals: the mean of the faces around each vertex, weighted by area; zero where there is none."""
+    corners = positions[faces]
+    face_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.zeros_like(positions)
+    for corner in range(3):
+        np.add.at(normals, faces[:, corner], face_normals)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    units: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    return units

@@ -1,0 +1,73 @@
+"""A mesh with its place in the world."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import Floats, flag, instance, number, vector
+from ..errors import InputError
+from ._material import Material
+from ._mesh import Mesh
+from ._rotation import ORTHOGONAL, quaternion_of, rotate, rotation_of
+from ._value import array_key, checked, with_names
+
+
+def _mesh(value: Mesh) -> Mesh:
+    instance(value, "the mesh of an object", Mesh)
+    return value
+
+
+def _material(value: Material) -> Material:
+    instance(value, "the material of an object", Material)
+    return value
+
+
+@frozen(field_transformer=with_names)
+class Object:
+    """p = position + rotation(scale * v) for every vertex v of the mesh.
+
+    rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
+        in degrees about x, then y, then z, or as a (3, 3) matrix.
+    cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
+    opacity: what it hides of what is behind it, 0..1. Objects of less than 1 are drawn after the others, in the order
+        of the scene, each over what is there; the farthest should come first.
+    """
+
+    mesh: Mesh = field(converter=_mesh)
+    position: Floats = field(
+        default=(0, 0, 0), converter=vector, eq=array_key, metadata=checked("the position of an object")
+    )
+    rotation: Floats = field(
+        default=(0, 0, 0, 1), converter=rotation_of, eq=array_key, metadata=checked("the rotation of an object")
+    )
+    scale: float = field(default=1.0, converter=number, metadata=checked("the scale of an object", 0))
+    material: Material = field(factory=Material, converter=_material)
+    cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))
+    wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
+    opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", 0, 1))
+
+    @classmethod
+    def from_matrix(cls, mesh: Mesh, matrix: ArrayLike, **fields: Any) -> Object:
+        """Return a mesh placed by a (4, 4) matrix, p = matrix @ (v, 1), of a scale, a rotation and a translation.
+
+        The other fields as keywords. InputError for a matrix that shears, mirrors, or scales the axes differently.
+        """
+        try:
+            m = np.array(matrix, dtype=np.float64)
+        except (TypeError, ValueError):
+            m = np.zeros(0)
+        if m.shape != (4, 4) or not np.isfinite(m).all():
+            raise InputError(f"the matrix of an object must be 4 x 4 finite numbers, not {matrix!r:.60}")
+        lengths = np.linalg.norm(m[:3, :3], axis=0)
+        scale = float(lengths.max())
+        if scale == 0 or (lengths < (1 - ORTHOGONAL) * scale).any() or (m[3] != (0, 0, 0, 1)).any():
+            raise InputError("the matrix of an object must scale all axes alike, and have (0, 0, 0, 1) as its last row")
+        return cls(mesh, position=m[:3, 3], rotation=quaternion_of(m[:3, :3] / scale), scale=scale, **fields)
+
+    def world_positions(self) -> Floats:
+        """Return the vertices of the mesh in the world, (n, 3)."""
+        return self.position + rotate(self.rotation, self.scale * self.mesh.positions)

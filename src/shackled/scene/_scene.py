@@ -1,0 +1,138 @@
+"""Everything that a picture is made from."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from typing import TypeVar
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import ArrayLike
+
+from ..checks import Color, Floats, color, flag, instance, integer
+from ..errors import InputError
+from ._background import Background, background_of
+from ._camera import Camera
+from ._light import WHITE, Light
+from ._mesh import Mesh
+from ._object import Object
+from ._value import checked, plural, with_names
+
+MAX_SIDE = 2048
+MAX_LIGHTS = 4
+#: Width and height of a picture, in pixels, where none are given.
+DEFAULT_SIDE = 128
+
+Part = TypeVar("Part")
+
+
+def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ...]:
+    parts = _list([value] if isinstance(value, Object | Mesh) else value, "objects")
+    objects = [Object(part) if isinstance(part, Mesh) else part for part in parts]
+    for number, part in enumerate(objects):
+        instance(part, f"objects[{number}] of a scene", Object)
+    return tuple(objects)
+
+
+def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
+    """Return the lights that are meant: one alone, or up to four in a list; None is replaced by a Scene."""
+    if value is None:
+        return value  # type: ignore[return-value]
+    lights = _list([value] if isinstance(value, Light) else value, "lights")
+    for number, part in enumerate(lights):
+        instance(part, f"lights[{number}] of a scene", Light)
+    if len(lights) > MAX_LIGHTS:
+        raise InputError(f"a scene has up to {MAX_LIGHTS} lights, not {len(lights)}")
+    return tuple(lights)
+
+
+def _list(parts: Iterable[Part], name: str) -> list[Part]:
+    try:
+        return list(parts)
+    except TypeError:
+        raise InputError(f"the {name} of a scene must be a list, not {parts!r:.60}") from None
+
+
+def _camera(value: Camera | None) -> Camera:
+    if value is not None:
+        instance(value, "the camera of a scene", Camera)
+    return value  # type: ignore[return-value]
+
+
+def _background(value: Background | ArrayLike | str | Sequence[ArrayLike | str] | None) -> Background:
+    return value if value is None else background_of(value)  # type: ignore[return-value]
+
+
+def _side(value: int, name: str = "side") -> int:
+    side = integer(value)
+    if side is None or not 1 <= side <= MAX_SIDE:
+        raise InputError(f"the {name} of a picture must be from 1 to {MAX_SIDE} pixels, not {value!r:.60}")
+    return side
+
+
+@frozen(field_transformer=with_names, repr=False)
+class Scene:
+    """Objects, drawn in their order with one depth buffer, seen by a camera.
+
+    objects: also a Mesh in place of an Object, or one alone.
+    background: also a colour, or two, (top, bottom).
+    camera, lights, background: where none of the three is given, objects are staged: the camera comes as near as it can
+        with all of them in the picture, from a little above and to the side, and a white light shines from the upper
+        left. Otherwise None is `Camera()`, no light, or black.
+    ambient_light: the colour of the light that comes from everywhere.
+    invert: every byte v of the picture becomes 255 - v.
+    width, height: of the picture in pixels, 1..2048.
+    """
+
+    objects: tuple[Object, ...] = field(converter=_objects)
+    camera: Camera = field(default=None, converter=_camera)
+    lights: tuple[Light, ...] = field(default=None, converter=lights_of)
+    background: Background = field(default=None, converter=_background)
+    ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
+    invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
+    width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))
+    height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
+
+    def __attrs_post_init__(self) -> None:
+        """Choose what is not given."""
+        camera, background = Camera(), Background()
+        lights: tuple[Light, ...] = ()
+        if self.objects and self.camera is None and self.lights is None and self.background is None:
+            from ._staging import staged
+
+            with np.errstate(over="ignore", invalid="ignore"):
+                points = np.concatenate([each.world_positions() for each in self.objects])
+            camera, lights, background = staged(points, self.width, self.height)
+        for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, chosen)
+
+    @property
+    def triangles(self) -> int:
+        """The number of triangles of all objects."""
+        return sum(each.mesh.triangles for each in self.objects)
+
+    @property
+    def bounds(self) -> Floats:
+        """The box around all objects in the world, (2, 3): its lowest and its highest corner; zeros without objects."""
+        corners = [(points.min(axis=0), points.max(axis=0)) for points in map(Object.world_positions, self.objects)]
+        if not corners:
+            return np.zeros((2, 3))
+        return np.stack([np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a scene file, .json, with its meshes inside, such that loading it gives the same scene.
+
+        InputError where the path is wrong, OutputError where the disk is full or fails.
+        """
+        from ._files.scene_file import write_scene
+
+        write_scene(self, path)
+
+    def __repr__(self) -> str:
+        """Count in one line."""
+        return (
+            f"<Scene {self.width}x{self.height}, {plural(len(self.objects), 'object')}, "
+            f"{plural(self.triangles, 'triangle')}, {plural(len(self.lights), 'light')}>"
+        )

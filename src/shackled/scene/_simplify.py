@@ -1,0 +1,102 @@
+"""Fewer triangles for the same shape."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from attrs import evolve
+from fast_simplification import replay_simplification
+from fast_simplification import simplify as collapse_edges
+from numpy.typing import NDArray
+
+from ..checks import integer
+from ..errors import InputError
+from ._mesh import Mesh
+from ._scene import Scene
+
+#: Tries at a collapse, one after the other until one is enough: how forceful it is, and its target as a share of the
+#: one that was asked for, for it may stop a little above its target, or far above it if it is not forceful enough.
+FORCEFUL = ((7, 1.0), (7, 0.9), (10, 0.8), (14, 0.5))
+#: These keep the shape better, and fail for more meshes.
+GENTLE = ((5, 1.0), (5, 0.9))
+
+
+def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
+    """Return a mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
+
+    Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
+    they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
+    forcefully. InputError where edges cannot be collapsed so far; it names a number that would do.
+    """
+    most = integer(max_triangles)
+    if most is None or most < 1:
+        raise InputError(
+            f"the number of triangles to simplify to must be a whole number, at least 1, not {max_triangles!r}"
+        )
+    if mesh.triangles <= most:
+        return mesh
+    positions, faces, colors = _simplified(mesh, most, tries)
+    if not 0 < len(faces) <= most:
+        found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
+        if len(faces) and len(_simplified(mesh, len(faces), tries)[1]) <= len(faces):
+            found += f"; {len(faces)} would do"
+        raise InputError(f"a mesh of {mesh.triangles} triangles cannot be simplified to {most}: {found}")
+    return Mesh(positions, faces, colors)
+
+
+def simplify_scene(scene: Scene, max_triangles: int) -> Scene:
+    """Return the scene with every mesh of more triangles simplified to `max_triangles`."""
+    return evolve(scene, objects=[evolve(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
+
+
+_Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
+
+
+def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
+    """Return the mesh after as many tries as it needs; it may have more triangles than it should, or none."""
+    surface = _connect(mesh)
+    for force, share in tries:
+        if len(surface[1]) <= max_triangles:
+            break
+        surface = _collapse(*surface, int(share * max_triangles), force)
+    return surface
+
+
+def _connect(mesh: Mesh) -> _Surface:
+    """Return the mesh with one vertex for each position, whatever its colour.
+
+    So edges between colours can be collapsed too.
+    """
+    positions = mesh.positions
+    unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
+    faces = number.reshape(-1)[mesh.faces]
+    return unique, _without_slivers(faces), mesh.colors[first]
+
+
+def _without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the faces that have three different vertices."""
+    a, b, c = faces.T
+    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+
+
+def _collapse(
+    positions: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8], target: int, agg: int
+) -> _Surface:
+    if len(faces) == 0:
+        return positions, faces, colors
+    _, _, collapses = collapse_edges(
+        positions, faces.astype(np.int32), target_count=min(target, len(faces)), agg=agg, return_collapses=True
+    )
+    points, triangles, number = replay_simplification(positions, faces.astype(np.int32), collapses)
+    triangles = _without_slivers(np.asarray(triangles, dtype=np.int64).reshape(-1, 3))
+    if len(triangles) == 0:
+        return positions[:0], triangles, colors[:0]
+    # of the vertices that became one, the nearest to it comes last, and so stays
+    kept = np.flatnonzero(number >= 0)
+    distance = np.linalg.norm(positions[kept] - points[number[kept]], axis=1)
+    kept = kept[np.argsort(-distance, kind="stable")]
+    nearest = np.zeros(len(points), dtype=np.int64)
+    nearest[number[kept]] = kept
+    used, compact = np.unique(triangles, return_inverse=True)
+    return np.asarray(points, dtype=np.float64)[used], compact.reshape(-1, 3), colors[nearest[used]]

@@ -1,0 +1,94 @@
+"""A scene turned about its middle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from attrs import evolve
+from numpy.typing import ArrayLike, NDArray
+
+from ..checks import number
+from ..errors import InputError
+from ._camera import Camera
+from ._rotation import multiply, rotate, rotation_of
+from ._scene import Scene
+
+Points = NDArray[np.float64]
+
+MOST_FRAMES = 720
+#: The part of the half width and half height of the picture that may be filled.
+FILLED = 0.92
+
+
+def turn(scene: Scene, rotation: ArrayLike) -> Scene:
+    """Return the scene with all objects turned together about their middle; camera and lights stay.
+
+    rotation: degrees about x, then y, then z; a quaternion (x, y, z, w); or a (3, 3) matrix.
+    The meshes are left as they are: the contract turns them, by the rotations of the objects.
+    """
+    rotation, center = rotation_of(rotation), middle(scene)
+    return evolve(
+        scene,
+        objects=[
+            evolve(
+                o,
+                position=center + rotate(rotation, o.position - center),
+                rotation=multiply(rotation, o.rotation),
+            )
+            for o in scene.objects
+        ],
+    )
+
+
+def full_turn(scene: Scene, frames: int) -> list[Scene]:
+    """Return the scene in equal steps of a full turn about the vertical axis, counter-clockwise as seen from above.
+
+    Background, lights and camera stand still. Where a scene that was wholly in the picture would not stay there, the
+    camera is moved back for all frames.
+    """
+    if number(frames, "the number of frames of a turntable", 2, MOST_FRAMES) != int(frames):
+        raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
+    turned = [scene, *(turn(scene, (0, 360 * step / frames, 0)) for step in range(1, int(frames)))]
+    camera = _holding(scene.camera, [_points(each) for each in turned], scene.width / scene.height)
+    return [evolve(each, camera=camera) for each in turned]
+
+
+def middle(scene: Scene) -> Points:
+    """Return the middle of the box around all objects."""
+    return np.asarray(scene.bounds.mean(axis=0))
+
+
+def _points(scene: Scene) -> Points:
+    """Return all vertices, (n, 3), in the world."""
+    placed = [o.world_positions() for o in scene.objects]
+    return np.concatenate(placed) if placed else np.zeros((0, 3))
+
+
+def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
+    """Return the camera, so far back that all points are in the picture, with a margin unless the first have none."""
+    forward = camera.target - camera.eye
+    right = np.cross(forward, camera.up)
+    if not len(turned[0]) or not forward.any() or not right.any():
+        return camera
+    forward = forward / np.linalg.norm(forward)
+    right = right / np.linalg.norm(right)
+    axes = np.stack([right / aspect, np.cross(right, forward), forward], axis=1)
+    perspective = camera.projection == "perspective"
+
+    def reach(points: Points) -> tuple[Points, Points]:
+        """Return how far points are beside the line of sight, in halves of the picture at distance 1, and how deep."""
+        x, y, z = ((points - camera.eye) @ axes).T
+        return np.maximum(np.abs(x), np.abs(y)) / camera.half_height, z if perspective else np.ones_like(z)
+
+    beside, distance = reach(turned[0])
+    if (distance <= 0).any() or (beside > distance).any():
+        return camera  # not wholly in the picture as it is
+    share = max(float((beside / distance).max()), FILLED)
+    if not perspective:
+        most = max(float(reach(points)[0].max()) for points in turned)
+        return evolve(camera, half_height=camera.half_height * max(1.0, most / share))
+    back = max(float((a / share - z).max()) for a, z in map(reach, turned))
+    if back <= 1e-9 * float(distance.max()):
+        return camera
+    return evolve(camera, eye=camera.eye - back * forward)

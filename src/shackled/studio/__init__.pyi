@@ -1,0 +1,36 @@
+from ._compact_mesh import COMPACT, compact, expand, take_apart
+from ._keeping import (
+    PARTS,
+    POINTED,
+    SCENE,
+    STUDIO,
+    Storing,
+    compress_zeros,
+    kept_at,
+    on_grid,
+    pointing,
+    read_mesh,
+    scene_struct,
+    store_mesh,
+    store_scene,
+)
+
+__all__ = [
+    "COMPACT",
+    "PARTS",
+    "POINTED",
+    "SCENE",
+    "STUDIO",
+    "Storing",
+    "compact",
+    "compress_zeros",
+    "expand",
+    "kept_at",
+    "on_grid",
+    "pointing",
+    "read_mesh",
+    "scene_struct",
+    "store_mesh",
+    "store_scene",
+    "take_apart",
+]

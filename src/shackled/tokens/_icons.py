@@ -1,0 +1,133 @@
+"""The icons of a collection: kinds of tokens, each with a scene that is kept on chain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..artifacts import artifact
+from ..datasets import Piece, find, pieces
+from ..deploy import Call, local_chain
+from ..errors import InputError
+from ..ethereum import Interface, amount, checksum_address
+from ..studio import STUDIO
+from ._actions import call_of
+from ._collection import Collection
+from ._licence import licence_of
+
+#: Pixels that each pixel becomes in the picture of a token: 128 become 512.
+SCALE = 4
+
+
+@dataclass(frozen=True)
+class Icon:
+    """One of them. scene: where it is kept. price: in wei. supply: how many tokens there will ever be.
+    reserve: of those, kept for the team.
+    """
+
+    number: int
+    name: str
+    scene: str
+    scale: int
+    price: int
+    supply: int
+    reserve: int
+    sold: int
+    reserve_minted: int
+
+    @property
+    def left(self) -> int:
+        """To be sold."""
+        return self.supply - self.reserve - self.sold
+
+    def document(self) -> dict[str, Any]:
+        """Return the icon as JSON has it, with the price in ether."""
+        return {
+            "icon": self.number,
+            "name": self.name,
+            "scene": self.scene,
+            "price": amount(self.price),
+            "supply": self.supply,
+            "reserve": self.reserve,
+            "left": self.left,
+        }
+
+
+def icon_at(collection: Collection, number: int) -> Icon:
+    """Return an icon of a collection. RevertError if there is none of that number."""
+    name, scene, *numbers = collection.contract.call("iconAt", number)
+    return Icon(number, name, checksum_address(bytes.fromhex(scene[2:])), *numbers)
+
+
+def icons_of(collection: Collection) -> list[Icon]:
+    """Return all icons of a collection."""
+    return [icon_at(collection, number) for number in range(collection.contract.call("iconCount"))]
+
+
+def find_icon(collection: Collection, text: str) -> Icon:
+    """Return the icon of that number, or of that name, as "heart" or "icons/heart". InputError if there is none."""
+    icons = icons_of(collection)
+    if text.isdecimal() and int(text) < len(icons):
+        return icons[int(text)]
+    piece = find(text if "/" in text else f"icons/{text}")
+    names = {text.lower()} | ({piece.title.lower()} if piece is not None else set())
+    found = [icon for icon in icons if icon.name.lower() in names]
+    if not found:
+        known = ", ".join(f"{icon.number} {icon.name}" for icon in icons[:40])
+        raise InputError(f"there is no icon {text!r} in {collection.name}; there are {known or 'none yet'}")
+    return found[0]
+
+
+def chosen_pieces(names: str | None) -> list[Piece]:
+    """Return the pieces, named with commas, that may be icons; None takes the whole dataset of icons.
+
+    InputError for one that is unknown, or whose licence forbids it.
+    """
+    if names is None:
+        return list(pieces("icons"))
+    chosen: list[Piece] = []
+    for name in filter(None, (each.strip() for each in names.split(","))):
+        piece = find(f"icons/{name}") or find(name)
+        if piece is None:
+            raise InputError(f"there is no piece {name!r}; `shackled datasets list` shows all")
+        licence_of(piece, None)
+        if piece.name in [each.name for each in chosen]:
+            raise InputError(f"{piece.name} is named twice")
+        chosen.append(piece)
+    if not chosen:
+        raise InputError("no icon is named: give names with commas, as heart,diamond")
+    return chosen
+
+
+def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
+    """Return the transaction that adds an icon, with the gas of writing it and of drawing one pixel of its scene.
+
+    Raises RenderError if the scene cannot be drawn.
+
+    icon: the arguments of `add`. codes: by address, what the Studio keeps of the scene.
+    """
+    call = call_of(interface, collection, "add", *icon)
+    return replace(call, ours=call.ours + _looking(codes, icon[1]))
+
+
+def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
+    local = local_chain()
+    local.address(STUDIO)
+    for place, code in codes.items():
+        local.put(place, code)
+    studio, renderer = artifact(STUDIO).interface, artifact("Renderer").interface
+    reading = local.call(STUDIO, studio.encode("scene(address)", pointer))
+    scene = studio.decode("scene(address)", reading.output)
+    drawing = local.call("Renderer", renderer.encode("renderTile", scene, (0, 0, 1, 1)))
+    return reading.gas + drawing.gas
+
+
+def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:
+    """Raise InputError where the collection would not take the icons."""
+    if not 0 <= price < 1 << 96:
+        raise InputError(f"the price of an icon must be below {1 << 96} wei, not {price}")
+    if not (1 <= supply < 1 << 32 and 0 <= reserve <= supply):
+        raise InputError(f"of an icon there must be 1 token or more, and no more in the reserve: {supply}, {reserve}")
+    if len(pieces) >= 1 << 24:
+        raise InputError(f"{len(pieces):,} icons are more than a collection takes")
