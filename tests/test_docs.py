@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 import shackled
-from nodes import anvil, needs_anvil
+from nodes import KEY, anvil, needs_anvil
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
@@ -93,6 +93,7 @@ def test_a_program_runs_on_a_node(
     name: str, node: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("SHACKLED_RPC", node)
+    monkeypatch.setenv("KEY", KEY)
     run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
     assert "gas" in capsys.readouterr().out
 
@@ -102,8 +103,9 @@ def test_the_programs_are_short_and_listed() -> None:
     assert len(PROGRAMS) >= 12
     for program in PROGRAMS:
         text = program.read_text("utf-8")
-        assert 5 <= len(text.splitlines()) <= 40
-        assert f"`{program.name}`" in page
+        assert 5 <= len(text.splitlines()) <= 25
+        assert f"[`{program.name}`]" in page
+        assert f'\n--8<-- "{program.name}"\n' in page
 
 
 def test_the_programs_have_strict_types() -> None:

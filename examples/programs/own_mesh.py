@@ -10,12 +10,10 @@ y = np.cos(x * x + z * z) * 0.6
 vertices = np.column_stack([x.ravel(), y.ravel(), z.ravel()])
 
 corner = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)).ravel()
-faces = np.concatenate(
-    [
-        np.column_stack([corner, corner + side, corner + 1]),
-        np.column_stack([corner + 1, corner + side, corner + side + 1]),
-    ]
-)
+upper = np.column_stack([corner, corner + side, corner + 1])
+lower = np.column_stack([corner + 1, corner + side, corner + side + 1])
+faces = np.concatenate([upper, lower])
+
 height = (y.ravel() + 0.6) / 1.2
 colors = np.column_stack([height, np.full_like(height, 0.4), 1 - height])  # floats from 0 to 1
 

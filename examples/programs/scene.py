@@ -3,12 +3,10 @@
 import shackled
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 
-square = Mesh([(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)], [(0, 1, 2), (0, 2, 3)], "#705040")
-pyramid = Mesh(
-    [(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1), (0, 1.5, 0)],
-    [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
-    "goldenrod",
-)
+corners = [(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)]
+square = Mesh(corners, [(0, 1, 2), (0, 2, 3)], "#705040")
+sides = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+pyramid = Mesh([*corners, (0, 1.5, 0)], sides, "goldenrod")
 scene = Scene(
     objects=[
         Object(square, scale=4),

@@ -4,4 +4,5 @@ import shackled
 
 image = shackled.render("teapot", size=64, color="tomato")
 image.save("teapot.png")
-print(f"{image.width} x {image.height} pixels, {image.triangles} triangles, {image.gas:,} gas on {image.chain}")
+print(image)  # <Image 64x64, 491 triangles, 4.1M gas>
+print(f"{image.pixels.shape} pixels, {image.gas:,} gas, {image.chain}")
