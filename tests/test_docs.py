@@ -1,10 +1,11 @@
-"""The Python code of the documentation runs, and the short programs do what they say."""
+"""The Python code and the commands of the documentation, and the short programs."""
 
 from __future__ import annotations
 
 import ast
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -12,9 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.main import get_command
 
 import shackled
 from nodes import KEY, anvil, needs_anvil
+from shackled.cli.app import app
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCS = ROOT / "docs"
@@ -54,6 +57,18 @@ def test_the_code_of_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest
         "faces": [[0, 1, 2]],
     }
     exec(compile(code, str(page), "exec"), names)
+
+
+@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), ROOT / "README.md"], ids=lambda page: page.stem)
+def test_the_commands_of_a_page_exist(page: Path) -> None:
+    """With the options that are shown."""
+    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", page.read_text("utf-8"), re.MULTILINE):
+        words = shlex.split(line, comments=True)[1:]
+        command = get_command(app)
+        while words and hasattr(command, "commands"):
+            command = command.commands[words.pop(0)]
+        known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
+        assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
 
 
 def test_the_reference_has_every_name_with_an_example() -> None:
@@ -110,6 +125,13 @@ def test_the_programs_are_short_and_listed() -> None:
 
 def test_the_programs_have_strict_types() -> None:
     """As in a project of somebody else, without the configuration of this one."""
-    command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", *map(str, PROGRAMS)]
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--config-file=",
+        *map(str, PROGRAMS),
+    ]
     result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     assert result.returncode == 0, result.stdout + result.stderr
