@@ -7,12 +7,12 @@ import pytest
 from attrs import evolve
 
 from differential import compare, compare_broken, contract_answer, difference, reference_answer
-from pictures import call_data, chain, counts, shared_folder
+from original_scenes import documents
+from pictures import call_data, chain, counts
 from random_scenes import KINDS, Kind, random_case
-from shackled import Camera, Light, Material, Mesh, Object, Scene, load
-from shackled.errors import InputError
+from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.reference import selector
-from shackled.scene import Rectangle, encode, rotate
+from shackled.scene import Rectangle, encode, original_scene, rotate
 
 SEEDS = 250
 
@@ -76,26 +76,15 @@ def test_broken_calls() -> None:
     [None, Material("smooth", 0.2, 0.7, 0.5, 20), Material("flat", 0.2, 0.7, 0.5, 20)],
     ids=lambda material: material.shading if material else "as it is",
 )
-@pytest.mark.parametrize("prefix", ["obj_", "genesis_", "cube_", "probe_", ""])
-def test_shared_scenes(prefix: str, material: Material | None) -> None:
-    names = sorted(path.stem for path in shared_folder().glob("*.json"))
-    if not names:
-        pytest.skip(f"there are no scenes in {shared_folder()}: set SHACKLED_SHARED")
-    known = ("obj_", "genesis_", "cube_", "probe_")
-    mine = [name for name in names if (name.startswith(prefix) if prefix else not name.startswith(known))]
+def test_scenes_as_the_original_was_measured_with(material: Material | None) -> None:
     found = {}
-    for name in mine:
-        try:
-            scene = load(shared_folder() / f"{name}.json")
-        except InputError:
-            # a file that is wrong on purpose
-            continue
+    for name, document in documents().items():
+        scene = original_scene(document)
         if material:
             objects = [evolve(each, material=material) for each in scene.objects]
             scene = evolve(scene, objects=objects, lights=[Light("point", (500, 800, 0))])
         data = encode(selector("renderCounted"), scene)
         found[name] = difference(contract_answer(chain(), data), reference_answer(data))
-    assert len(found) > len(mine) * 0.6
     assert {name: text for name, text in found.items() if text} == {}
 
 
