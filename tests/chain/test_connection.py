@@ -181,9 +181,12 @@ WORDS = {
     ],
     TooLargeError: [
         "response size should not be greater than 10000",
+        "response size is larger than 150MB",
+        "response is too big",
         "response exceeded 10 MB",
         "response too big",
         "oversized response",
+        "request is too big",
         "request too large",
         "request too big",
         "oversized request",

@@ -213,12 +213,15 @@ def test_types_of_lists(tmp_path: Path, name: str, kind: str) -> None:
 @pytest.mark.parametrize(
     ("name", "values", "expected"),
     [
-        ("uchar", [0, 1, 255], [0, 1, 255]),
+        ("uchar", [1, 200, 255], [1, 200, 255]),
         ("char", [0, 1, 127], [0, 1, 127]),
-        ("ushort", [257, 32896, 65535], [1, 128, 255]),
-        ("short", [0, 254, 255], [0, 254, 255]),
-        ("int", [0, 254, 255], [0, 254, 255]),
-        ("uint", [0, 254, 255], [0, 254, 255]),
+        ("ushort", [257, 65406, 65407], [1, 254, 255]),
+        ("short", [1, 200, 255], [1, 200, 255]),
+        ("int", [1, 200, 255], [1, 200, 255]),
+        ("uint", [1, 200, 255], [1, 200, 255]),
+        # whole numbers are none of fractions, though none is above 1
+        *[(name, [0, 1, 1], [0, 1, 1]) for name in ("uchar", "char", "short", "int", "uint")],
+        ("ushort", [0, 1, 1], [0, 0, 0]),
         ("float", [0, 0.5, 1], [0, 128, 255]),
         ("double", [0.25, 0.5, 1], [64, 128, 255]),
     ],
@@ -241,6 +244,13 @@ def test_names_of_colors(tmp_path: Path, names: tuple[str, str, str]) -> None:
     assert corner_colors(read(tmp_path, text)) == [[list(DEFAULT_COLOR)] * 3]
 
 
+@pytest.mark.parametrize(("red", "other", "expected"), [("float", "uchar", 255), ("uchar", "float", 1)])
+def test_the_type_of_red_tells(tmp_path: Path, red: str, other: str, expected: int) -> None:
+    more = COLOR.replace("uchar", other).replace(f"{other} red", f"{red} red")
+    rows = "".join(f"{x} {y} {z} 1 1 1\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[expected] * 3] * 3]
+
+
 def test_the_first_name_of_a_color_counts(tmp_path: Path) -> None:
     more = "property uchar r\nproperty uchar g\nproperty uchar b\n" + COLOR
     rows = "".join(f"{x} {y} {z} 1 2 3 4 5 6\n" for x, y, z in SQUARE)
@@ -254,6 +264,12 @@ def test_faces_have_colors_if_any_two_differ(tmp_path: Path) -> None:
         faces = "".join(f"3 0 1 {2 + (k > 1)} {color}\n" for k, color in enumerate(colors))
         mesh = read(tmp_path, header("ascii", COLOR, 3, COLOR) + rows + faces)
         assert corner_colors(mesh) == [[list(map(int, color.split()))] * 3 for color in colors]
+
+
+def test_a_single_face_beside_colors_of_vertices(tmp_path: Path) -> None:
+    rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
+    mesh = read(tmp_path, header("ascii", COLOR, 1, COLOR) + rows + "3 0 1 2 7 7 7\n")
+    assert corner_colors(mesh) == [[[9, 9, 9]] * 3]
 
 
 def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
