@@ -46,7 +46,7 @@ def test_coordinates_that_cannot_be_packed(number: float) -> None:
 
 def test_normals_are_three_numbers_of_ten_bits() -> None:
     """Of unit length times 511, rounded, however long they were; what has no length points nowhere."""
-    normals = [[0.6, -0.8, 0], [0, 2, 0], [0, 0, 0]]
+    normals = [[0.6, -0.8, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0]]
     packed = pack(Mesh(np.eye(3), FACES, COLORS, normals), smooth=True)
     assert packed[0] == 1
     rows = [packed[5 + 13 * vertex :][:13] for vertex in range(3)]
@@ -54,7 +54,7 @@ def test_normals_are_three_numbers_of_ten_bits() -> None:
     words = [int.from_bytes(row[9:], "big") for row in rows]
     assert words == [307 << 22 | (1024 - 409) << 12, 511 << 12, 0]
     assert len(packed) == 5 + 3 * 13 + 6
-    turned = pack(Mesh(np.eye(3), FACES, COLORS, [[0, 0.6, -0.8], [0, 0, 1], [-1, 0, 0]]), smooth=True)
+    turned = pack(Mesh(np.eye(3), FACES, COLORS, [[0.0, 0.6, -0.8], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]), smooth=True)
     words = [int.from_bytes(turned[5 + 13 * vertex + 9 :][:4], "big") for vertex in range(3)]
     assert words == [307 << 12 | (1024 - 409) << 2, 511 << 2, (1024 - 511) << 22]
 
