@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime, timedelta, timezone
 from email.utils import format_datetime
 from typing import Any
 
@@ -68,7 +68,7 @@ def test_an_answer() -> None:
         (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "broke off"),
         (Reply(b"x" * 99, cut=0), NodeUnreachableError, "broke off"),
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
-        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
+        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later, or take another node"),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
         (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
         (Reply(b"", 413), TooLargeError, "answer of this size: take a smaller `size`"),
@@ -93,6 +93,8 @@ def test_an_answer() -> None:
         (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
         (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
+        (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
+        (Reply(b"\xff no", 418), NodeError, "(\ufffd no)"),
         (Reply(b"", 300), NodeError, "HTTP status 300: it sends callers elsewhere"),
         (Reply(b"", 399), NodeError, "HTTP status 399: it sends callers elsewhere"),
         (Reply(b"", 400), NodeError, "HTTP status 400; check its address"),
@@ -305,6 +307,8 @@ def test_reverts_whose_words_are_of_something_else() -> None:
         ask(failure("transaction failed", -32000, "out of gas"))
     with pytest.raises(NodeError, match=r"says: failed$"):
         ask(failure("failed", -32000, "0x"))
+    with pytest.raises(NodeError, match=r"says: failed$"):
+        ask(failure("failed", -32000, {"message": "out of gas", "data": "0x"}))
     with pytest.raises(RevertError):
         ask(failure("VM Exception: revert", -32000, {"why": "later"}))
 
@@ -406,6 +410,8 @@ def test_when_to_try_again(monkeypatch: pytest.MonkeyPatch) -> None:
     assert retry_after({"Retry-After": " 1.5 "}) == 1.5
     assert retry_after({"Retry-After": "-3"}) == 0
     assert retry_after({"Retry-After": " "}) is None
+    east = format_datetime(datetime.now(timezone(timedelta(hours=9))) + timedelta(seconds=90))
+    assert 80 < (retry_after({"Retry-After": east}) or 0) <= 90
     # a date without a time zone is in that of Greenwich, wherever this runs
     monkeypatch.setenv("TZ", "Pacific/Auckland")
     time.tzset()

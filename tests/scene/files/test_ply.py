@@ -48,6 +48,19 @@ def test_windows_line_ends(tmp_path: Path) -> None:
     assert len(np.asarray(read(tmp_path, text).faces)) == 2
 
 
+def test_windows_line_ends_before_binary_data(tmp_path: Path) -> None:
+    content = header("binary_little_endian", "", 1).replace("\n", "\r\n").encode()
+    content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<Biiii", 4, 0, 1, 2, 3)
+    assert read(tmp_path, content).triangles == 2
+
+
+def test_letters_that_are_not_of_ascii(tmp_path: Path) -> None:
+    text = (header("ascii", "", 1).replace("by hand", "by händ") + VERTICES + "3 0 1 2\n").encode("latin-1")
+    assert read(tmp_path, text).triangles == 1
+    with pytest.raises(InputError, match=r"line 15 should hold an element face .*, not '3 0 1 \ufffd'"):
+        read(tmp_path, text.replace(b"3 0 1 2\n", b"3 0 1 \xe9\n"))
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
 def test_line_ends_of_an_old_mac(tmp_path: Path, encoding: str) -> None:
     content = header(encoding, "", 1).replace("\n", "\r").encode()
