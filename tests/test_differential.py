@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from attrs import evolve
 
-from differential import compare, compare_broken, contract_answer, difference, reference_answer
+from differential import LEAST_DRAWN, compare, compare_broken, contract_answer, difference, reference_answer
 from original_scenes import documents
-from pictures import call_data, chain, counts
+from pictures import call_data, chain
 from random_scenes import KINDS, Kind, random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.reference import selector
@@ -20,16 +20,13 @@ SEEDS = 250
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("first", [1, 1 + SEEDS])
 def test_random_scenes(kind: Kind, first: int) -> None:
-    found = {}
+    found, drawn = {}, []
     for seed in range(first, first + SEEDS):
-        found[seed], _ = compare(random_case(seed, (kind,)), chain())
+        found[seed], whole = compare(random_case(seed, (kind,)), chain())
+        drawn.append(isinstance(whole, bytes) and int.from_bytes(whole[64:96], "big") > 0)
     assert {seed: text for seed, text in found.items() if text} == {}
-
-
-def test_something_is_drawn_in_nearly_all_random_scenes() -> None:
-    for kind in KINDS:
-        drawn = [counts(random_case(seed, (kind,)).scene)[1] > 0 for seed in range(1, 201)]
-        assert np.mean(drawn) >= 0.95, kind
+    # nearly all of them show something
+    assert np.mean(drawn) >= LEAST_DRAWN
 
 
 def test_random_scenes_are_of_all_sorts() -> None:
