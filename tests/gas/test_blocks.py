@@ -41,7 +41,7 @@ def test_the_tool(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.Monkey
     command = [sys.executable, "tools/gas_blocks.py", *call]
     listed = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout.splitlines()
     # the call is the same each time
-    monkeypatch.setattr(gas_blocks, "trace", cache(gas_blocks.trace))
+    monkeypatch.setattr(gas_blocks, "trace", cache(trace))
     name = listed[1].split()[1]
     assert gas_blocks.main([*call, name]) == 0
     told = capsys.readouterr().out.splitlines()

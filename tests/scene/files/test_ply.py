@@ -420,6 +420,14 @@ def test_a_binary_file_that_ends_early(tmp_path: Path, missing: int) -> None:
         read(tmp_path, content[:-missing])
 
 
+def test_lists_may_be_empty(tmp_path: Path) -> None:
+    more = "property list uchar short more\n"
+    text = header("ascii", "", 2, more) + VERTICES + "3 0 1 2 0\n3 0 2 3 1 7\n"
+    content = header("binary_little_endian", "", 2, more).encode() + np.array(SQUARE, "<f4").tobytes()
+    content += struct.pack("<BiiiB", 3, 0, 1, 2, 0) + struct.pack("<BiiiBh", 3, 0, 2, 3, 1, 7)
+    assert read(tmp_path, text).triangles == read(tmp_path, content).triangles == 2
+
+
 def test_a_list_of_less_than_nothing(tmp_path: Path) -> None:
     content = header("binary_little_endian", "", 1).replace("uchar int", "char int").encode()
     content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<b", -1) + bytes(40)
