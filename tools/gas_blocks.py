@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -98,7 +99,7 @@ def _split(code: bytes) -> list[list[tuple[int, int, bytes]]]:
     return [block for block in found if block]
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Print the functions of a contract, or the blocks of one, by their gas."""
     text = __doc__ or ""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -106,7 +107,7 @@ def main() -> int:
     parser.add_argument("function", nargs="?", help="such as Rasterizer.rows; none: a list of all")
     parser.add_argument("--call", nargs=2, metavar=("CONTRACT", "DATA"), help="call this contract with these bytes")
     parser.add_argument("--contract", help="whose functions; else Engine, or the one that is called")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     # with --call there is no scene, and what comes first is the function
     function = options.input if options.call else options.function
     if not options.call and options.input is None:
