@@ -57,33 +57,33 @@ def test_an_answer() -> None:
 @pytest.mark.parametrize(
     ("reply", "kind", "words"),
     [
-        (Reply(b"<html>hello</html>"), NodeUnreachableError, "what is not JSON"),
-        (Reply(b""), NodeUnreachableError, "answered with nothing"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "what is not JSON"),
-        (Reply(b"[" * 100_000), NodeUnreachableError, "what is not JSON"),
+        (Reply(b"<html>hello</html>"), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b""), NodeUnreachableError, "an empty answer"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b"[" * 100_000), NodeUnreachableError, "an answer that is not JSON"),
         (Reply(b"[]"), NodeUnreachableError, "JSON that is not JSON-RPC"),
         (Reply(b'{"jsonrpc": "2.0", "id": 0}'), NodeUnreachableError, "JSON that is not JSON-RPC"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered another request"),
-        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "broke off"),
-        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "broke off"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered a different request"),
+        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "closed the"),
+        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "closed the connection"),
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
-        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
+        (Reply(b"", 429), NodeBusyError, "limits the rate of requests (HTTP status 429); try again later"),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
-        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
         (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
         (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
         (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
-        (Reply(b"", 401), NodeError, "HTTP status 401: it lets nobody in without the right key"),
+        (Reply(b"", 401), NodeError, "HTTP status 401: it needs a key"),
         (
             Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
             NodeError,
-            "HTTP status 401: it lets nobody in without the right key",
+            "HTTP status 401: it needs a key",
         ),
         (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
-        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it sends callers elsewhere"),
+        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it redirects requests"),
         (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot)"),
-        (failure("daily limit", 429, status=429), NodeBusyError, "less often"),
+        (failure("daily limit", 429, status=429), NodeBusyError, "limits the rate"),
         (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
     ],
 )
@@ -197,7 +197,7 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"`rpc` must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+    with pytest.raises(InputError, match=r"must be the address of a node, such as http://127\.0\.0\.1:8545") as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 
@@ -285,7 +285,7 @@ def test_the_wrong_chain() -> None:
 
 @pytest.mark.parametrize("value", [None, "0x123", "hello", 5, "0xzz"])
 def test_results_of_another_type(value: Any) -> None:
-    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="what is no string of bytes"):
+    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="returned invalid bytes"):
         Connection(url).data("eth_call", {})
 
 
@@ -293,7 +293,7 @@ def test_results_of_another_type(value: Any) -> None:
     "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
 )
 def test_what_is_no_number_of_256_bits(number: Any) -> None:
-    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="what is no number"):
+    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="returned an invalid number"):
         _ = Connection(url).chain_id
     with serving(lambda _: result("0x" + 64 * "f")) as url:
         assert Connection(url).number("eth_gasPrice") == 2**256 - 1

@@ -77,7 +77,7 @@ def test_a_tree_that_is_not_that_of_its_entries_is_refused(tmp_path: Path) -> No
     document["values"][0]["value"][1] = "200"
     path = tmp_path / "tree.json"
     path.write_text(json.dumps(document))
-    with pytest.raises(InputError, match="the root of its tree is not that of its entries"):
+    with pytest.raises(InputError, match="the root of its tree differs from that of its entries"):
         read_allow_list(path)
 
 
@@ -92,8 +92,8 @@ def test_a_tree_that_is_not_that_of_its_entries_is_refused(tmp_path: Path) -> No
         (f"{ALICE},1.5\n", "must be a whole number from 1"),
         (f"{ALICE},{2**256}\n", "must be a whole number from 1"),
         ("0x12,1\n", "the account must be an address, 0x and 40 hexadecimal digits"),
-        (f"{ALICE},1\n{ALICE.lower()},1\n", "entry 2: the account " + ALICE + " stands there twice"),
-        (ALICE.replace("70997970C", "70997970c") + ",1\n", "mistyped"),
+        (f"{ALICE},1\n{ALICE.lower()},1\n", "entry 2: the account " + ALICE + " occurs twice"),
+        (ALICE.replace("70997970C", "70997970c") + ",1\n", "an invalid checksum"),
     ],
 )
 def test_a_wrong_line_is_named(tmp_path: Path, text: str, said: str) -> None:
@@ -120,5 +120,5 @@ def test_a_missing_file_is_said(tmp_path: Path) -> None:
 
 
 def test_who_is_not_listed_has_no_proof() -> None:
-    with pytest.raises(InputError, match=f"{BOB} is not among the 1 of the allow-list"):
+    with pytest.raises(InputError, match=f"{BOB} is not among the 1 accounts of the allow list"):
         make_allow_list([(ALICE, 1)]).proof(BOB)
