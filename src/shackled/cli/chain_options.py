@@ -67,7 +67,9 @@ class SignerOptions:
 
     account: Annotated[
         Path | None,
-        option("--account", f"Keystore file of the account; the password is asked for, or read from {PASSWORD}.", "F"),
+        option(
+            "--account", f"Keystore file of the account. Its password is asked for, or read from {PASSWORD}.", "FILE"
+        ),
     ] = None
     private_key_env: Annotated[
         str | None, option("--private-key-env", "Environment variable with the private key of the account.", "NAME")

@@ -1,4 +1,4 @@
-from ._allow_list import hash_pair, leaf_of, make_allow_list, read_allow_list, verify
+from ._allow_list import hash_pair, leaf_of, make_allow_list, read_allow_list
 from ._allowance import read_allowance, sign_allowance
 from ._collection import KINDS, Collection, CollectionKind, open_collection
 from ._contract import USUAL_GAS, Contract, perform, plan
@@ -78,5 +78,4 @@ __all__ = [
     "sign_allowance",
     "store",
     "tokens_json",
-    "verify",
 ]

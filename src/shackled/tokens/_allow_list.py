@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import re
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -87,14 +87,6 @@ def leaf_of(account: str, quantity: int) -> bytes:
 def hash_pair(one: bytes, other: bytes) -> bytes:
     """Return the parent of two nodes, whose order does not matter."""
     return keccak256(min(one, other) + max(one, other))
-
-
-def verify(root: bytes, account: str, quantity: int, proof: Sequence[bytes]) -> bool:
-    """Return whether a proof connects an entry with the root."""
-    node = leaf_of(account, quantity)
-    for sibling in proof:
-        node = hash_pair(node, sibling)
-    return node == root
 
 
 def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow list") -> AllowList:

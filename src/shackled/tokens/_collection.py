@@ -51,7 +51,6 @@ class CollectionState:
     """
 
     name: str
-    symbol: str
     owner: str
     phase: int
     minted: int
@@ -147,7 +146,6 @@ class Collection:
         receiver, royalty = call("royaltyInfo", 0, 10_000)
         return CollectionState(
             name=self.name,
-            symbol=call("symbol"),
             owner=self._address(call("owner")),
             phase=self._phase(),
             minted=self.minted(),
