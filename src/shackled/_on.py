@@ -1,4 +1,4 @@
-"""Where a picture is rendered, as it is said to `render`."""
+"""The values of the argument `on` of `render`: where calls run."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class Processes:
     """Worker processes on this machine.
 
-    jobs: how many, 1..256; None for one for each processor. evm: "pyrevm", "pyevm" or "reference"; None for the
-    fastest that is installed.
+    jobs: number of processes, 1..256; None for one per processor.
+    evm: "pyrevm", "pyevm" or "reference"; None for the fastest that is installed.
     """
 
     jobs: int | None = None
@@ -34,12 +34,14 @@ def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
 
 @frozen(init=False)
 class Nodes:
-    """Nodes with a JSON-RPC interface, by their addresses; several share the work.
+    """JSON-RPC nodes, which share the work.
 
-    address: of a renderer that is deployed there; None takes the one that is known, or brings it along.
-    timeout: seconds that a call may take. jobs: how many calls at a time to each node.
-    verify: how much of what they draw is compared with what is drawn here, "all", "some" or "none"; None compares all,
-    or some from 500 million gas on.
+    urls: addresses of the nodes.
+    address: address of a deployed renderer; None uses the known one, or sends the contracts with the call.
+    timeout: time limit of a call in seconds; None for 120.
+    jobs: number of concurrent calls per node.
+    verify: how much is compared with the embedded EVM: "all", "some" or "none"; None compares all of a picture below
+        500 million gas, and some of a larger one.
     """
 
     urls: tuple[str, ...] = field(converter=_urls)
@@ -56,17 +58,18 @@ class Nodes:
         jobs: int = 1,
         verify: str | None = None,
     ) -> None:
-        """Name the nodes."""
+        """Take the addresses of the nodes."""
         self.__attrs_init__(urls, address, timeout, jobs, verify)
 
 
 @frozen
 class Cluster:
-    """Machines that share the work, with dask (the extra `cluster`).
+    """A dask cluster (the extra `cluster`).
 
-    address: of its scheduler, such as tcp://host:8786; None for a cluster on this machine.
-    jobs: workers of a cluster on this machine; None for one for each processor.
-    evm, verify: as of `Processes` and `Nodes`; of a cluster nothing is compared unless asked for.
+    address: address of the scheduler, such as tcp://host:8786; None starts a cluster on this machine.
+    jobs: number of workers of a cluster on this machine; None for one per processor.
+    evm: as in `Processes`.
+    verify: as in `Nodes`; None compares nothing.
     """
 
     address: str | None = None
@@ -75,12 +78,12 @@ class Cluster:
     verify: str | None = None
 
 
-#: Where: here, by an EVM of this name or itself; or in one of these places.
+#: Where calls run: in the EVM of this name, in this EVM, or in one of these.
 On = str | Chain | Processes | Nodes | Cluster
 
 
 def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] | None = None) -> Where:
-    """Return where to render. InputError for what is no place."""
+    """Return where to render. InputError if `on` is something else."""
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:

@@ -1,4 +1,4 @@
-"""From anything that can be drawn to a picture."""
+"""Rendering of pictures and turntables."""
 
 from __future__ import annotations
 
@@ -28,16 +28,17 @@ def render(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Image:
-    """Make the picture of anything that `load` takes.
+    """Render a picture.
 
-    size, look: as of `load`.
-    on: where: None for the fastest EVM that is installed here, "pyrevm", "pyevm" or "reference" for one by its name,
-    or `Processes`, `Nodes` or `Cluster`. The pixels are the same everywhere.
-    gas_limit: what a call may use. tile: side, or (width, height), in pixels of the parts in which the picture is made;
-    None takes what fits.
-    listener: told how a picture of several parts goes on. keep: a folder in which finished parts are kept, for the same
-    call to go on from there; whoever uses the picture removes it.
-    InputError for what is wrong with the scene, ChainError for what fails in a call.
+    thing, size, look: as in `load`.
+    on: where the calls run: the name of an EVM ("pyrevm", "pyevm", "reference"), `Processes`, `Nodes` or `Cluster`;
+        None for the fastest EVM that is installed. The pixels are the same everywhere.
+    gas_limit: gas that a call may use.
+    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
+    listener: receives the progress of a picture of several tiles.
+    keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
+
+    Raises InputError for an invalid scene, ChainError if a call fails.
     """
     return draw(load(thing, size, **look), _where(on, gas_limit, tile), listener, keep)
 
@@ -55,10 +56,14 @@ def turntable(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Animation:
-    """Make the pictures of a full turn about the vertical axis through the middle of anything that `load` takes.
+    """Render a full turn about the vertical axis through the middle of the scene.
 
-    The contract turns it: each frame is a call, with the rotation in it. Background, lights and camera stand still.
-    frames: how many, 2..720. duration: milliseconds that each is shown, 20..10,000. The rest as in `render`.
+    The contract rotates the scene: each frame is one call. Background, lights and camera do not move.
+
+    thing, size, look: as in `load`.
+    frames: number of frames, 2..720.
+    duration: time for which a frame is shown in milliseconds, 20..10,000.
+    on, gas_limit, tile, listener, keep: as in `render`.
     """
     from .parallel import render_frames
 
@@ -67,7 +72,7 @@ def turntable(
 
 
 def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Path | None = None) -> Image:
-    """Return the picture of a scene, by one call here or by several anywhere."""
+    """Render a scene, by one call or by several."""
     if where.alone:
         chain = where.chain
         return render_whole(scene, open_chain(chain) if chain is None or isinstance(chain, str) else chain)
@@ -77,7 +82,7 @@ def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Pat
 
 
 def render_whole(scene: Scene, chain: Chain) -> Image:
-    """Return the picture of a scene, by one call."""
+    """Render a scene by one call."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
     seconds = time.perf_counter() - started

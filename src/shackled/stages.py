@@ -1,9 +1,8 @@
-"""A picture of what each stage of the pipeline makes of a scene: the pipeline figure of the paper.
+"""Pictures of the stages of the pipeline, as in the paper.
 
-Stages 3 to 6 are drawn by the contracts: the same scene, asked for its edges, for its triangles in plain colours, for
-their light, and for the whole. The contracts return pixels only; so the points of stages 1 and 2 are those of the
-reference renderer, whose numbers are the contracts' own: the mesh as it unpacks it from the data of the call, and the
-records of its vertices.
+The contracts draw stages 3 to 6: the scene as wires, unlit, lit, and whole. They return only pixels, so stages 1 and 2
+come from the reference renderer, whose numbers equal those of the contracts: the mesh unpacked from the calldata, and
+the vertex records.
 """
 
 from __future__ import annotations
@@ -28,22 +27,22 @@ from .scene import MAX_VERTICES, Background, Material, Mesh, Object, Scene, enco
 Pixels = NDArray[np.uint8]
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
-#: The two greys of the pattern that stands for nothing, and the length of its squares at 128 pixels.
+#: The two greys of the checkerboard behind the fragments, and the side of its squares at 128 pixels.
 CHECKS, CHECK_SIDE = (46, 54), 8
 UNLIT = Material("unlit")
 
-#: The golden ratio, whose multiples spread evenly whatever their number.
+#: Multiples of the golden ratio, modulo 1, are evenly distributed for any count.
 GOLDEN = (5**0.5 - 1) / 2
 DARKEST = 0.45
 
-#: The strip: least side of a picture in it, and space for its caption.
+#: The strip: minimum side of a picture, margin, and height of the caption.
 STRIP_SIDE, MARGIN, CAPTION = 224, 12, 44
 PAPER, PRINT, FINE_PRINT = (22, 25, 31), (236, 239, 243), (150, 158, 168)
 
 
 @dataclass(frozen=True)
 class Stage:
-    """What a stage made. pixels: (H, W, 3), rows from the top. detail: a few words with numbers."""
+    """The picture of a stage. pixels: (H, W, 3) uint8, rows from the top. detail: a caption with numbers."""
 
     name: str
     title: str
@@ -52,7 +51,7 @@ class Stage:
 
 
 def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
-    """The six stages of the paper, in their order. InputError and RenderError as `render` raises them."""
+    """Draw the six stages of the paper, in order. Raises the errors of `render`."""
     chain = chain or open_chain()
     data = encode(b"\0\0\0\0", scene)
     geometry = assemble(*read_call(data))[2]
@@ -92,10 +91,10 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
 
 
 def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
-    """The vertices where they stand in the world, from the front (+z), without a camera, filling the canvas."""
+    """Draw the vertices in world space, from the front (+z), without a camera, filling the canvas."""
     places, colors = [], []
     for part in geometry:
-        # the columns of the rotation are the images of the axes
+        # the columns of the rotation matrix are the images of the axes
         axes = np.array(to_matrix(part.object.rotation), float) / 2**32
         scale = part.object.scale / 2**32
         places.append(scale * np.array(part.mesh.positions, float) @ axes + np.array(part.object.position) / 2**32)
@@ -112,7 +111,7 @@ def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
 
 
 def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels, int]:
-    """The vertices where the vertex shader put them on the canvas, and how many of them are on it."""
+    """Draw the projected vertices; return the picture and the number of vertices on the canvas."""
     places, colors, depths = [], [], []
     for part in geometry:
         for vertex, color in zip(part.vertices, part.mesh.colors, strict=True):
@@ -129,7 +128,7 @@ def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels
 
 
 def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
-    """Points as dots, those of the highest order last: (n, 2) places from the top left corner, in pixels."""
+    """Draw points as dots, in ascending order. places: (n, 2) pixels from the top left corner."""
     picture = PillowImage.fromarray(pixels)
     brush = ImageDraw.Draw(picture)
     few = np.clip(5 - 1.6 * np.log10(len(places)), 1, 4)
@@ -146,12 +145,12 @@ def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, 
 
 
 def edges(o: Object) -> Object:
-    """An object's triangles as wires."""
+    """Return an object as a wireframe."""
     return evolve(o, wireframe=True, material=UNLIT)
 
 
 def filled(o: Object) -> Object:
-    """An object's triangles in the colours of their vertices, each a little brighter or darker than the next."""
+    """Return an object with unlit triangles, each slightly brighter or darker than the next."""
     faces = o.mesh.faces
     if o.wireframe or faces.size > MAX_VERTICES:
         return evolve(o, material=UNLIT)
@@ -166,7 +165,7 @@ def filled(o: Object) -> Object:
 
 
 def over_nothing(scene: Scene, chain: Chain) -> Pixels:
-    """The fragments of a scene without its background. They are what does not depend on the background."""
+    """Draw the fragments of a scene over a checkerboard: the pixels that do not depend on the background."""
     on_black, on_white = (
         decode_bmp(chain.draw(evolve(scene, background=background)).bmp, scene.width, scene.height)
         for background in (BLACK, WHITE)
@@ -176,7 +175,7 @@ def over_nothing(scene: Scene, chain: Chain) -> Pixels:
 
 
 def nothing(scene: Scene) -> Pixels:
-    """A pattern of checks that stands for nothing."""
+    """Return a checkerboard, (H, W, 3)."""
     side = max(1, CHECK_SIDE * min(scene.width, scene.height) // 128)
     rows, columns = np.indices((scene.height, scene.width)) // side
     grey = np.where((rows + columns) % 2, *CHECKS).astype(np.uint8)
@@ -197,7 +196,7 @@ def _lights(scene: Scene) -> str:
 
 
 def strip(stages: list[Stage]) -> PillowImage.Image:
-    """The stages side by side, each with its name and number below."""
+    """Return the stages side by side, each with its number and name below."""
     height, width = stages[0].pixels.shape[:2]
     enlarged = max(1, -(-STRIP_SIDE // min(width, height)))
     width, height = width * enlarged, height * enlarged

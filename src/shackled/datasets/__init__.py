@@ -1,6 +1,6 @@
-"""Scenes that come with the package, and models that are fetched on request.
+"""Scenes that are part of the package, and models that are downloaded on request.
 
-Each dataset is a module or package with `pieces()` and `find(name)`; it is imported when it is first asked for.
+Each dataset is a module or package with `pieces()` and `find(name)`, imported when it is first used.
 """
 
 import lazy_loader

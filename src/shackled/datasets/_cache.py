@@ -1,4 +1,4 @@
-"""The folder in which fetched models and finished drawings are kept from run to run."""
+"""The folder in which downloaded models and rendered pictures are cached."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ VARIABLE = "SHACKLED_CACHE"
 
 
 def cache_folder() -> Path:
-    """That of the variable SHACKLED_CACHE, or else the one that the system has for such files; it may not exist yet."""
+    """Return the folder given by SHACKLED_CACHE, else the system's cache folder; it may not exist yet."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return Path(chosen)
@@ -22,6 +22,6 @@ def cache_folder() -> Path:
 
 
 def keep(path: Path, data: bytes) -> None:
-    """Writes a file of the cache, and its folder if need be. OSError if it cannot be written."""
+    """Write a file of the cache, and create its folder if necessary. OSError if it cannot be written."""
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, data)

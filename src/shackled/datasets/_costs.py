@@ -1,7 +1,7 @@
-"""How many triangles a piece has, and what gas it takes to render it at 128 x 128.
+"""Triangles of the pieces, and their gas at 128 x 128 pixels.
 
-Those that come with the package were measured by tools/dataset_costs.py, in gas.json beside this file; others are
-rendered when somebody asks.
+The pieces of the package were measured by tools/dataset_costs.py, in gas.json beside this file. Others are rendered on
+request.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ._piece import Piece
 
 
 class Cost(NamedTuple):
-    """Both None for a piece that has not been fetched yet, or not whole."""
+    """Triangles and gas of a piece; both None if it has not been downloaded."""
 
     triangles: int | None
     gas: int | None
@@ -24,13 +24,13 @@ class Cost(NamedTuple):
 
 @cache
 def table() -> dict[str, Cost]:
-    """What was measured, by the names of the pieces."""
+    """Return the measured costs, by the names of the pieces."""
     content = json.loads(files(__package__).joinpath("gas.json").read_text("utf-8"))
     return {name: Cost(*cost) for name, cost in content.items()}
 
 
 def cost(piece: Piece) -> Cost:
-    """Of a piece of the datasets."""
+    """Return the cost of a piece."""
     if piece.name in table():
         return table()[piece.name]
     if not piece.ready():

@@ -1,4 +1,4 @@
-"""Pieces drawn by the contracts, on all cores, each drawing kept so that no later run makes it again."""
+"""Pictures of pieces, rendered on all cores and cached."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ SIZE = 128
 class Drawing:
     """A picture of a piece.
 
-    triangles: of its meshes. gas: of the execution; None where none is counted. png: the bytes of the picture.
+    triangles: number of triangles of its meshes.
+    gas: gas of the execution, or None.
+    png: the PNG file.
     """
 
     name: str
@@ -40,7 +42,7 @@ class Drawing:
 
 
 def draw(piece: Piece, size: int = SIZE) -> Drawing:
-    """The picture of a piece, size x size pixels: from the cache, or else by the contracts."""
+    """Return the picture of a piece, size x size pixels, from the cache or the contracts."""
     scene = resize(piece.make(), size)
     triangles = scene.triangles
     path = cache_folder() / "drawings" / f"{_key(scene)}.png"
@@ -54,9 +56,9 @@ def draw(piece: Piece, size: int = SIZE) -> Drawing:
 
 
 def draw_all(pieces: Iterable[Piece], size: int = SIZE, processes: int | None = None) -> Iterator[Drawing]:
-    """The pictures of pieces of the datasets, in the order in which they are done.
+    """Yield the pictures of pieces, in the order in which they are finished.
 
-    processes: how many work at once; None takes as many as there are cores. What is not ready is left out.
+    processes: number of worker processes; None for one per core. Pieces that are not ready are left out.
     """
     names = [piece.name for piece in pieces if piece.ready()]
     processes = min(len(names), processes or os.cpu_count() or 1)
@@ -71,7 +73,7 @@ def _draw_named(size: int, name: str) -> Drawing:
 
 
 def _key(scene: Scene) -> str:
-    """Stands for the call and for the contracts that answer it."""
+    """Return the hash of the call and of the contracts."""
     return hashlib.sha256(_contracts() + encode(b"", scene)).hexdigest()
 
 
@@ -90,7 +92,7 @@ def _png(bmp: bytes, scene: Scene, gas: int | None) -> bytes:
 
 
 def _read(path: Path) -> tuple[bytes, int | None] | None:
-    """A drawing and its gas, if they are kept there and whole."""
+    """Return a cached picture and its gas, or None if it is missing or damaged."""
     try:
         data = path.read_bytes()
         with PillowImage.open(io.BytesIO(data), formats=["PNG"]) as picture:

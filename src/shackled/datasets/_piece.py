@@ -1,4 +1,4 @@
-"""What a dataset holds: scenes with a name and a licence."""
+"""The pieces of a dataset."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ def _always() -> bool:
 
 @dataclass(frozen=True)
 class Piece:
-    """One scene of a dataset.
+    """A scene of a dataset, with a name and a licence.
 
-    name: as it is typed, for instance "teapot", "icons/diamond" or "genesis/12".
+    name: the name, for instance "teapot", "icons/diamond" or "genesis/12".
     dataset: "common", "icons" or "genesis".
-    title: for people. licence: of the model, as its source states it.
-    commercial: whether the licence is known to allow commercial use; what mints refuses a piece where it is not.
-    make: makes the scene. It may take a while, and raises InputError where a file is needed that has to be fetched
-        first.
-    credit: whom to name with the picture, if anybody.
-    ready: whether `make` has all it needs, so that nothing has to be fetched first.
+    title: a title for display.
+    licence: licence of the model, as its source states it.
+    commercial: whether the licence is known to allow commercial use; otherwise the piece cannot be minted.
+    make: returns the scene. It may take a while, and raises InputError if a file must be downloaded first.
+    credit: the author to name with the picture, or "".
+    ready: returns whether `make` works without a download.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Piece:
 
     @property
     def notice(self) -> str:
-        """What to say where the piece is used, if anybody is to be named or anything is not allowed; otherwise ""."""
+        """The credit and the restrictions to show where the piece is used, or ""."""
         if not self.credit and self.commercial:
             return ""
         author = f" by {self.credit}" if self.credit else ""
@@ -46,5 +46,5 @@ class Piece:
 
     @property
     def file_stem(self) -> str:
-        """The name for files: "genesis/12" is "genesis-12"."""
+        """The name for files: "genesis-12" for "genesis/12"."""
         return self.name.replace("/", "-")

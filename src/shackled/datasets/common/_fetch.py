@@ -1,7 +1,7 @@
-"""Downloads models and prepares them.
+"""Download and preparation of models.
 
-A file is downloaded beside its place, under a name that ends in .part, and goes there only if its checksum is right. A
-download that was cut goes on where it stopped, if the server can do that. So what stands in the cache is always whole.
+A download is written beside its destination, under a name that ends in .part, and moved there if its checksum is right.
+Interrupted downloads are resumed if the server supports it. Files in the cache are therefore always complete.
 """
 
 from __future__ import annotations
@@ -35,9 +35,11 @@ def _no_progress(here: int, whole: int | None) -> None:
 
 
 def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) -> bool:
-    """Downloads a model unless its file is in the cache, and prepares it; whether there was anything to do.
+    """Download a model unless it is in the cache, and prepare it; return whether there was anything to do.
 
-    again: prepare it anew, and in the place of a file of one's own. FetchError if it cannot be downloaded or kept.
+    again: prepare it again, and replace a model from a local file.
+
+    FetchError if it cannot be downloaded or stored.
     """
     prepared = model.prepared()
     if not again and model.kept() is not None:
@@ -48,9 +50,7 @@ def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) 
 
 
 def take(model: Model, path: Path) -> bool:
-    """Prepares a model from a file of one's own in the place of a download; whether it is the very file that would have
-    been downloaded. InputError if it is no mesh that can be read.
-    """
+    """Prepare a model from a local file; return whether it is the published file. InputError if it cannot be read."""
     if not path.is_file():
         raise InputError(
             f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
@@ -63,7 +63,7 @@ def take(model: Model, path: Path) -> bool:
 
 
 def checksum(path: Path, like: str) -> str:
-    """Of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
+    """Return the checksum of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
     kind = like.partition(":")[0]
     digest = hashlib.sha256()
     if kind == "git-blob":
@@ -86,7 +86,7 @@ def _keep(model: Model, path: Path, prepared: Path) -> None:
 
 
 def download(model: Model, progress: Progress = _no_progress) -> Path:
-    """The file of a model as it is published, from the cache or else from the first of its addresses that has it."""
+    """Return the published file of a model, from the cache or the first of its addresses that works."""
     import pooch
 
     pooch.get_logger().setLevel(logging.ERROR)
@@ -109,7 +109,7 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
 
 
 class _Downloader:
-    """What pooch calls for a download: it checks the sum of the file again, and puts it into its place."""
+    """The downloader for pooch, which checks the checksum and moves the file."""
 
     def __init__(self, model: Model, progress: Progress) -> None:
         self._model = model
@@ -136,7 +136,7 @@ class _Downloader:
         return True
 
     def _transfer(self, address: str, part: Path) -> None:
-        """Downloads what is missing of the file."""
+        """Download the missing part of the file."""
         import requests
 
         name = self._model.name
@@ -196,7 +196,7 @@ class _Downloader:
 
 
 def _part(model: Model) -> Path:
-    """Where a download is until it is whole."""
+    """Return the path of an unfinished download."""
     return model.original.with_name(f"{model.original.name}.part")
 
 
@@ -210,7 +210,7 @@ def _host(address: str) -> str:
 
 @contextmanager
 def _on_disk(model: Model) -> Iterator[None]:
-    """Says in one line what the disk does not allow."""
+    """Raise FetchError for an error of the disk."""
     try:
         yield
     except OSError as error:

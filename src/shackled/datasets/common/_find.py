@@ -1,6 +1,4 @@
-"""Common objects of computer graphics: shapes that a formula gives, scenes of the Shackled paper, and models of other
-people that are fetched on request.
-"""
+"""The common objects: built-in pieces, and models that are downloaded on request."""
 
 from __future__ import annotations
 
@@ -10,12 +8,12 @@ from . import builtin
 
 
 def pieces() -> list[Piece]:
-    """The built-in ones first."""
+    """Return all pieces, the built-in ones first."""
     return [*builtin.pieces(), *models.pieces()]
 
 
 def find(name: str) -> Piece | None:
-    """The piece of that name."""
+    """Return the piece of that name, or None."""
     known = models.models()
     if name in known:
         return known[name].piece()

@@ -1,4 +1,4 @@
-"""The mesh in a file of any kind, archives among them."""
+"""Reading of meshes from any file, including archives."""
 
 from __future__ import annotations
 
@@ -35,11 +35,11 @@ class _Readable(Protocol):
 
 
 def read_model(path: Path, member: str | None = None) -> Mesh:
-    """The mesh of a mesh file, of a 3MF, of a mesh file that is packed with gzip, or of one in a zip or tar archive.
+    """Return the mesh of a mesh file, a 3MF file, a gzip file, or a zip or tar archive.
 
-    member: the file in the archive; None takes the largest mesh file of a known kind. Materials and textures are left
-    out without a note: of a model only the mesh is fetched. InputError, one line that begins with the path, for
-    anything that is wrong with the file.
+    member: the file in the archive; None takes the largest mesh file.
+
+    Materials and textures are ignored without a note. InputError, beginning with the path, if the file is wrong.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InputWarning)
@@ -125,7 +125,7 @@ def _limited(file: _Readable, path: Path) -> bytes:
 
 
 def _read_3mf(path: Path, model: bytes) -> Mesh:
-    """All meshes of a 3MF, where they are in their own coordinates."""
+    """Return all meshes of a 3MF file, in their own coordinates."""
     positions: list[tuple[float, float, float]] = []
     faces: list[tuple[int, int, int]] = []
     first = 0

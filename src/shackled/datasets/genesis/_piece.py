@@ -1,4 +1,4 @@
-"""A piece of the collection."""
+"""A piece of Genesis."""
 
 from __future__ import annotations
 
@@ -19,10 +19,14 @@ POSITION = (0, 0, -2500)
 
 @dataclass(frozen=True)
 class GenesisPiece:
-    """What a seed stands for.
+    """A piece of a seed.
 
-    background: the colours at the top and at the bottom. prisms: how many. verts: six a prism. cols: their colours,
-    red, green and blue, 0..255. faces: seven a prism. culling: whether faces that turn away are left out.
+    background: the colours of the top and the bottom.
+    prisms: number of prisms.
+    verts: six vertices per prism.
+    cols: their colours, red, green and blue, 0..255.
+    faces: seven faces per prism.
+    culling: whether faces that point away are left out.
     """
 
     seed: bytes
@@ -39,7 +43,7 @@ class GenesisPiece:
     faces: Sequence[Point3]
 
     def document(self) -> dict[str, Any]:
-        """The piece as JSON has it; `seed` in 64 hexadecimal digits."""
+        """Return the piece as a JSON object; `seed` as 64 hexadecimal digits."""
         return {
             "seed": self.seed.hex(),
             "structure": self.structure,
@@ -56,7 +60,7 @@ class GenesisPiece:
         }
 
     def scene(self) -> Scene:
-        """How it is drawn: 128 x 128 pixels, seen from the front, lit from the left."""
+        """Return the scene: 128 x 128 pixels, seen from the front, lit from the left."""
         mesh = Mesh(self.verts, self.faces, self.cols)
         return Scene(
             [Object(mesh, POSITION, material=MATERIAL, cull=self.culling, wireframe=self.wireframe)],

@@ -1,4 +1,4 @@
-"""Shackled Icons: small models of our own, each with a light, a pose and a background."""
+"""The collection of icons."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ ICONS = (
 
 
 def pieces() -> Iterable[Piece]:
-    """All icons."""
+    """Return all icons."""
     return [icon.piece() for icon in ICONS]
 
 
 def find(name: str) -> Piece | None:
-    """The icon of that name, without the dataset's: `find("diamond")`."""
+    """Return the icon of a name without the dataset, such as "diamond", or None."""
     return next((icon.piece() for icon in ICONS if icon.name == name), None)
