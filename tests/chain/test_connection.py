@@ -58,21 +58,29 @@ def test_an_answer() -> None:
 @pytest.mark.parametrize(
     ("reply", "kind", "words"),
     [
-        (Reply(b"<html>hello</html>"), NodeUnreachableError, "what is not JSON"),
-        (Reply(b""), NodeUnreachableError, "answered with nothing"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "what is not JSON"),
-        (Reply(b"[" * 100_000), NodeUnreachableError, "what is not JSON"),
+        (Reply(b"<html>hello</html>"), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b""), NodeUnreachableError, "an empty answer"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b"[" * 100_000), NodeUnreachableError, "an answer that is not JSON"),
         (Reply(b"[]"), NodeUnreachableError, "JSON that is not JSON-RPC"),
         (Reply(b'{"jsonrpc": "2.0", "id": 0}'), NodeUnreachableError, "JSON that is not JSON-RPC"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered another request"),
-        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "broke off"),
-        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "broke off"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered a different request"),
+        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "closed the"),
+        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "closed the"),
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
-        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later, or take another node"),
+        (
+            Reply(b"", 429),
+            NodeBusyError,
+            "(HTTP status 429); try again later, or use another node",
+        ),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
-        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
-        (Reply(b"", 413), TooLargeError, "answer of this size: take a smaller `size`"),
-        (Reply(b"", 503, {"Retry-After": "2.5"}), NodeBusyError, "less often (HTTP status 503); try again in 3 s"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
+        (Reply(b"", 413), TooLargeError, "answer of this size: use a smaller `size`"),
+        (
+            Reply(b"", 503, {"Retry-After": "2.5"}),
+            NodeBusyError,
+            "limits the rate of requests (HTTP status 503); try again in 3 s",
+        ),
         (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
         (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is out of order"),
         (Reply(b"", 499), NodeError, "HTTP status 499; check its address"),
@@ -81,29 +89,26 @@ def test_an_answer() -> None:
             (Reply(b"", status), NodeTimeoutError, f"HTTP status {status}: it took too long")
             for status in (408, 504, 522, 524)
         ],
-        *[
-            (Reply(b"", status), NodeError, f"HTTP status {status}: it lets nobody in without the right key")
-            for status in (401, 403, 407)
-        ],
+        *[(Reply(b"", status), NodeError, f"HTTP status {status}: it needs a key") for status in (401, 403, 407)],
         (
             Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
             NodeError,
-            "HTTP status 401: it lets nobody in without the right key",
+            "HTTP status 401: it needs a key",
         ),
         (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
         (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
         (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
         (Reply(b"\xff no", 418), NodeError, "(\ufffd no)"),
-        (Reply(b"", 300), NodeError, "HTTP status 300: it sends callers elsewhere"),
-        (Reply(b"", 399), NodeError, "HTTP status 399: it sends callers elsewhere"),
+        (Reply(b"", 300), NodeError, "HTTP status 300: it redirects requests"),
+        (Reply(b"", 399), NodeError, "HTTP status 399: it redirects requests"),
         (Reply(b"", 400), NodeError, "HTTP status 400; check its address"),
-        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it sends callers elsewhere"),
+        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it redirects requests"),
         (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot); check its address"),
         (Reply(b"<p>a  <b>tea</b>\n pot" + b"!" * 99, 418), NodeError, f"(a tea pot{'!' * 91}...); check"),
         (Reply(b"x" * 100, 418), NodeError, f"({'x' * 100}); check"),
         (Reply(b"<i" + b" " * 1990 + b">" + b"late" * 9, 418), NodeError, "(latelat); check"),
-        (failure("daily limit", 429, status=429), NodeBusyError, "less often"),
+        (failure("daily limit", 429, status=429), NodeBusyError, "limits the rate"),
         (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
     ],
 )
@@ -242,9 +247,9 @@ def test_each_word_tells(kind: type[ChainError], message: str) -> None:
     [
         (TooLargeError, -32007, "answer of this size (no)"),
         (TooLargeError, -32008, "answer of this size (no)"),
-        (NodeBusyError, -32005, "called less often (no); try again later"),
-        (NodeBusyError, 429, "called less often (no); try again later"),
-        (NodeError, -32601, "does not offer what is needed (no); take another node"),
+        (NodeBusyError, -32005, "limits the rate of requests (no); try again later"),
+        (NodeBusyError, 429, "limits the rate of requests (no); try again later"),
+        (NodeError, -32601, "does not support a method that is needed (no); use another node"),
         (RevertError, 3, "the call was reverted: no"),
         *[(NodeError, code, "says: no") for code in (-32009, -32006, -32004, -32600, -32602, 2, 4, 428, 430, None)],
     ],
@@ -363,7 +368,7 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"`rpc` must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+    with pytest.raises(InputError, match=r"must be the address of a node, such as http://127\.0\.0\.1:8545") as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 
@@ -465,7 +470,7 @@ def test_the_wrong_chain() -> None:
 
 @pytest.mark.parametrize("value", [None, "0x123", "hello", 5, "0xzz"])
 def test_results_of_another_type(value: Any) -> None:
-    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="what is no string of bytes"):
+    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="returned invalid bytes"):
         Connection(url).data("eth_call", {})
 
 
@@ -473,7 +478,7 @@ def test_results_of_another_type(value: Any) -> None:
     "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
 )
 def test_what_is_no_number_of_256_bits(number: Any) -> None:
-    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="what is no number"):
+    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="returned an invalid number"):
         _ = Connection(url).chain_id
     with serving(lambda _: result("0x" + 64 * "f")) as url:
         assert Connection(url).number("eth_gasPrice") == 2**256 - 1

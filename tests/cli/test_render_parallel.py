@@ -19,7 +19,6 @@ from PIL import Image as PillowImage
 from nodes import anvil, needs_anvil
 from shackled.chain import Drawing
 from shackled.cli.app import run
-from shackled.cli.arguments import with_cluster
 from shackled.parallel import draw_part
 from shackled.whole_file import write_whole
 
@@ -111,7 +110,8 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--gas-limit", "-1"], "--gas-limit must be a whole number of gas from 1"),
         (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
         (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "leave out --chain"),
-        (["--rpc", "http://127.0.0.1:1", "--cluster"], "give --rpc or --cluster"),
+        (["--rpc", "http://127.0.0.1:1", "--cluster", "local"], "give --rpc or --cluster"),
+        (["--cluster", "teapot"], "--cluster must be local or an address such as tcp://host:8786, not 'teapot'"),
         (["--rpc-timeout", "5"], "--rpc-timeout is about a node"),
         (["--verify", "all"], "--verify is about nodes or a cluster"),
         (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be all, some or none, not 'most'"),
@@ -126,14 +126,6 @@ def test_wrong_usage(capsys: pytest.CaptureFixture[str], options: list[str], mes
     assert message in messages
     assert output == ""
     assert messages.count("\n") == 1
-
-
-def test_a_cluster_needs_no_address() -> None:
-    assert with_cluster(["render", "--cluster", "teapot"]) == ["render", "--cluster=", "teapot"]
-    assert with_cluster(["render", "teapot", "--cluster"]) == ["render", "teapot", "--cluster="]
-    assert with_cluster(["render", "--cluster", "--json"]) == ["render", "--cluster=", "--json"]
-    assert with_cluster(["--cluster", "tcp://a:1", "x"]) == ["--cluster", "tcp://a:1", "x"]
-    assert with_cluster(["--", "--cluster"]) == ["--", "--cluster"]
 
 
 def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> None:

@@ -39,7 +39,7 @@ def test_a_base_fee_may_double() -> None:
 
 def test_a_tip_of_three_gwei_is_paid_and_no_more() -> None:
     assert fees(GWEI, 3 * GWEI).tip == 3 * GWEI
-    words = r"suggests a tip of 3\.000000001 gwei for a gas, and 3 at most are paid unasked: .*`max_fee`"
+    words = r"suggests a tip of 3\.000000001 gwei per unit of gas, more than 3: .*`max_fee`"
     with pytest.raises(TransactionError, match=words):
         fees(GWEI, 3 * GWEI + 1)
 
@@ -65,14 +65,14 @@ def test_a_price_that_was_named_is_the_most(base: int, tip: int, max_fee: int, e
 
 def test_a_chain_without_a_base_fee() -> None:
     """Nothing bounds what its node asks for, so somebody has to."""
-    with pytest.raises(TransactionError, match=r"tells no base fee, and asks 2\.5 gwei for a gas, .*`max_fee`$"):
+    with pytest.raises(TransactionError, match=r"reports no base fee, and asks for 2\.5 gwei .*`max_fee`$"):
         fees(None, price=5 * GWEI // 2)
     assert fees(None, price=7, max_fee=7) == fees(None, price=7, max_fee=9) == Fees(7, 7, None, named=True)
 
 
 @pytest.mark.parametrize("base", [None, 3 * GWEI // 2 + 1])
 def test_what_costs_more_than_was_named_is_refused(base: int | None) -> None:
-    with pytest.raises(TransactionError, match=r"^a gas costs 1\.500000001 gwei now, above the 1\.5 of `max_fee`: "):
+    with pytest.raises(TransactionError, match=r"costs 1\.500000001 gwei now, more than the 1\.5 of `max_fee`: "):
         fees(base, 0, 3 * GWEI // 2 + 1, max_fee=3 * GWEI // 2)
 
 
@@ -184,5 +184,5 @@ def test_a_node_that_gives_no_answer_ends_the_quotes() -> None:
 
 @pytest.mark.parametrize("block", [None, [], {"baseFeePerGas": "5"}])
 def test_what_is_no_block(block: object) -> None:
-    with serving(lambda _: result(block)) as url, pytest.raises(NodeError, match="what is no block"):
+    with serving(lambda _: result(block)) as url, pytest.raises(NodeError, match="an invalid block"):
         current_fees(Connection(url))

@@ -62,7 +62,7 @@ def test_a_file_of_something_else(tmp_path: Path) -> None:
         read_allowance(path)
     for text in ("", "[]", "{}", "[" * 100_000):
         path.write_text(text)
-        with pytest.raises(InputError, match="holds no permission"):
+        with pytest.raises(InputError, match="is not a permission"):
             read_allowance(path)
 
 

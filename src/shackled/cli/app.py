@@ -1,4 +1,4 @@
-"""The command and its exit codes: 0 done, 2 wrong usage or bad input, 1 anything else."""
+"""The command `shackled` and its exit codes: 0 for success, 2 for wrong usage or bad input, 1 for other failures."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ import typer
 from .. import __version__
 from ..errors import InputError, InputWarning, ShackledError
 from ..plain import plain
-from .arguments import with_cluster
 from .bench import bench
 from .creator import creator
 from .datasets import datasets
@@ -27,7 +26,7 @@ from .render import render
 from .stages import stages
 from .token import token
 
-#: What typer makes of a keyboard interrupt.
+#: The exit code with which typer reports a keyboard interrupt.
 INTERRUPTED = 130
 
 app = typer.Typer(
@@ -52,7 +51,7 @@ def shackled(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
 ) -> None:
-    """Pictures of 3D scenes, computed by Ethereum smart contracts."""
+    """Render 3D scenes with Ethereum smart contracts."""
     if version:
         print(f"shackled {__version__}")
     elif context.invoked_subcommand is None:
@@ -60,7 +59,7 @@ def shackled(
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; the exit code. What went wrong is said in one line on stderr, what is left out in another."""
+    """Run the command and return its exit code. Errors and warnings are printed on stderr, one line each."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", InputWarning)
         warnings.showwarning = _note(warnings.showwarning)
@@ -69,9 +68,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        given = with_cluster(sys.argv[1:] if arguments is None else arguments)
-        code = app(args=given, standalone_mode=False, prog_name="shackled")
-        # what is still kept back could not be told about once the interpreter ends
+        code = app(args=arguments, standalone_mode=False, prog_name="shackled")
+        # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
@@ -81,33 +79,33 @@ def _run(arguments: Sequence[str] | None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
     except OSError as error:
-        # as when the disk is full to which the output goes
+        # for instance, the disk to which the output is redirected is full
         _drop_output()
         where = f"{error.filename}: " if error.filename else ""
         return _fail(f"{where}{error.strerror or repr(error)}", 1)
     except Exception as error:
-        # errors of usage, whose class depends on the version of typer
+        # usage errors, whose class depends on the version of typer
         if not hasattr(error, "format_message"):
             raise
         return _fail(error.format_message(), getattr(error, "exit_code", 2))
 
 
 def _note(show: Callable[..., object]) -> Callable[..., None]:
-    """Shows an InputWarning as a line of its own, each once, and others as before."""
-    told = set[str]()
+    """Return a function that prints each InputWarning once, in one line, and shows other warnings as before."""
+    printed = set[str]()
 
     def showwarning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if not issubclass(category, InputWarning):
             show(message, category, *place, **more)
-        elif str(message) not in told:
-            told.add(str(message))
+        elif str(message) not in printed:
+            printed.add(str(message))
             print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
 
     return showwarning
 
 
 def _drop_output() -> None:
-    """Forgets what standard output would not take, which the interpreter would try to write again at its end."""
+    """Discard the rest of standard output, which the interpreter would otherwise try to write again at its end."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -31,6 +31,9 @@ from .look_options import load_with, with_look
 from .option import option
 from .parse import parse_tile
 
+#: The address that stands for a cluster on this machine.
+LOCAL = "local"
+
 
 @with_look
 def render(
@@ -81,7 +84,7 @@ def render(
     cluster: Annotated[
         str | None,
         option(
-            "--cluster", "A dask scheduler, as tcp://host:8786; without an address, one here.", "[ADDRESS]", "Where"
+            "--cluster", "A dask scheduler, as tcp://host:8786, or local for one on this machine.", "ADDRESS", "Where"
         ),
     ] = None,
     gas_limit: Annotated[
@@ -169,7 +172,9 @@ def _on(
         if value is not None and not rpc:
             raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
     if cluster is not None:
-        return Cluster(cluster or None, jobs, chain, verify)
+        if cluster != LOCAL and ":" not in cluster:
+            raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
+        return Cluster(None if cluster == LOCAL else cluster, jobs, chain, verify)
     if rpc:
         return Nodes(*rpc, address=address, timeout=timeout, jobs=1 if jobs is None else jobs, verify=verify)
     return chain if jobs is None else Processes(jobs, chain)
