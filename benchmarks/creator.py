@@ -28,9 +28,7 @@ import numpy as np
 from tools.pages import update
 from websockets.asyncio.client import connect
 
-from shackled.creator.orbit import drag, front
-from shackled.creator.pool import Pool
-from shackled.creator.state import Source, State
+from shackled.creator import Pool, Source, State, drag, front
 
 PAGE = Path(__file__).parent.parent / "docs" / "creator.md"
 
@@ -51,11 +49,8 @@ class Orbiting:
 
 async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
     """One visitor."""
-    html = await asyncio.to_thread(lambda: urllib.request.urlopen(address).read().decode())
-    found = re.search(r'"visitor":"([\w-]+)"', html)
-    assert found, "the page names no visitor"
-    wire = f"{address.replace('http', 'ws', 1)}live/{found[1]}"
-    async with connect(wire, max_size=2**24, compression=None) as socket:
+    await asyncio.to_thread(lambda: urllib.request.urlopen(address).read())
+    async with connect(f"{address.replace('http', 'ws', 1)}live", max_size=2**24, compression=None) as socket:
         begun = time.perf_counter()
         sent: list[float] = []
 

@@ -1,4 +1,4 @@
-"""The Creator as it is started by its command, and a browser that looks at it."""
+"""The Creator, started by its command, and a browser to look at it."""
 
 from __future__ import annotations
 
@@ -60,10 +60,9 @@ def browser_path() -> str | None:
 @contextmanager
 def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
     """The server of `shackled creator`; port 0 is any that is free. variables: of its environment."""
-    # NiceGUI behaves in another way where it believes to be under test
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    # what somebody has deployed on this machine is no part of it
-    environment |= {"SHACKLED_ADDRESS_BOOK": str(Path(__file__).parent / "no-address-book.json")} | variables
+    # deployments on this machine must not change what the page offers
+    book = str(Path(__file__).parent / "no-address-book.json")
+    environment = {**os.environ, "SHACKLED_ADDRESS_BOOK": book, **variables}
     at = time.monotonic()
     process = subprocess.Popen(
         [sys.executable, "-m", "shackled", "creator", "--no-browser", "--port", port, *arguments],
