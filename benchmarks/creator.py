@@ -1,4 +1,4 @@
-"""Measure the Creator's page with many visitors at once: frames per second, and their delay.
+"""How the Creator's page does with many visitors at once: pictures a second, and how late they are.
 
     python -m benchmarks.creator [--visitors 20] [--seconds 10] [--piece NAME] [--write]
     python -m benchmarks.creator --pool [--longest 128] [--workers N]
@@ -28,15 +28,13 @@ import numpy as np
 from tools.pages import update
 from websockets.asyncio.client import connect
 
-from shackled.creator.orbit import drag, front
-from shackled.creator.pool import Pool
-from shackled.creator.state import Source, State
+from shackled.creator import Pool, Source, State, drag, front
 
 PAGE = Path(__file__).parent.parent / "docs" / "creator.md"
 
 #: Seconds between two movements.
 PACE = 1 / 30
-#: Seconds whose movements do not count, until the sizes of the moving pictures have settled.
+#: Movements of the first seconds do not count: the sizes of the moving pictures have to settle.
 WARM_UP = 2.0
 
 
@@ -51,11 +49,8 @@ class Orbiting:
 
 async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
     """Simulate one visitor."""
-    html = await asyncio.to_thread(lambda: urllib.request.urlopen(address).read().decode())
-    found = re.search(r'"visitor":"([\w-]+)"', html)
-    assert found, "the page names no visitor"
-    wire = f"{address.replace('http', 'ws', 1)}live/{found[1]}"
-    async with connect(wire, max_size=2**24, compression=None) as socket:
+    await asyncio.to_thread(lambda: urllib.request.urlopen(address).read())
+    async with connect(f"{address.replace('http', 'ws', 1)}live", max_size=2**24, compression=None) as socket:
         begun = time.perf_counter()
         sent: list[float] = []
 
@@ -81,14 +76,14 @@ async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
 
 
 async def measure(address: str, visitors: int, seconds: float) -> list[Orbiting]:
-    """Simulate all visitors at once."""
+    """All visitors at once."""
     seen = [Orbiting() for _ in range(visitors)]
     await asyncio.gather(*(orbit(address, seconds, each) for each in seen))
     return seen
 
 
 async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, workers: int | None) -> list[Orbiting]:
-    """Simulate all visitors at once, without the page."""
+    """All visitors at once, without the page."""
     seen = [Orbiting() for _ in range(visitors)]
     async with Pool(workers) as pool:
         facts = await pool.open(Source("piece", piece))
@@ -109,7 +104,7 @@ async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, 
 
 
 def report(seen: Sequence[Orbiting], seconds: float) -> str:
-    """Return the figures as a table in Markdown."""
+    """The figures, as a table in Markdown."""
     each = np.array([one.pictures / seconds for one in seen])
     delays = 1000 * np.concatenate([one.delays for one in seen])
     sides = np.concatenate([one.sides for one in seen])
@@ -125,7 +120,7 @@ def report(seen: Sequence[Orbiting], seconds: float) -> str:
 
 
 def main() -> None:
-    """Measure, print, and write the table if that is asked for."""
+    """The command."""
     parser = argparse.ArgumentParser(description="The Creator with many visitors at once.")
     parser.add_argument("--visitors", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=10)

@@ -1,8 +1,8 @@
-"""Draws the pictures of creator.md: the page of the Creator in a real browser, and a film of how it is used.
+"""Make the pictures of creator.md: screenshots of the Creator in a real browser, and a GIF of its use.
 
     python -m docs.draw_creator
 
-Needs chromium. The page is started by its command, and used by its buttons.
+Needs chromium. The page is started by its command and used by its buttons.
 """
 
 from __future__ import annotations
@@ -19,18 +19,19 @@ from tools.page_server import ARGUMENTS, browser_path, creator
 FOLDER = Path(__file__).parent
 IMAGES = FOLDER / "images"
 
-#: Of the film: pictures a second, and pixels of the screen for one of its own.
+#: Frames per second of the GIF, and screen pixels per pixel of it.
 PACE, SHRINK = 10, 1.25
 
 
 def main() -> None:
-    """All of them."""
+    """Make all of them."""
     with creator() as server, sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
 
         def visit(width: int, height: int, scheme: Literal["light", "dark"], **options: Any) -> Any:
             context = browser.new_context(viewport={"width": width, "height": height}, color_scheme=scheme, **options)
             page = context.new_page()
+            page.set_default_timeout(180_000)
             page.goto(server.address)
             page.wait_for_selector("#picture[data-draft=false]")
             page.wait_for_function("() => [...document.querySelectorAll('.look img')].every(e => e.src.length > 500)")
@@ -39,11 +40,12 @@ def main() -> None:
 
         page = visit(1360, 850, "light")
         save(page, "creator")
-        show(page, "[data-name='piece-icons/crown']", "[data-name=look-gold]")
+        show(page, "[data-name='piece-icons/crown']")
         page.click("[data-name=figures]")
         page.wait_for_function("() => document.querySelectorAll('#stages td.bar').length > 5")
         save(page, "creator-stages")
         page.keyboard.press("Escape")
+        show(page, "[data-name=look-gold]")
         page.click("text=Download")
         page.wait_for_function("() => document.querySelector('[data-text=snippet-solidity]').textContent.length > 20")
         save(page, "creator-download")
@@ -62,7 +64,7 @@ def main() -> None:
 
 
 def show(page: Any, *buttons: str) -> None:
-    """Pushes buttons, and waits for the picture that follows each."""
+    """Click buttons, and wait for the picture after each."""
     for button in buttons:
         before = page.get_attribute("#picture", "data-number")
         page.click(button)
@@ -71,7 +73,7 @@ def show(page: Any, *buttons: str) -> None:
 
 
 def save(page: Any, name: str) -> None:
-    """The page as a PNG file."""
+    """Save a screenshot as a PNG file."""
     path = IMAGES / f"{name}.png"
     with Image.open(io.BytesIO(page.screenshot())) as picture:
         picture.convert("RGB").save(path, optimize=True)
@@ -79,7 +81,7 @@ def save(page: Any, name: str) -> None:
 
 
 def film(page: Any) -> None:
-    """A GIF of the page in use."""
+    """Save a GIF of the page in use."""
     frames: list[Image.Image] = []
 
     def take(count: int = 1) -> None:
@@ -119,15 +121,15 @@ def film(page: Any) -> None:
     push("[data-name=look-neon]", lambda: drag(180, -20, 10))
     push("[data-name=look-facets]")
     take(4)
-    # one palette for all, of all, so that what stays is not stored again
+    # one palette for all frames, so that unchanged parts are not stored again
     sheet = Image.new("RGB", (frames[0].width, frames[0].height * 8))
     for place, frame in enumerate(frames[:: max(1, len(frames) // 8)][:8]):
         sheet.paste(frame, (0, place * frame.height))
-    palette = sheet.quantize(256, method=Image.Quantize.FASTOCTREE)  # of few colours it loses none that stands out
+    palette = sheet.quantize(256, method=Image.Quantize.FASTOCTREE)  # keeps rare colours that stand out
     reduced = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     path = IMAGES / "creator.gif"
     reduced[0].save(path, save_all=True, append_images=reduced[1:], duration=1000 // PACE, loop=0, optimize=True)
-    print(f"{path.relative_to(FOLDER.parent)}: {len(frames)} pictures, {path.stat().st_size:,} bytes")
+    print(f"{path.relative_to(FOLDER.parent)}: {len(frames)} frames, {path.stat().st_size:,} bytes")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from shackled.creator.controls import control
-from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface
+from shackled.creator import MAX_OPACITIES, Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, control
+from shackled.scene import LIGHT_KINDS
 
 
 def numbers(path: str) -> st.SearchStrategy[float]:
@@ -43,17 +43,21 @@ def states() -> st.SearchStrategy[State]:
     )
     lamps = st.builds(
         Lamp,
-        st.sampled_from(["directional", "point"]),
+        st.sampled_from(LIGHT_KINDS),
         numbers("lights.0.azimuth"),
         numbers("lights.0.elevation"),
         numbers("lights.0.distance"),
         colors,
+        vectors("lights.0.target"),
+        numbers("lights.0.inner_angle"),
+        numbers("lights.0.outer_angle"),
     )
     surfaces = st.builds(
         Surface,
         st.none() | st.sampled_from(["unlit", "flat", "smooth"]),
         *(st.none() | numbers(f"surface.{name}") for name in ("ambient", "diffuse", "specular", "shininess")),
         st.none() | colors,
+        st.none() | numbers("surface.opacity"),
     )
     return st.builds(
         State,
@@ -64,6 +68,7 @@ def states() -> st.SearchStrategy[State]:
         st.booleans(),
         st.none() | colors,
         surfaces,
+        st.tuples(*[st.none() | numbers("opacities.0")] * MAX_OPACITIES),
         st.none() | st.builds(Backdrop, colors, colors),
         flags,
         flags,

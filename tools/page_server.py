@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 BROWSERS = ("chromium", "chromium-browser")
-#: No updates, and no requests but those of the page.
+#: It must not look for updates, or ask for anything but the page.
 ARGUMENTS = (
     "--no-sandbox",
     "--disable-gpu",
@@ -36,8 +36,8 @@ class Started:
     process: subprocess.Popen[str]
 
     def processor_seconds(self) -> float:
-        """Return the processor time of the server and its child processes; infinite where the system does not report
-        it.
+        """Return what the server and the processes that it started took of the processors; infinite where no system
+        tells.
         """
         found: dict[int, tuple[int, int]] = {}
         for path in Path("/proc").glob("[0-9]*/stat"):
@@ -53,17 +53,16 @@ class Started:
 
 
 def browser_path() -> str | None:
-    """Return the path of a browser, or None."""
+    """Where a browser is, if there is one."""
     return next((path for path in map(shutil.which, BROWSERS) if path), None)
 
 
 @contextmanager
 def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
-    """Run the server of `shackled creator`. Port 0 is any free one. variables: of its environment."""
-    # NiceGUI behaves differently when it detects pytest
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
-    # without the address book of this machine
-    environment |= {"SHACKLED_ADDRESS_BOOK": str(Path(__file__).parent / "no-address-book.json")} | variables
+    """Run the server of `shackled creator`; port 0 is any that is free. variables: of its environment."""
+    # deployments on this machine must not change what the page offers
+    book = str(Path(__file__).parent / "no-address-book.json")
+    environment = {**os.environ, "SHACKLED_ADDRESS_BOOK": book, **variables}
     at = time.monotonic()
     process = subprocess.Popen(
         [sys.executable, "-m", "shackled", "creator", "--no-browser", "--port", port, *arguments],
@@ -83,7 +82,7 @@ def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Star
 
 
 def pixels(page: Any) -> bytes:
-    """Return the pixels of the canvas: red, green, blue, rows from the top."""
+    """What the canvas shows: red, green, blue, rows from the top."""
     data = page.evaluate(
         """() => {
             const canvas = document.getElementById('picture');

@@ -10,9 +10,26 @@ import pytest
 from hypothesis import given, settings
 
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, load, render
-from shackled.creator.scene import Facts, describe, filled, to_scene
-from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface
-from shackled.creator.view import bounds_of, camera_axes, camera_of, lamp_of, light_of, orbit_of
+from shackled.creator import (
+    Backdrop,
+    Facts,
+    Lamp,
+    Orbit,
+    Pose,
+    Size,
+    Source,
+    State,
+    Surface,
+    bounds_of,
+    camera_axes,
+    camera_of,
+    describe,
+    filled,
+    lamp_of,
+    light_of,
+    orbit_of,
+    to_scene,
+)
 from shackled.gas import render_call
 from states import states
 
@@ -60,7 +77,7 @@ def test_none_is_filled_from_the_source() -> None:
     _, facts = facts_of("genesis/7")
     state = State(facts.source, surface=Surface(diffuse=0.5))
     shown = filled(state, facts)
-    assert shown.surface == Surface("flat", 1, 0.5, 1.2, 10)
+    assert shown.surface == Surface("flat", 1, 0.5, 1.2, 10, opacity=1)
     assert shown.lights == (Lamp("directional", -90.0, 0.0, color="#ffffff"),)
     assert shown.size == Size(128, 128)
     assert shown.surface.color is None
@@ -73,9 +90,13 @@ def test_every_field_changes_the_scene() -> None:
         facts.source,
         pose=Pose((1, 0, 0), (0, 90, 0), 2),
         camera=Orbit(distance=4, azimuth=-90, elevation=0, projection="orthographic", fov=90),
-        lights=(Lamp("point", 90, 0, 2, "#ff0000"), Lamp("directional", 0, 90)),
+        lights=(
+            Lamp("point", 90, 0, 2, "#ff0000"),
+            Lamp("directional", 0, 90),
+            Lamp("spot", 0, 0, 3, target=(0, 4, 0), inner_angle=10, outer_angle=20),
+        ),
         ambient_light="#010203",
-        surface=Surface("unlit", 1, 2, 3, 4, "#00ff00"),
+        surface=Surface("unlit", 1, 2, 3, 4, "#00ff00", 0.5),
         background=Backdrop("#000001", "#000002"),
         cull=False,
         wireframe=True,
@@ -91,14 +112,28 @@ def test_every_field_changes_the_scene() -> None:
     assert np.allclose(made.lights[0].vector, middle + np.array([2 * radius, 0, 0]))
     assert np.allclose(made.lights[1].vector, (0, 1, 0))
     assert made.lights[0].color == (255, 0, 0)
+    assert np.allclose(made.lights[2].vector, middle + np.array([0, 0, 3 * radius]))
+    assert made.lights[2].direction is not None
+    assert np.allclose(np.cross(made.lights[2].direction, (0, 4, -3)), 0)
+    assert (made.lights[2].inner_angle, made.lights[2].outer_angle) == (10, 20)
     assert made.ambient_light == (1, 2, 3)
     assert all(o.material == Material("unlit", 1, 2, 3, 4) for o in made.objects)
     assert all((o.mesh.colors == (0, 255, 0)).all() for o in made.objects)
     assert not any(o.cull for o in made.objects)
     assert all(o.wireframe for o in made.objects)
+    assert all(o.opacity == 0.5 for o in made.objects)
     assert made.invert
     assert (made.background.top, made.background.bottom) == ((0, 0, 1), (0, 0, 2))
     assert (made.width, made.height) == (20, 10)
+
+
+def test_objects_have_an_opacity_of_their_own() -> None:
+    scene, facts = facts_of("cornell-box")
+    assert len(scene.objects) > 2
+    opacities = (0.25, None, 1.0, *State(facts.source).opacities[3:])
+    state = State(facts.source, surface=Surface(opacity=0.5), opacities=opacities)
+    made = [o.opacity for o in to_scene(state, scene).objects]
+    assert made == [0.25, 0.5, 1.0, *[0.5] * (len(made) - 3)]
 
 
 def test_a_pose_moves_all_objects_together() -> None:
@@ -134,10 +169,18 @@ def test_a_light_there_and_back() -> None:
         Light("point", (1, 2, 3), "#102030"),
         Light("directional", (1, -2, 3)),
         Light("point", bounds.middle),
+        Light.spot((1, 2, 3), (1, -1, 0.5), "#102030", 5, 30),
+        Light.spot((1, 2, 3), np.subtract(bounds.middle, (1, 2, 3)), outer_angle=90),
+        Light.spot(bounds.middle, (0, 0, 1)),
     ):
         again = light_of(lamp_of(light, bounds), bounds)
         assert again.color == light.color
-        if light.kind == "point":
+        assert (again.inner_angle, again.outer_angle) == (light.inner_angle, light.outer_angle)
+        if light.direction is not None:
+            assert again.direction is not None
+            one, other = (each / np.linalg.norm(each) for each in (light.direction, again.direction))
+            assert np.allclose(one, other, atol=1e-3)
+        if light.kind != "directional":
             assert np.allclose(again.vector, light.vector, atol=0.01)
         else:
             assert np.allclose(again.vector, light.vector / 14**0.5, atol=1e-5)
@@ -154,6 +197,29 @@ def test_lights_that_follow_are_seen_from_the_same_side() -> None:
     ]
     assert np.allclose(seen[0], seen[1], atol=1e-5)
     assert not np.allclose(made.lights[0].vector, scene.lights[0].vector, atol=0.1)
+
+
+def test_a_spot_light_follows_with_its_cone() -> None:
+    scene, facts = facts_of("teapot")
+    assert facts.defaults.camera is not None
+    camera = replace(facts.defaults.camera, azimuth=170.0, elevation=-30.0)
+    lamp = Lamp("spot", 20.0, 50.0, target=(0.5, 0.0, 0.0))
+    state = State(facts.source, lights=(lamp,), lights_follow=True)
+    seen = []
+    for each in (to_scene(state, scene), to_scene(replace(state, camera=camera), scene)):
+        (light,) = each.lights
+        assert light.direction is not None
+        seen.append(camera_axes(each.camera) @ np.stack([light.vector - facts.bounds.middle, light.direction]).T)
+    assert np.allclose(seen[0], seen[1], atol=1e-4)
+
+
+def test_a_spot_light_shines_whatever_its_numbers() -> None:
+    bounds = bounds_of(load("teapot"))
+    straight = light_of(Lamp("spot", 30, 40, 0, target=(0, 0, 0)), bounds)
+    assert straight.direction is not None
+    assert straight.direction.any()
+    crossed = light_of(Lamp("spot", inner_angle=60, outer_angle=20), bounds)
+    assert (crossed.inner_angle, crossed.outer_angle) == (20, 20)
 
 
 def test_fewer_triangles() -> None:

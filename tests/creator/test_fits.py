@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from shackled import load
 from shackled.chain import EmbeddedChain, open_chain
-from shackled.creator.fits import by_trying, headline, places
+from shackled.creator import by_trying, headline, places
 from shackled.gas import limits, measure, render_call, search, suffices
 from shackled.scene import resize
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from shackled.creator.history import DEPTH, History
-from shackled.creator.state import Pose, Source, State
+from shackled.creator import MAX_STEPS, History, Pose, Source, State
 
 
 def at(x: float) -> State:
@@ -55,13 +54,13 @@ def test_what_does_not_change_is_no_step() -> None:
 
 def test_history_is_bounded() -> None:
     history = History(at(0))
-    for x in range(DEPTH + 50):
+    for x in range(MAX_STEPS + 50):
         history.change(at(x / 100))
     steps = 0
     while history.can_undo:
         history.undo()
         steps += 1
-    assert steps == DEPTH
+    assert steps == MAX_STEPS
 
 
 @given(st.lists(st.tuples(st.integers(0, 5), st.sampled_from([None, "a", "b"])), max_size=30))

@@ -13,7 +13,7 @@ from tools.page_server import ARGUMENTS, Started, browser_path, creator
 from shackled.artifacts import artifact
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
-pytest.importorskip("nicegui", reason="the page needs nicegui")
+pytest.importorskip("starlette", reason="the page needs starlette")
 if browser_path() is None:
     pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
 
@@ -36,7 +36,7 @@ addEventListener('eip6963:requestProvider', announce);
 announce();
 const wires = [];
 window.WebSocket = class extends WebSocket { constructor(...all) { super(...all); wires.push(this); } };
-window.closeWire = () => wires.filter(({ url }) => url.includes('/live/')).forEach(wire => wire.close());
+window.closeWire = () => wires.filter(({ url }) => url.includes('/live')).forEach(wire => wire.close());
 """
 
 

@@ -11,10 +11,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shackled import load, render
-from shackled.creator.orbit import drag, fit, front, lamp_camera, lamp_from_disc, lamp_on_disc, pan, zoom
-from shackled.creator.scene import describe, to_scene
-from shackled.creator.state import Lamp, Orbit, Pose, Size, Source, State
-from shackled.creator.view import direction
+from shackled.creator import (
+    Lamp,
+    Orbit,
+    Pose,
+    Size,
+    Source,
+    State,
+    describe,
+    direction,
+    drag,
+    fit,
+    front,
+    lamp_camera,
+    lamp_from_disc,
+    lamp_on_disc,
+    pan,
+    to_scene,
+    zoom,
+)
 
 ways = st.floats(-3, 3)
 

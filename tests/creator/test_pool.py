@@ -21,16 +21,10 @@ from PIL import Image as PillowImage
 
 from nodes import anvil, needs_anvil
 from shackled import ChainError, InputError, load, render
-from shackled.creator.change import put
-from shackled.creator.lane import Lane, PoolError
-from shackled.creator.limits import Limits
-from shackled.creator.pool import Pool
-from shackled.creator.scene import to_scene
-from shackled.creator.state import Size, Source, State
-from shackled.creator.tasks import Desk
+from shackled.creator import Limits, Pool, PoolError, Queue, Size, Source, State, Tasks, set_value, to_scene
 from shackled.gas import STAGES
 from shackled.scene import full_turn
-from strange_desk import StrangeDesk
+from strange_tasks import StrangeTasks
 
 Result = TypeVar("Result")
 
@@ -38,9 +32,9 @@ TETRAHEDRON = State(Source("piece", "tetrahedron"), size=Size(32, 32))
 
 
 @asynccontextmanager
-async def lane(workers: int = 1, seconds: float = 20, grace: float = 0, waiting: int = 100) -> AsyncIterator[Lane]:
-    """A lane whose workers can misbehave."""
-    made = Lane("test", workers, Limits(), seconds, waiting, grace, make_desk=StrangeDesk)
+async def queue(workers: int = 1, seconds: float = 20, grace: float = 0, waiting: int = 100) -> AsyncIterator[Queue]:
+    """A queue whose workers can misbehave."""
+    made = Queue("test", workers, Limits(), seconds, waiting, grace, make_tasks=StrangeTasks)
     try:
         yield made
     finally:
@@ -48,9 +42,9 @@ async def lane(workers: int = 1, seconds: float = 20, grace: float = 0, waiting:
         assert made.processes == []
 
 
-def with_lane(test: Callable[[Lane], Awaitable[None]], **settings: Any) -> None:
+def with_queue(test: Callable[[Queue], Awaitable[None]], **settings: Any) -> None:
     async def run() -> None:
-        async with lane(**settings) as made:
+        async with queue(**settings) as made:
             await test(made)
 
     asyncio.run(asyncio.wait_for(run(), 60))
@@ -74,7 +68,7 @@ async def soon(condition: Callable[[], bool]) -> None:
 
 
 def test_visitors_are_served_in_turn() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         done: list[str] = []
 
         async def ask(visitor: str, number: int) -> None:
@@ -87,11 +81,11 @@ def test_visitors_are_served_in_turn() -> None:
         assert set(done[:5]) >= {"b0", "c0", "d0"}
         assert done[-4:] == ["a2", "a3", "a4", "a5"]
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_who_asks_for_much_waits_longer() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         await line.warm()
         done: list[str] = []
 
@@ -103,11 +97,11 @@ def test_who_asks_for_much_waits_longer() -> None:
         assert done[0] == "heavy"
         assert sorted(done[1:17]) == ["a"] * 8 + ["b"] * 8
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_what_comes_to_nothing_counts_as_well() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         await line.warm()
         done: list[str] = []
 
@@ -125,14 +119,14 @@ def test_what_comes_to_nothing_counts_as_well() -> None:
         assert done[0] == "bad"
         assert done[1:16] == ["good"] * 15
 
-    with_lane(test, seconds=0.5)
+    with_queue(test, seconds=0.5)
 
 
 def test_nobody_is_behind_for_long(monkeypatch: pytest.MonkeyPatch) -> None:
     """Who has had much waits for a bounded while, however little the others ask for."""
-    monkeypatch.setattr("shackled.creator.lane.BEHIND", 0.1)
+    monkeypatch.setattr("shackled.creator._queue.BEHIND", 0.1)
 
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         await line.warm()
         done: list[str] = []
 
@@ -144,11 +138,11 @@ def test_nobody_is_behind_for_long(monkeypatch: pytest.MonkeyPatch) -> None:
         assert done[0] == "heavy"
         assert 3 <= done.index("heavy", 1) <= 20
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_who_stays_away_saves_nothing_up() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         for _ in range(3):
             await line.ask("a", "x", "work", (0.1, 0))
         done: list[str] = []
@@ -161,39 +155,39 @@ def test_who_stays_away_saves_nothing_up() -> None:
         assert done[:2] in (["a", "new"], ["new", "a"])
         assert "a" in done[:3]
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_the_newest_takes_the_place_of_what_waits() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         tasks = [asyncio.create_task(line.ask("a", "live", "wait", (0.1, number), newest=True)) for number in range(5)]
         other = asyncio.create_task(line.ask("b", "live", "wait", (0.0, "b"), newest=True))
         assert list(await asyncio.gather(*tasks)) == [0, None, None, None, 4]
         assert await other == "b"
 
-    with_lane(test, grace=20)
+    with_queue(test, grace=20)
 
 
 def test_what_is_at_work_for_too_long_gives_way() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         first = asyncio.create_task(line.ask("a", "live", "wait", (30, "old"), newest=True))
         await soon(lambda: bool(line._running))
         assert await line.ask("a", "live", "wait", (0, "new"), newest=True) == "new"
         assert await first is None
 
-    with_lane(test, grace=0.05)
+    with_queue(test, grace=0.05)
 
 
 def test_two_visitors_do_not_replace_each_other() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         asked = [line.ask(visitor, "live", "wait", (0.01, visitor), newest=True) for visitor in "abc"]
         assert await asyncio.gather(*asked) == ["a", "b", "c"]
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_a_visitor_who_leaves_frees_the_worker() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         running = asyncio.create_task(line.ask("a", "x", "wait", (30, 1)))
         waiting = asyncio.create_task(line.ask("a", "y", "wait", (30, 2)))
         other = asyncio.create_task(line.ask("b", "x", "wait", (0, 3)))
@@ -202,11 +196,11 @@ def test_a_visitor_who_leaves_frees_the_worker() -> None:
         line.leave("nobody")
         assert list(await asyncio.gather(running, waiting, other)) == [None, None, 3]
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_a_cancelled_wait_frees_the_worker() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         running = asyncio.create_task(line.ask("a", "x", "wait", (30, 1)))
         waiting = asyncio.create_task(line.ask("b", "x", "wait", (30, 2)))
         await soon(lambda: bool(line._running))
@@ -217,11 +211,11 @@ def test_a_cancelled_wait_frees_the_worker() -> None:
         assert await line.ask("c", "x", "wait", (0, 3)) == 3
         assert not line._waiting
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_the_line_has_an_end() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         tasks = [asyncio.create_task(line.ask(f"v{number}", "x", "wait", (30, 0))) for number in range(4)]
         await asyncio.sleep(0)
         with pytest.raises(PoolError, match="too many visitors are waiting"):
@@ -230,7 +224,7 @@ def test_the_line_has_an_end() -> None:
             line.leave(f"v{number}")
         await asyncio.gather(*tasks)
 
-    with_lane(test, waiting=3)
+    with_queue(test, waiting=3)
 
 
 # ---- workers that fail ----
@@ -239,54 +233,54 @@ def test_the_line_has_an_end() -> None:
 @pytest.mark.parametrize(
     ("task", "arguments", "message"),
     [
-        ("vanish", (), "the process at work on the test ended"),
-        ("eat", (), "the test needs more memory than there is"),
-        ("stumble", (), r"the test failed by a fault of ours \(ZeroDivisionError\)"),
+        ("vanish", (), "the worker process of the test ended"),
+        ("eat", (), "the test needs more memory than the limit"),
+        ("stumble", (), r"the test failed by an internal error \(ZeroDivisionError\)"),
     ],
 )
 def test_a_worker_that_fails_costs_one_error(task: str, arguments: tuple[Any, ...], message: str) -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         for _ in range(2):
             with pytest.raises(PoolError, match=message) as error:
                 await line.ask("a", "x", task, arguments)
             assert "secret" not in str(error.value)
         assert await line.ask("a", "x", "wait", (0, "well")) == "well"
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_a_worker_that_hangs_is_replaced() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         await line.warm()
-        with pytest.raises(PoolError, match="the test took longer than the 0\\.5 seconds"):
+        with pytest.raises(PoolError, match="the test took longer than the limit of 0\\.5 seconds"):
             await line.ask("a", "x", "wait", (60, 0))
         assert await line.ask("a", "x", "pid", ()) in line.processes
 
-    with_lane(test, seconds=0.5)
+    with_queue(test, seconds=0.5)
 
 
 def test_a_worker_that_ended_while_idle_is_not_missed() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         pid = await line.ask("a", "x", "pid", ())
         os.kill(pid, signal.SIGKILL)
         assert await line.ask("a", "x", "pid", ()) != pid
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_progress_is_told_in_order() -> None:
-    async def test(line: Lane) -> None:
+    async def test(line: Queue) -> None:
         told: list[tuple[int, int]] = []
         assert await line.ask("a", "x", "count", (5,), progress=lambda *each: told.append(each)) == "counted"
         await soon(lambda: len(told) == 5)
         assert told == [(number, 5) for number in range(1, 6)]
 
-    with_lane(test)
+    with_queue(test)
 
 
 def test_after_the_end_nothing_is_begun() -> None:
     async def test() -> None:
-        async with lane() as line:
+        async with queue() as line:
             busy = asyncio.create_task(line.ask("a", "x", "wait", (30, 0)))
             await soon(lambda: bool(line._running))
         assert await busy is None
@@ -302,7 +296,7 @@ def test_after_the_end_nothing_is_begun() -> None:
 def test_a_picture_is_that_of_the_command_line() -> None:
     async def test(pool: Pool) -> None:
         facts = await pool.open(TETRAHEDRON.source)
-        state = put(TETRAHEDRON, facts, "camera.azimuth", 100)
+        state = set_value(TETRAHEDRON, facts, "camera.azimuth", 100)
         image = render(to_scene(state, load("tetrahedron")))
         frame = await pool.render("a", state)
         assert frame is not None
@@ -322,15 +316,15 @@ def test_of_a_picture_that_passes_by_no_file_is_made(monkeypatch: pytest.MonkeyP
     def fail(*arguments: Any, **settings: Any) -> None:
         raise AssertionError("it is shown as it came")
 
-    desk = Desk(Limits(), lambda done, total: None)
+    tasks = Tasks(Limits(), lambda done, total: None)
     monkeypatch.setattr(PillowImage.Image, "save", fail)
     monkeypatch.setattr("hashlib.sha256", fail)
-    frame = desk.picture(TETRAHEDRON, 16, count=False)
+    frame = tasks.picture(TETRAHEDRON, 16, count=False)
     assert frame.bmp.startswith(b"BM")
 
 
 def test_a_large_picture_does_not_stand_in_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.creator.pool.LARGE", 100 * 100)
+    monkeypatch.setattr("shackled.creator._pool.LARGE", 100 * 100)
 
     async def test(pool: Pool) -> None:
         large = replace(TETRAHEDRON, size=Size(200, 100))
@@ -353,15 +347,15 @@ def test_what_is_wrong_is_said() -> None:
     async def test(pool: Pool) -> None:
         with pytest.raises(InputError, match="there is no piece 'teapott'; close is teapot"):
             await pool.render("a", State(Source("piece", "teapott")))
-        with pytest.raises(InputError, match="is not here, or no more: hand it in again"):
+        with pytest.raises(InputError, match="is not in the memory of this server: open it again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))
         with pytest.raises(ChainError, match="ran out of gas: 100,000 did not suffice"):
             await pool.render("a", TETRAHEDRON)
         with pytest.raises(InputError, match="no node to compare with"):
             await pool.compare("a", TETRAHEDRON)
-        with pytest.raises(InputError, match="from 2 to 120 pictures, not 1"):
+        with pytest.raises(InputError, match="a GIF has 2 to 120 frames, not 1"):
             await pool.turntable("a", TETRAHEDRON, frames=1)
-        with pytest.raises(InputError, match="the film would have 125,829,120 pixels"):
+        with pytest.raises(InputError, match="the GIF would have 125,829,120 pixels"):
             await pool.turntable("a", replace(TETRAHEDRON, size=Size(1024, 1024)), frames=120)
 
     with_pool(test, Limits(gas=100_000))
@@ -418,7 +412,7 @@ def test_stages_and_their_gas() -> None:
         assert sum(gas.values()) == frame.gas
         # tracing so small a scene may end before the first report
         assert all(done <= total for done, total in told)
-        with pytest.raises(InputError, match="gas is traced stage by stage for pictures of up to 2,000,000 gas"):
+        with pytest.raises(InputError, match="gas is traced for pictures of up to 2,000,000 gas"):
             await pool.stage_gas("a", replace(TETRAHEDRON, size=Size(256, 256)))
 
     with_pool(test, Limits(traced_gas=2_000_000))
@@ -428,7 +422,7 @@ def test_workers_end_with_their_parent(tmp_path: Any) -> None:
     """However it ends."""
     (tmp_path / "parent.py").write_text(
         "import asyncio, os, signal\n"
-        "from shackled.creator.pool import Pool\n"
+        "from shackled.creator import Pool\n"
         "async def main():\n"
         "    async with Pool(2) as pool:\n"
         "        print(*pool._live.processes, flush=True)\n"
@@ -464,12 +458,12 @@ def test_files_to_take_away() -> None:
         program = (await pool.take("a", state, "python", link="http://a/\nb")).data.decode()
         assert program.startswith("# http://a/ b\nimport hashlib\n")
         assert 'shackled.load("one.obj")' in program
-        with pytest.raises(InputError, match="nothing of the kind 'x'"):
+        with pytest.raises(InputError, match="no download of the kind 'x'"):
             await pool.take("a", state, "x")
         taking = asyncio.create_task(pool.take("b", state, "solidity"))
         await asyncio.sleep(0)
         pool.leave("b")
-        with pytest.raises(PoolError, match="given up"):
+        with pytest.raises(PoolError, match="the job was dropped"):
             await taking
 
     with_pool(test)

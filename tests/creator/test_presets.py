@@ -8,11 +8,19 @@ import numpy as np
 import pytest
 
 from shackled import load, render
-from shackled.creator.change import put
-from shackled.creator.link import from_link, to_link
-from shackled.creator.presets import PRESETS, apply, preset
-from shackled.creator.scene import describe, to_scene
-from shackled.creator.state import Size, Source, State
+from shackled.creator import (
+    PRESETS,
+    Size,
+    Source,
+    State,
+    apply_look,
+    describe,
+    from_link,
+    preset,
+    set_value,
+    to_link,
+    to_scene,
+)
 
 SCENE = load("teapot")
 FACTS = describe(Source("piece", "teapot"), SCENE, "Teapot")
@@ -25,7 +33,7 @@ def picture(state: State) -> np.ndarray:
 
 
 def test_looks_differ_and_show_the_object() -> None:
-    pictures = [picture(apply(look, STATE, FACTS)) for look in PRESETS]
+    pictures = [picture(apply_look(look, STATE, FACTS)) for look in PRESETS]
     for one, other in combinations(pictures, 2):
         assert np.abs(one.astype(int) - other).mean() > 4
     for pixels, look in zip(pictures, PRESETS, strict=True):
@@ -42,9 +50,9 @@ def test_names_are_unique() -> None:
 
 @pytest.mark.parametrize("look", PRESETS, ids=lambda look: look.name)
 def test_a_look_leaves_object_camera_and_size(look: object) -> None:
-    state = put(STATE, FACTS, "camera.azimuth", 100)
-    state = put(state, FACTS, "pose.scale", 1.5)
-    dressed = apply(look, state, FACTS)  # type: ignore[arg-type]
+    state = set_value(STATE, FACTS, "camera.azimuth", 100)
+    state = set_value(state, FACTS, "pose.scale", 1.5)
+    dressed = apply_look(look, state, FACTS)  # type: ignore[arg-type]
     assert (dressed.source, dressed.pose, dressed.camera, dressed.size) == (
         state.source,
         state.pose,
@@ -61,9 +69,9 @@ def test_a_look_is_lit_alike_from_every_side() -> None:
     assert look is not None
     pictures = []
     for azimuth in (0, 90):  # the ball is the same after a quarter of a turn
-        state = put(State(facts.source), facts, "camera.azimuth", azimuth)
-        state = put(state, facts, "camera.elevation", 0)
+        state = set_value(State(facts.source), facts, "camera.azimuth", azimuth)
+        state = set_value(state, facts, "camera.elevation", 0)
         for axis in "xyz":
-            state = put(state, facts, f"camera.target.{axis}", 0)
-        pictures.append(render(to_scene(apply(look, state, facts), ball)).pixels.astype(int))
+            state = set_value(state, facts, f"camera.target.{axis}", 0)
+        pictures.append(render(to_scene(apply_look(look, state, facts), ball)).pixels.astype(int))
     assert np.abs(pictures[0] - pictures[1]).mean() < 12

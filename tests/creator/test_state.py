@@ -9,8 +9,22 @@ import pytest
 from hypothesis import given
 
 from shackled import InputError
-from shackled.creator.controls import CONTROLS, GROUPS, control, lamp_controls
-from shackled.creator.state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, from_document, to_document
+from shackled.creator import (
+    CONTROLS,
+    GROUPS,
+    Backdrop,
+    Lamp,
+    Orbit,
+    Pose,
+    Size,
+    Source,
+    State,
+    Surface,
+    control,
+    from_document,
+    lamp_controls,
+    to_document,
+)
 from states import states
 
 TEAPOT = Source("piece", "teapot")
@@ -36,7 +50,7 @@ def test_values_are_of_one_form() -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Orbit(fov=200), "the fov of the camera must be a number from 1 to 150, not 200"),
+        (lambda: Orbit(fov=200), "the fov of the camera must be a number from 0.2 to 179.8, not 200"),
         (
             lambda: Orbit(distance=float("nan")),
             "the distance of the camera must be a number from 0.01 to 1000, not nan",
@@ -48,13 +62,15 @@ def test_values_are_of_one_form() -> None:
         (lambda: Pose(scale=0), "the scale of the object must be a number from 0.01 to 100, not 0"),
         (lambda: Lamp(color="red"), "the color of the light must be a colour #rrggbb, not 'red'"),
         (lambda: Lamp(color="#gg0000"), "the color of the light must be red, green and blue"),
-        (lambda: Lamp(kind=["point"]), "the kind of the light must be one of directional, point, not ['point']"),  # type: ignore[arg-type]
+        (lambda: Lamp(kind=["point"]), "the kind of the light must be one of directional, point, spot, not ['point']"),  # type: ignore[arg-type]
         (lambda: Surface(shininess=1.5), "the shininess of the material must be a whole number from 1 to 128, not 1.5"),  # type: ignore[arg-type]
         (lambda: Size(0, 10), "the width of the picture must be a whole number from 1 to 1024, not 0"),
         (lambda: Source("piece", "../etc/passwd"), "the name of a source must be the name of a piece such as teapot"),
         (lambda: Source("upload", "abc"), "the name of a source must be 64 hexadecimal digits, not 'abc'"),
         (lambda: Source("file", "abc"), "the kind of a source must be one of piece, upload"),  # type: ignore[arg-type]
         (lambda: State(TEAPOT, lights=(Lamp(),) * 5), "a picture has up to 4 lights, not 5"),
+        (lambda: State(TEAPOT, opacities=(1,)), "opacities must be 8 numbers or null, not (1,)"),
+        (lambda: State(TEAPOT, opacities=(2,) * 8), "opacities[0] must be a number from 0 to 1, not 2"),
         (lambda: State(TEAPOT, cull=1), "cull must be true or false, not 1"),  # type: ignore[arg-type]
         (lambda: State(TEAPOT, max_triangles=3), "max_triangles must be a whole number from 4 to 65535, not 3"),
     ],
@@ -96,10 +112,16 @@ def test_each_field_has_a_control() -> None:
         "background": Backdrop,
         "size": Size,
     }
+
+    def paths_of(part: str, value: object) -> list[str]:
+        return [
+            f"{part}.{name}{axis}"
+            for name, each in vars(value).items()
+            for axis in ((".x", ".y", ".z") if isinstance(each, tuple) else ("",))
+        ]
+
     for part, kind in fields.items():
-        for name, value in vars(kind()).items():
-            paths = [f"{part}.{name}.{axis}" for axis in "xyz"] if isinstance(value, tuple) else [f"{part}.{name}"]
-            assert all(control(path).path == path for path in paths)
-    assert {each.path for each in lamp_controls(3)} == {f"lights.3.{name}" for name in vars(Lamp())}
+        assert all(control(path).path == path for path in paths_of(part, kind()))
+    assert [each.path for each in lamp_controls(3)] == paths_of("lights.3", Lamp())
     assert {each.group for each in CONTROLS} == {key for key, _ in GROUPS}
     assert all(each.label and each.low < each.high for each in CONTROLS)

@@ -23,15 +23,23 @@ from nodes import anvil, needs_anvil
 from shackled import Image, InputError, Scene, load, render
 from shackled.chain import EmbeddedChain, open_chain, returned_bytes
 from shackled.cli.app import run
-from shackled.creator.change import put
-from shackled.creator.picture import File
-from shackled.creator.presets import apply, preset
-from shackled.creator.scene import Facts, describe, to_scene
-from shackled.creator.solidity_contract import contract_name
-from shackled.creator.state import Size, Source, State
-from shackled.creator.store import Stored
-from shackled.creator.subject import Subject
-from shackled.creator.takeaway import KINDS, make
+from shackled.creator import (
+    KINDS,
+    Facts,
+    File,
+    Size,
+    Source,
+    State,
+    Stored,
+    Subject,
+    apply_look,
+    contract_name,
+    describe,
+    make_file,
+    preset,
+    set_value,
+    to_scene,
+)
 from shackled.gas import render_call
 from shackled.scene import simplify_scene
 
@@ -64,7 +72,7 @@ class Picture:
         return render(self.scene)
 
     def take(self, kind: str, **settings: Any) -> File:
-        return make(kind, self.subject(**settings), chain())
+        return make_file(kind, self.subject(**settings), chain())
 
     def subject(self, **settings: Any) -> Subject:
         return Subject(self.state, self.facts, self.source, self.scene, **settings)
@@ -74,7 +82,7 @@ def dressed(state: State, facts: Facts, look: str) -> State:
     """Everything that can be different."""
     found = preset(look)
     assert found is not None
-    state = apply(found, state, facts)
+    state = apply_look(found, state, facts)
     for path, value in {
         "camera.azimuth": 33.3,
         "camera.projection": "orthographic",
@@ -83,8 +91,11 @@ def dressed(state: State, facts: Facts, look: str) -> State:
         "lights_follow": True,
         "size.width": 40,
         "size.height": 32,
+        "surface.opacity": 0.7,
+        "opacities.0": 0.4,
+        **({"lights.0.kind": "spot", "lights.0.target.x": 0.2, "lights.0.outer_angle": 30} if found.lamps else {}),
     }.items():
-        state = put(state, facts, path, value)
+        state = set_value(state, facts, path, value)
     return state
 
 
@@ -103,7 +114,7 @@ def test_an_untouched_picture_is_that_of_the_command_line(name: str, tmp_path: P
 @pytest.mark.parametrize("scale", [1, 2, 8])
 def test_a_png_is_crisp(scale: int) -> None:
     picture = Picture("tetrahedron", "clay")
-    with PillowImage.open(io.BytesIO(make("png", picture.subject(), chain(), scale).data)) as png:
+    with PillowImage.open(io.BytesIO(make_file("png", picture.subject(), chain(), scale).data)) as png:
         pixels = np.asarray(png.convert("RGB"))
     assert (pixels == picture.image.pixels.repeat(scale, axis=0).repeat(scale, axis=1)).all()
 
@@ -155,7 +166,9 @@ def test_a_line_for_cast(kind: str) -> None:
 def test_the_line_for_cast_suffices_where_a_call_is_given_little() -> None:
     """A node gives a call that names no limit what it likes: anvil as much as a block may have."""
     picture = Picture("icons/coin", "gold")
-    picture.state = put(put(picture.state, picture.facts, "size.width", 256), picture.facts, "size.height", 256)
+    picture.state = set_value(
+        set_value(picture.state, picture.facts, "size.width", 256), picture.facts, "size.height", 256
+    )
     words = picture.take("cast-anywhere").data.decode().split()
     given = dict(pairwise(words))
     codes = [following.split(":") for word, following in pairwise(words) if word == "--override-code"]
@@ -174,7 +187,7 @@ def test_the_line_for_cast_suffices_where_a_call_is_given_little() -> None:
 
 def test_files_of_all_kinds_lie_side_by_side() -> None:
     picture = Picture("tetrahedron")
-    picture.state = put(put(picture.state, picture.facts, "size.width", 8), picture.facts, "size.height", 8)
+    picture.state = set_value(set_value(picture.state, picture.facts, "size.width", 8), picture.facts, "size.height", 8)
     names = [picture.take(kind.name).name for kind in KINDS if kind.name != "file"]
     assert len(set(names)) == len(names)
 
@@ -201,11 +214,11 @@ def test_meshes_keep_their_licence_in_solidity(licence: str, identifier: str) ->
     elif licence:
         assert beside.strip() == f"// The licence of this mesh: {licence}"
     else:
-        assert "licence of this mesh is not known" in "".join(lines)
+        assert "licence of this mesh is unknown" in "".join(lines)
 
 
 def test_a_contract_without_the_meshes_is_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.creator.solidity_contract.MAX_CONSTANT", 0)
+    monkeypatch.setattr("shackled.creator._solidity.MAX_CONSTANT", 0)
     picture = Picture("tetrahedron")
     picture.facts = replace(picture.facts, licence="")
     text = picture.take("solidity").data.decode()
@@ -225,11 +238,11 @@ def test_the_link_says_where_it_works() -> None:
         ):
             text = picture.take(kind, link=link).data.decode()
             assert link in text
-            assert ("The link works on this computer alone." in text) == alone
+            assert ("The link works on this computer only." in text) == alone
 
 
 def test_a_line_that_no_shell_takes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled.creator.cast_command.MAX_ARGUMENT", 10_001)
+    monkeypatch.setattr("shackled.creator._programs.MAX_ARGUMENT", 10_001)
     with pytest.raises(InputError, match="bytes, too many for a command line, which takes 4,999"):
         Picture("icons/coin").take("cast")
 
@@ -238,7 +251,7 @@ def test_a_line_that_no_shell_takes(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_python_snippet_makes_the_picture(name: str, look: str, tmp_path: Path) -> None:
     picture = Picture(name, look)
     file = picture.take("python", link="http://127.0.0.1/#1abc")
-    assert file.data.startswith(b"# http://127.0.0.1/#1abc\n# The link works on this computer alone.\nimport hashlib\n")
+    assert file.data.startswith(b"# http://127.0.0.1/#1abc\n# The link works on this computer only.\nimport hashlib\n")
     (tmp_path / file.name).write_bytes(file.data)
     subprocess.run([sys.executable, file.name], cwd=tmp_path, check=True, capture_output=True)
     with PillowImage.open(tmp_path / file.name.replace(".py", ".png")) as png:
@@ -255,7 +268,7 @@ def test_the_python_snippet_of_an_upload(tmp_path: Path) -> None:
     scene = simplify_scene(load(tmp_path / name), 200)
     source = Source("upload", hashlib.sha256(data).hexdigest())
     picture = Picture(name, scene=scene, source=source)
-    picture.state = put(picture.state, picture.facts, "max_triangles", 90)
+    picture.state = set_value(picture.state, picture.facts, "max_triangles", 90)
     stored = Stored(name, b"", picture.facts, 200, data)
     assert picture.take("file", stored=stored) == File(name, "application/octet-stream", data)
     file = picture.take("python", stored=stored)
@@ -290,7 +303,7 @@ def test_the_solidity_snippets_make_the_picture(monkeypatch: pytest.MonkeyPatch)
     pictures = [Picture("icosahedron", "neon"), Picture("first-render")]
     sources = []
     for picture, most in zip(pictures, (10**9, 0), strict=True):
-        monkeypatch.setattr("shackled.creator.solidity_contract.MAX_CONSTANT", most)
+        monkeypatch.setattr("shackled.creator._solidity.MAX_CONSTANT", most)
         sources.append(picture.take("solidity", link="http://127.0.0.1/#1abc").data.decode())
     evm, place = chain(), b"\x7e" * 20
     for picture, (creation, selectors) in zip(pictures, compiled(sources), strict=True):
@@ -334,21 +347,21 @@ def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
 
 def test_what_is_not_there() -> None:
     picture = Picture("tetrahedron")
-    with pytest.raises(InputError, match="there is nothing of the kind 'gold' to take; there are png, bmp, svg"):
+    with pytest.raises(InputError, match="there is no download of the kind 'gold'; there are png, bmp, svg"):
         picture.take("gold")
-    with pytest.raises(InputError, match="not made of a file that was handed in"):
+    with pytest.raises(InputError, match="not of an uploaded file"):
         picture.take("file")
-    with pytest.raises(InputError, match="a PNG can be 1 to 8 times as large, not 9"):
-        make("png", picture.subject(), chain(), 9)
-    picture.state = put(picture.state, picture.facts, "size.width", 600)
-    with pytest.raises(InputError, match="up to 4,096 pixels a side: choose a smaller scale than 8"):
-        make("png", picture.subject(), chain(), 8)
+    with pytest.raises(InputError, match="the scale of a PNG must be from 1 to 8, not 9"):
+        make_file("png", picture.subject(), chain(), 9)
+    picture.state = set_value(picture.state, picture.facts, "size.width", 600)
+    with pytest.raises(InputError, match="up to 4,096 pixels a side: choose a scale below 8"):
+        make_file("png", picture.subject(), chain(), 8)
 
 
 def test_each_kind_is_made() -> None:
     picture = Picture("tetrahedron")
-    picture.state = put(picture.state, picture.facts, "size.width", 8)
-    picture.state = put(picture.state, picture.facts, "size.height", 8)
+    picture.state = set_value(picture.state, picture.facts, "size.width", 8)
+    picture.state = set_value(picture.state, picture.facts, "size.height", 8)
     assert picture.state.size == Size(8, 8)
     for kind in KINDS:
         if kind.name != "file":

@@ -22,12 +22,7 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from shackled import InputError, load, render
-from shackled.creator.lane import PoolError
-from shackled.creator.limits import Limits
-from shackled.creator.pool import Pool
-from shackled.creator.state import Size, Source, State
-from shackled.creator.store import Store, Stored
-from shackled.creator.upload import clean_name
+from shackled.creator import Limits, Pool, PoolError, Size, Source, State, Store, Stored, clean_name
 from shackled.scene import simplify_scene, write_scene
 
 LIMITS = Limits(triangles=500, all_triangles=1200, reading_seconds=10, unpacked=2**20)
@@ -172,7 +167,7 @@ def test_what_is_left_out_is_told(visitor: Visitor) -> None:
 def test_what_is_told_does_not_depend_on_files_elsewhere(name: str, visitor: Visitor) -> None:
     (note,) = visitor.upload("a.obj", f"mtllib {name}\n".encode() + TRIANGLE).notes
     last = name.rpartition("/")[2]
-    assert note.endswith(f" cannot be read: {last} lies outside of the upload.")
+    assert note.endswith(f" cannot be read: {last} is outside the upload.")
 
 
 def test_too_many_triangles_are_simplified(visitor: Visitor, tmp_path: Path) -> None:
@@ -193,7 +188,7 @@ def test_a_canvas_that_is_too_large_is_brought_down(visitor: Visitor) -> None:
     mesh = {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "faces": [[0, 1, 2]]}
     upload = visitor.upload("a.json", text({"size": [2000, 50], "objects": [{"mesh": mesh}]}))
     assert upload.facts.defaults.size == Size(1024, 25)
-    assert upload.notes == ("The picture of 2000 x 50 pixels was brought down to 1024 x 25.",)
+    assert upload.notes == ("The picture was reduced from 2000 x 50 to 1024 x 25 pixels.",)
 
 
 def write_obj(path: Path) -> None:
@@ -238,11 +233,11 @@ def linked_zip() -> bytes:
 HOSTILE: dict[str, tuple[str, Any, str]] = {
     "nothing": ("a.obj", b"", "a.obj is empty"),
     "blanks": ("a.obj", b" \n\t", "a.obj is empty"),
-    "no name": ("", TRIANGLE, "file: a file without an extension is not known here; known are .obj, .ply"),
-    "wrong extension": ("a.exe", b"MZ", "a.exe: .exe files are not known here; known are .obj"),
+    "no name": ("", TRIANGLE, "file: a file without an extension is not supported; supported are .obj, .ply"),
+    "wrong extension": ("a.exe", b"MZ", "a.exe: .exe files are not supported; supported are .obj"),
     "another format": ("a.stl", TRIANGLE, "a.stl: it has no triangles"),
     "binary text": ("a.obj", b"v 0 0\0", "a.obj is not a text file"),
-    "too large": ("a.obj", b"#" * (8 * 2**20 + 1), "the file is larger than the 8 MB that are read"),
+    "too large": ("a.obj", b"#" * (8 * 2**20 + 1), "the file is larger than the limit of 8 MB"),
     "not a number": ("a.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "coordinate that is not a finite number"),
     "infinite": ("a.obj", b"v inf 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "coordinate that is not a finite number"),
     "huge": ("a.obj", b"v 1e308 0 0\nv -1e308 0 0\nv 0 1e308 0\nf 1 2 3\n", "too large or too small to be"),
@@ -264,32 +259,32 @@ HOSTILE: dict[str, tuple[str, Any, str]] = {
     "far indices": ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 999999999\n", "a.obj"),
     "no faces": ("a.obj", b"v 0 0 0\n", "a.obj"),
     "deep json": ("a.json", b"[" * 200_000, "a.json is not valid JSON"),
-    "no object": ("a.json", b"{}", "a.json holds no object"),
+    "no object": ("a.json", b"{}", "a.json has no objects"),
     "many objects": (
         "a.json",
         text({"objects": [{"mesh": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "faces": [[0, 1, 2]]}}] * 300}),
-        "a.json has 300 objects; up to 256 are shown",
+        "a.json has 300 objects; the limit is 256",
     ),
     "huge canvas": ("a.json", text({"size": [99999, 99999], "objects": []}), "must be from 1 to"),
     "long numbers": ("a.json", b'{"size": ' + b"9" * 100_000 + b"}", "a.json"),
     "mesh beside": (
         "a.json",
         scene_document("b.obj"),
-        "b.obj does not exist here: put the scene and its meshes into a zip",
+        "b.obj does not exist in the upload: put the scene and its meshes into a ZIP",
     ),
     "mesh elsewhere": ("a.json", scene_document("/etc/hostname.obj"), "a.json"),
     "mesh above": ("a.toml", b'[[objects]]\nmesh = "../../../../etc/passwd"\n', "a.toml"),
     "accessor without end": (
         "a.glb",
         glb(gltf(accessors=[{"componentType": 5126, "count": 10**12, "type": "VEC3"}] * 2)),
-        "a.glb: it claims 2,000,000,000,000 elements; up to 8,000,000 are read",
+        "a.glb: it declares 2,000,000,000,000 elements; the limit is 8,000,000",
     ),
     "accessor beyond its buffer": (
         "a.gltf",
         text(gltf(accessors=[{"bufferView": 0, "componentType": 5126, "count": 7_000_000, "type": "VEC3"}] * 2)),
         "a.gltf",
     ),
-    "billion laughs": ("a.gltf", text(deep_nodes(40)), "hangs on several nodes, which glTF does not allow"),
+    "billion laughs": ("a.gltf", text(deep_nodes(40)), "has several parents, which glTF does not allow"),
     "one mesh many times": (
         "a.gltf",
         text(
@@ -298,51 +293,51 @@ HOSTILE: dict[str, tuple[str, Any, str]] = {
                 meshes=[{"primitives": [{"attributes": {"POSITION": 0}, "indices": 0}] * 300}],
             )
         ),
-        "it shows 2,700,000 triangles; up to 2,000,000 are read",
+        "it shows 2,700,000 triangles; the limit is 2,000,000",
     ),
     "nodes in a circle": (
         "a.gltf",
         text(gltf(nodes=[{"children": [1]}, {"children": [0]}])),
-        "its nodes hang on one another in a circle",
+        "its nodes form a cycle",
     ),
     "nodes in nodes": (
         "a.gltf",
         text(gltf(nodes=[*({"children": [number + 1]} for number in range(5000)), {"mesh": 0}])),
-        "its nodes lie in one another more than 200 deep",
+        "its tree of nodes is more than 200 levels deep",
     ),
     "buffer elsewhere": (
         "a.gltf",
         text(gltf(buffers=[{"byteLength": 42, "uri": "/etc/passwd"}])),
-        "it refers to '/etc/passwd', which was not handed in: export it as one .glb",
+        "it refers to '/etc/passwd', which was not uploaded: export it as one .glb",
     ),
     "buffer on the net": (
         "a.glb",
         glb(gltf(buffers=[{"byteLength": 42, "uri": "http://127.0.0.1:9/x.bin"}])),
-        "it refers to 'http://127.0.0.1:9/x.bin', which was not handed in",
+        "it refers to 'http://127.0.0.1:9/x.bin', which was not uploaded",
     ),
     "image above": (
         "a.gltf",
         text(gltf(images=[{"uri": "..%2F..%2Fsecret.png"}])),
-        "it refers to '..%2F..%2Fsecret.png', which was not handed in",
+        "it refers to '..%2F..%2Fsecret.png', which was not uploaded",
     ),
     "gltf of strange types": ("a.gltf", text(gltf(nodes={"a": 1}, meshes=[3], accessors="x")), "a.gltf"),
     "cut glb": ("a.glb", b"glTF\x02\0\0\0", "a.glb"),
     "not a zip": ("a.zip", b"PK\x03\x04 nothing", "a.zip: the archive"),
     "empty zip": ("a.zip", zipped({}), "a.zip: the archive has no mesh or scene file"),
-    "zip bomb": ("a.zip", zipped({"a.obj": bytes(50_000_000)}), "the archive holds 48 MB; up to 1 MB are unpacked"),
+    "zip bomb": ("a.zip", zipped({"a.obj": bytes(50_000_000)}), "the archive unpacks to 48 MB; the limit is 1 MB"),
     "zip that lies": ("a.zip", lying_zip, "a.zip: the archive"),
     "zip in a zip": ("a.zip", zipped({"b.zip": zipped({"a.obj": TRIANGLE})}), "the archive has no mesh or scene file"),
-    "zip of many files": ("a.zip", zipped({f"{n}.txt": b"" for n in range(65)}), "has 65 files; up to 64 are read"),
-    "zip that climbs": ("a.zip", zipped({"../../a.obj": TRIANGLE}), "wants to lie outside of it: '../../a.obj'"),
-    "zip from the root": ("a.zip", zipped({"/tmp/a.obj": TRIANGLE}), "wants to lie outside of it: '/tmp/a.obj'"),
-    "zip with a drive": ("a.zip", zipped({"C:\\a.obj": TRIANGLE}), "wants to lie outside of it"),
-    "zip with a link": ("a.zip", linked_zip, "the archive has a link, 'a.obj'"),
-    "zip of two meshes": ("a.zip", zipped({"a.obj": TRIANGLE, "b.obj": TRIANGLE}), "has 2 files that could be meant"),
-    "zip of long names": ("a.zip", zipped({"a" * 300 + ".obj": TRIANGLE}), "has a file of too long a name"),
+    "zip of many files": ("a.zip", zipped({f"{n}.txt": b"" for n in range(65)}), "has 65 files; the limit is 64"),
+    "zip that climbs": ("a.zip", zipped({"../../a.obj": TRIANGLE}), "whose path leads outside: '../../a.obj'"),
+    "zip from the root": ("a.zip", zipped({"/tmp/a.obj": TRIANGLE}), "whose path leads outside: '/tmp/a.obj'"),
+    "zip with a drive": ("a.zip", zipped({"C:\\a.obj": TRIANGLE}), "whose path leads outside"),
+    "zip with a link": ("a.zip", linked_zip, "the archive has a symbolic link, 'a.obj'"),
+    "zip of two meshes": ("a.zip", zipped({"a.obj": TRIANGLE, "b.obj": TRIANGLE}), "has 2 files that could be shown"),
+    "zip of long names": ("a.zip", zipped({"a" * 300 + ".obj": TRIANGLE}), "has a file with too long a path"),
     "too much in all": (
         "a.json",
         text({"objects": [{"mesh": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "faces": [[0, 1, 2]] * 400}}] * 4}),
-        "a.json has 1,600 triangles; up to 1,200 are shown",
+        "a.json has 1,600 triangles; the limit is 1,200",
     ),
 }
 
@@ -401,7 +396,7 @@ def test_files_that_are_handed_in_together(visitor: Visitor) -> None:
     assert visitor.upload("set.zip", zipped({"a.obj": TRIANGLE})).facts.title == "set.zip"
     with pytest.raises(InputError) as error:
         visitor.upload(None, zipped({"a.obj": TRIANGLE, "b.obj": TRIANGLE}))
-    assert str(error.value) == "the selection has 2 files that could be meant (a.obj, b.obj); leave one in it"
+    assert str(error.value) == "the selection has 2 files that could be shown (a.obj, b.obj); include only one"
     with pytest.raises(InputError) as error:
         visitor.upload(None, zipped({"a.obj": b"f 1 2 3", "a.mtl": b"newmtl m"}))
     assert "zip" not in str(error.value)
@@ -460,5 +455,5 @@ def test_the_store_forgets_what_was_not_used() -> None:
     assert store.size == 90
     store.put("5", Stored("a", bytes(1000), facts, None, b""))
     assert len(store) == 1
-    with pytest.raises(InputError, match="is not here, or no more: hand it in again"):
+    with pytest.raises(InputError, match="is not in the memory of this server: open it again"):
         store.get("0")

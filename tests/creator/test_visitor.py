@@ -10,16 +10,9 @@ from typing import Any, cast
 
 import pytest
 
-pytest.importorskip("nicegui", reason="the page needs nicegui")
+pytest.importorskip("starlette", reason="the page needs starlette")
 
-from shackled.creator.picture import Frame
-from shackled.creator.pool import Pool
-from shackled.creator.scene import Facts, describe
-from shackled.creator.state import Source, State
-from shackled.creator.web import visitor as module
-from shackled.creator.web.actions import ACTIONS, act
-from shackled.creator.web.keys import KEYS
-from shackled.creator.web.visitor import Visitor
+from shackled.creator import ACTIONS, DRAFT, KEYS, Facts, Frame, Pool, Source, State, Visitor, act, describe
 from shackled.datasets import require
 from shackled.errors import InputError, RenderError
 
@@ -155,7 +148,7 @@ def test_when_it_rests_it_is_drawn_in_full() -> None:
 
 
 def test_it_rests_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "REST", 0.01)
+    monkeypatch.setattr("shackled.creator._web.visitor.REST", 0.01)
 
     async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
         await answer(pool.asked[0])
@@ -172,7 +165,7 @@ def test_a_full_picture_gives_way_to_a_movement() -> None:
     async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
         await act(visitor, ORBIT)  # the first picture is still in work
         await turn()
-        assert pool.asked[1].longest == module.DRAFT
+        assert pool.asked[1].longest == DRAFT
         await answer(pool.asked[0])  # too late
         assert page.pictures == []
         await answer(pool.asked[1])
@@ -337,8 +330,8 @@ def at_the_wallet(visitor: Visitor, monkeypatch: pytest.MonkeyPatch) -> list[str
         outcomes.append(await wallet.request("eth_sendTransaction", {}))
         return "Minted"
 
-    monkeypatch.setattr("shackled.creator.web.actions.mint", mint)
-    monkeypatch.setattr("shackled.creator.web.actions.offer_of", lambda source: object())
+    monkeypatch.setattr("shackled.creator._web.dialogs.mint", mint)
+    monkeypatch.setattr("shackled.creator._web.actions.offer_of", lambda source: object())
     visitor.wallets = ["Toy"]
     return outcomes
 

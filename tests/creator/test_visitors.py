@@ -1,58 +1,92 @@
-"""Who is remembered, and who is not."""
+"""Which visitors are remembered."""
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Awaitable, Callable
 from typing import Any, cast
 
 import pytest
 
-pytest.importorskip("nicegui", reason="the page needs nicegui")
+pytest.importorskip("starlette", reason="the page needs starlette")
 
-from shackled.creator.pool import Pool
-from shackled.creator.scene import Facts
-from shackled.creator.state import Source, State
-from shackled.creator.web import visitors
-from shackled.creator.web.visitors import Visitors
+from shackled.creator import ABSENCE, Facts, Pool, Source, State, Visitors, to_link
 from shackled.errors import InputError
 
-STATE, FACTS, POOL = State(Source("piece", "cube")), cast(Facts, None), cast(Pool, None)
+SOURCE, OTHER = Source("piece", "cube"), Source("upload", "ab" * 32)
+
+
+class KnowsCubes:
+    """A pool that has no uploads."""
+
+    async def open(self, source: Source) -> Facts:
+        if source != SOURCE:
+            raise InputError("it is not here")
+        return cast(Facts, None)
+
+
+def play(story: Callable[[Visitors], Awaitable[None]]) -> None:
+    asyncio.run(cast(Any, story(Visitors(cast(Pool, KnowsCubes()), SOURCE))))
 
 
 def test_names_differ_and_are_long() -> None:
-    everybody = Visitors(POOL)
-    names = {everybody.add(STATE, FACTS).name for _ in range(50)}
-    assert len(names) == 50
-    assert min(map(len, names)) >= 24
-    assert everybody.find("") is None
+    async def story(visitors: Visitors) -> None:
+        names = {(await visitors.add()).name for _ in range(50)}
+        assert len(names) == 50
+        assert min(map(len, names)) >= 24
+        assert visitors.find("") is None
+
+    play(story)
+
+
+def test_a_link_is_restored_or_its_error_shown() -> None:
+    async def story(visitors: Visitors) -> None:
+        assert (await visitors.add()).state == State(SOURCE)
+        linked = await visitors.add(to_link(State(SOURCE, invert=True)))
+        assert (linked.state.invert, linked.greeting, linked.wanted) == (True, "", None)
+        for damaged in ("<script>", "1x", to_link(State(Source("piece", "no-such-piece")))):
+            visitor = await visitors.add(damaged)
+            assert visitor.state == State(SOURCE)
+            assert visitor.greeting
+            assert visitor.wanted is None
+        absent = State(OTHER, invert=True)
+        visitor = await visitors.add(to_link(absent))
+        assert (visitor.state, visitor.wanted) == (State(SOURCE), absent)
+        assert visitor.greeting == "it is not here, and the picture is restored"
+
+    play(story)
 
 
 def test_who_is_gone_makes_room(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(visitors, "MOST", 3)
-    everybody = Visitors(POOL)
-    first, *others = [everybody.add(STATE, FACTS) for _ in range(3)]
-    for each in others:
-        each._send = cast(Any, print)
-    last = everybody.add(STATE, FACTS)
-    assert everybody.find(first.name) is None
-    assert everybody.find(others[0].name) is others[0]
-    last._send = cast(Any, print)
-    with pytest.raises(InputError, match="3 visitors"):
-        everybody.add(STATE, FACTS)
+    monkeypatch.setattr("shackled.creator._web.live.MAX_VISITORS", 3)
+
+    async def story(visitors: Visitors) -> None:
+        first, *others = [await visitors.add() for _ in range(3)]
+        for each in others:
+            each._send = cast(Any, print)
+        last = await visitors.add()
+        assert visitors.find(first.name) is None
+        assert visitors.find(others[0].name) is others[0]
+        last._send = cast(Any, print)
+        with pytest.raises(InputError, match="3 visitors"):
+            await visitors.add()
+
+    play(story)
 
 
-def test_whose_page_is_gone_is_forgotten() -> None:
-    everybody = Visitors(POOL)
-    gone, here = everybody.add(STATE, FACTS), everybody.add(STATE, FACTS)
-    here._send = cast(Any, print)
-    for each in (gone, here):
-        everybody.drop(each)
-    assert everybody.find(gone.name) is None
-    assert everybody.find(here.name) is here
+def test_who_is_gone_for_long_is_forgotten() -> None:
+    async def story(visitors: Visitors) -> None:
+        gone, here, back = [await visitors.add() for _ in range(3)]
+        here._send = cast(Any, print)
+        for each in (gone, here):
+            each.seen -= ABSENCE + 1
+        for each in (gone, here, back):
+            visitors.drop(each)
+        assert visitors.find(gone.name) is None
+        assert visitors.find(here.name) is here
+        assert visitors.find(back.name) is back
+        back.seen -= ABSENCE + 1
+        await visitors.add()
+        assert visitors.find(back.name) is None
 
-
-def test_who_is_long_gone_is_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
-    everybody = Visitors(POOL)
-    first = everybody.add(STATE, FACTS)
-    first.seen -= visitors.PATIENCE + 1
-    everybody.add(STATE, FACTS)
-    assert everybody.find(first.name) is None
+    play(story)

@@ -9,36 +9,36 @@ import typer
 
 from ..errors import InputError
 
-#: The port of the page, unless it is taken or --port is given.
+#: Default port.
 PORT = 8080
 
 
 def creator(
     input: Annotated[
         str | None,
-        typer.Argument(help="Mesh file, scene file or dataset piece to open.", metavar="[INPUT]"),
+        typer.Argument(help="Mesh or scene file, or piece of a dataset, to show first.", metavar="[INPUT]"),
     ] = None,
     port: Annotated[
-        int | None, typer.Option("--port", help=f"Port of the page. Default: {PORT}, or a free one.", min=0)
+        int | None, typer.Option("--port", help=f"Port of the page (default: {PORT}, or a free one).", min=0)
     ] = None,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
     host: Annotated[
-        str, typer.Option("--host", help="Address to listen at. Any but 127.0.0.1 lets other machines connect.")
+        str, typer.Option("--host", help="Address to listen at; any but 127.0.0.1 admits other machines.")
     ] = "127.0.0.1",
     name: Annotated[
         list[str] | None,
         typer.Option(
             "--name",
-            help="Host name that requests may use, such as that of a proxy; may be repeated."
-            " Addresses, localhost and the name of this machine are always allowed.",
+            help="Allowed host name, such as that of a proxy; may be repeated. Addresses, localhost and the name of"
+            " this machine are always allowed.",
             metavar="HOST",
         ),
     ] = None,
-    rpc: Annotated[str | None, typer.Option("--rpc", help="Node to compare renders with.", metavar="URL")] = None,
+    rpc: Annotated[str | None, typer.Option("--rpc", help="Node to compare pictures with.", metavar="URL")] = None,
 ) -> None:
-    """Make pictures on a page in the browser."""
-    if find_spec("nicegui") is None:
-        raise InputError("the page needs the package nicegui: pip install 'shackled[creator]'")
-    from ..creator.web.server import serve
+    """Make pictures on a page in the browser, without code."""
+    if find_spec("starlette") is None or find_spec("jinja2") is None:
+        raise InputError("the page needs more packages: pip install 'shackled[creator]'")
+    from ..creator import serve
 
     serve(input, host=host, port=port, fallback_port=PORT, open_browser=browser, node=rpc, names=name or ())

@@ -1,12 +1,9 @@
-"""The Creator: pictures of the contracts, made without code.
+"""The Creator: a page in the browser on which pictures are made without code.
 
-What stands on the page is in `web`; beneath it is what knows of no page:
-
-- `state`: all that a visitor may choose, as one small value. `scene`: from it to a Scene, and what its source says by
-  itself. `view`: cameras and lights between the two.
-- `controls`: label, unit, range and step of each value. `change`: one of them, by its path. `checking`: their ranges.
-- `presets`, `history`, `link`, `orbit`: looks, undo, links, what dragging does.
-- `pool`: pictures for many visitors. `lane`: who waits. `worker`, `tasks`: what the processes do.
-- `upload`, `archive`, `gltf`, `guard`, `store`: files of strangers. `limits`: how much of everything.
-- `takeaway`, `film`, `cast_command`, `python_program`, `solidity_contract`: what is taken home. `fits`: where it fits.
+From the inside out: `_state` holds all choices of a visitor, `_scene` turns them into a scene, `_tasks` renders it in
+worker processes, `_queue` and `_pool` share these between visitors, and `_web` is the page.
 """
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,5 +1,5 @@
 from ._background import Background
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
     CULL_BACKFACES,
     LIGHTS,
@@ -24,14 +24,14 @@ from ._files.texture import TEXTURED, sample
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of
-from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
+from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
-from ._scene import MAX_SIDE, Scene
+from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
 from ._staging import BACKGROUND, Look, is_closed, painted, signed_volume, stage, view_axes
 from ._turning import FILLED, full_turn, middle, turn
@@ -51,11 +51,13 @@ __all__ = [
     "LIGHT_KINDS",
     "MAX_BYTES",
     "MAX_COORDINATE",
+    "MAX_LIGHTS",
     "MAX_SIDE",
     "MAX_VERTICES",
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
+    "OUTER_ANGLE",
     "PROJECTIONS",
     "READERS",
     "SCENES",
@@ -69,6 +71,7 @@ __all__ = [
     "Camera",
     "Kind",
     "Light",
+    "LightKind",
     "Look",
     "LookOptions",
     "Material",
@@ -93,6 +96,7 @@ __all__ = [
     "from_axis_angle",
     "from_euler",
     "full_turn",
+    "half_height_of",
     "is_closed",
     "is_trimesh",
     "load",

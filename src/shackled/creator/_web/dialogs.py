@@ -1,0 +1,141 @@
+"""The dialogs of the page and their long tasks: downloads, gas and stages, minting, comparison with a node."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+
+from ...errors import ShackledError
+from .._link import LOCAL
+from .._pool import gif_pixels
+from .._scene import filled
+from .._state import Size
+from .._takeaway import MAX_PNG, SCALES
+from .page import SNIPPETS, TURNTABLES, fragment
+from .visitor import Message, Visitor
+from .wallet import DeclinedError, Offer, Wallet, mint, offer_of
+
+#: Number of characters of a snippet that are shown; copies are complete.
+SHOWN = 1500
+_LOCAL = f"{LOCAL} Send others the scene file or the program in Python."
+_UPLOAD = "The file that you opened is kept in the memory of this server only."
+
+
+async def takeaway(visitor: Visitor) -> None:
+    """Open the dialog of downloads, with snippets of the current picture."""
+    is_upload = visitor.state.source.kind == "upload"
+    notes = [_LOCAL] if visitor.is_local else []
+    notes += [_UPLOAD] if is_upload else []
+    size = filled(visitor.state, visitor.facts).size or Size()
+    most = visitor.pool.limits.gif_pixels
+    gifs = {each: gif_pixels(size.width * size.height, *each) <= most for each in TURNTABLES}
+    too_large = f"The picture is too large for a GIF, which is limited to {most:,} pixels: choose a smaller size."
+    attributes: dict[str, dict[str, str | None]] = {"take-file": {"hidden": None if is_upload else ""}}
+    attributes |= {f"gif-{frames}-{scale}": {"hidden": None if fits else ""} for (frames, scale), fits in gifs.items()}
+    for scale in SCALES:
+        attributes[f"take-png-{scale}"] = {
+            "title": f"{scale * size.width} x {scale * size.height} pixels",
+            "hidden": "" if scale * max(size.width, size.height) > MAX_PNG else None,
+        }
+    texts = {"link-note": " ".join(notes), "gif-note": "" if any(gifs.values()) else too_large}
+    await visitor.tell({"open": "takeaway", "texts": texts, "attributes": attributes})
+    for kind in SNIPPETS:
+        try:
+            text = (await visitor.pool.take(visitor.name, visitor.state, kind)).data.decode()
+        except ShackledError as error:
+            text = str(error)
+        if len(text) > SHOWN:
+            text = f"{text[:SHOWN]}…\n\n{len(text):,} characters; Copy and Save take all of them"
+        await visitor.tell({"texts": {f"snippet-{kind}": text}})
+
+
+async def turntable(visitor: Visitor, frames: int, scale: int) -> None:
+    """Make a GIF and let the page download it."""
+
+    def progress(done: int, total: int) -> Message:
+        bar = {"value": str(done), "max": str(total)}
+        return {"attributes": {"gif-bar": bar}, "texts": {"gif-words": f"{done} of {total} frames"}}
+
+    await visitor.tell({"attributes": {"gif-job": {"hidden": None}, "gif-start": {"disabled": ""}}})
+    try:
+        visitor.turntable = await visitor.pool.turntable(
+            visitor.name, visitor.state, frames=frames, scale=scale, progress=visitor.progress(progress)
+        )
+        await visitor.tell({"download": f"/take/{visitor.name}/turntable", "note": "The GIF is done"})
+    except asyncio.CancelledError:
+        await visitor.tell({"note": "The GIF was cancelled"})
+        raise
+    finally:
+        await visitor.tell({"attributes": {"gif-job": {"hidden": ""}, "gif-start": {"disabled": None}}})
+
+
+async def stages(visitor: Visitor) -> None:
+    """Open the dialog of limits, stage pictures and gas by stage."""
+    fits = visitor.frame.fits if visitor.frame is not None else ()
+    html = {
+        "fits": fragment("fits", fits=fits),
+        "stages": fragment("waiting"),
+        "gas": fragment("waiting", text="traced"),
+    }
+    await visitor.tell({"open": "stages", "html": html})
+    state = visitor.state
+    made = await visitor.pool.stages(visitor.name, state)
+    pictures = [(stage.title, stage.detail, base64.b64encode(stage.png).decode()) for stage in made]
+    await visitor.tell({"html": {"stages": fragment("stages", pictures=pictures)}})
+    try:
+        gas = await visitor.pool.stage_gas(visitor.name, state, progress=visitor.progress(_traced))
+        await visitor.tell({"html": {"gas": fragment("gas", gas=gas)}})
+    except ShackledError as error:
+        await visitor.tell({"html": {"gas": fragment("sentence", text=str(error))}})
+
+
+def _traced(done: int, total: int) -> Message:
+    return {"texts": {"traced": f"Tracing in the EVM, instruction by instruction: {done / max(total, 1):.0%}"}}
+
+
+async def compare(visitor: Visitor) -> None:
+    """Render the picture on the node and say whether it is the same."""
+    await visitor.tell({"texts": {"node": "Rendering on the node …"}, "attributes": {"node": {"disabled": ""}}})
+    try:
+        result = await visitor.pool.compare(visitor.name, visitor.state)
+        same = "the same bytes as here" if result.same else "NOT the same bytes as here"
+        text = f"{result.node}: {same}, in {result.seconds:.2f} s"
+        await visitor.tell({"note" if result.same else "alert": text})
+    finally:
+        await visitor.tell({"texts": {"node": "Render on the node"}, "attributes": {"node": {"disabled": None}}})
+
+
+async def show_offer(visitor: Visitor) -> None:
+    """Show what can be minted, and with which wallets."""
+    offer = offer_of(visitor.state.source)
+    html = ""
+    if offer is not None:
+        html = fragment(
+            "offer",
+            words=offer.words,
+            wallets=visitor.wallets,
+            busy=visitor.is_at("mint"),
+            status=visitor.minting,
+        )
+    await visitor.tell({"html": {"mint": html}})
+
+
+async def mint_token(visitor: Visitor, offer: Offer, number: int) -> None:
+    """Mint a token. number: of the wallet."""
+
+    async def tell(words: str) -> None:
+        visitor.minting = words
+        await visitor.tell({"texts": {"mint-words": words}})
+
+    await visitor.tell({"attributes": {"mint-start": {"disabled": ""}}})
+    try:
+        words = await mint(offer, Wallet(visitor.waiting, visitor.tell, number), tell)
+        await tell(words)
+        await visitor.tell({"note": words})
+    except DeclinedError:
+        await tell("Cancelled")
+    except ShackledError as error:
+        await tell(f"Not minted: {error}")
+        raise
+    finally:
+        await visitor.tell({"attributes": {"mint-start": {"disabled": None}}})
