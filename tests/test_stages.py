@@ -14,7 +14,7 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, r
 from shackled.chain import open_chain
 from shackled.cli.app import run
 from shackled.datasets import teapot
-from shackled.scene import Look, stage
+from shackled.scene import stage
 from shackled.stages import Stage, draw_stages, nothing, strip
 
 REFERENCE = open_chain("reference")
@@ -64,7 +64,7 @@ def test_a_triangle_becomes_a_picture() -> None:
 
 
 def test_the_picture_is_the_one_that_render_makes() -> None:
-    of = stage(teapot(2), Look(48, 40, invert=True))
+    of = stage(teapot(2), (48, 40), invert=True)
     stages = draw_stages(of)
     image = render(of)
     assert (stages[-1].pixels == image.pixels).all()

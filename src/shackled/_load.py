@@ -23,8 +23,8 @@ from .scene import (
     mesh_of,
     objects_of,
     read_mesh,
+    read_scene,
 )
-from .scene import load as load_file
 
 #: What a scene can be made of. `Any`: vertices and faces as arrays, or a mesh or scene of trimesh, which need not be
 #: installed.
@@ -46,11 +46,9 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     chosen = checked_look({"size": size, **look})
     found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
     if isinstance(found, Path):
-        if found.suffix.lower() not in READERS:
-            return look_at(load_file(found), chosen)
-        mesh = read_mesh(found)
+        read = read_mesh(found) if found.suffix.lower() in READERS else read_scene(found)
         with about(str(found)):
-            return look_at(mesh, chosen)
+            return look_at(read, chosen)
     return look_at(_made(found, chosen), chosen)
 
 

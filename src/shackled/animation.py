@@ -18,7 +18,7 @@ from .checks import number
 from .errors import InputError
 from .image import Format, Image, as_array, check_extension, data_uri, gas_in_short, one_of, pillow_bytes, write_open
 from .palette import indexed
-from .scene import plural
+from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
 #: Milliseconds that a frame is shown.

@@ -19,7 +19,8 @@ from PIL import Image as PillowImage
 from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
-from .scene import Scene, array_key, plural
+from .scene import Scene
+from .values import Value, array_key, plural
 from .whole_file import check_output_file, write_output
 
 Pixels = NDArray[np.uint8]
@@ -36,7 +37,7 @@ def _pixels(values: ArrayLike) -> Pixels:
 
 
 @frozen(repr=False)
-class Image:
+class Image(Value):
     """A picture as a contract made it.
 
     pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned, those of the pixels if not

@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from shackled import load
 from shackled.datasets.genesis import COUNT, find, parse_seed, pieces, seed_of
 from shackled.errors import InputError
 from shackled.reference.genesis import generate
 from shackled.reference.genesis.hsv import hsv_to_rgb, rgb_to_hsv
 from shackled.reference.genesis.random import Random, keccak256
 from shackled.reference.genesis.trigonometry import ONE, TABLE, cosine, quotient, rotate, rotate_y, sine
-from shackled.scene import encode, load
+from shackled.scene import encode
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared")

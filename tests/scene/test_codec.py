@@ -81,7 +81,7 @@ def test_a_whole_numbered_scene_passes_exactly() -> None:
         "0000 0000 0000 010203   03e8 0000 0000 040506   0000 03e8 0000 ff0080   0000 0001 0002"
     )
     assert (position, rotation, scale) == ((0, 0, -2500 * ONE), (0, 0, 0, ONE), ONE)
-    assert material == (0, round(0.2 * ONE), round(0.7 * ONE), round(0.4 * ONE), 20)
+    assert material == (0, round(0.3 * ONE), round(0.75 * ONE), round(0.3 * ONE), 24)
     assert flags == 1
 
 

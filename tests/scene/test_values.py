@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 from typing import Any
 
 import numpy as np
@@ -81,6 +83,11 @@ def test_arrays_cannot_be_written_to() -> None:
     for array in (*arrays, mesh.positions, mesh.faces, mesh.colors, mesh.normals):
         with pytest.raises(ValueError, match="read-only"):
             np.asarray(array)[0] = 5
+    for copied in (pickle.loads(pickle.dumps((thing, camera, light))), copy.deepcopy((thing, camera, light))):
+        assert copied == (thing, camera, light)
+        one, other, third = copied
+        written = (one.position, one.rotation, one.mesh.positions, one.mesh.normals, other.eye, third.direction)
+        assert not any(array.flags.writeable for array in written)
     mine = np.array(CORNERS)
     kept = Mesh(mine, FACES)
     mine[0] = 7

@@ -8,7 +8,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import Color, color
-from ._value import checked, with_names
+from ..values import checked, with_names
 
 
 def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:

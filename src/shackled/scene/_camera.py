@@ -10,13 +10,16 @@ from numpy.typing import ArrayLike
 
 from ..checks import Floats, choice, number, vector
 from ..errors import InputError
-from ._value import array_key, checked, with_names
+from ..values import Value, array_key, checked, with_names
 
 Projection = Literal["perspective", "orthographic"]
 PROJECTIONS: tuple[Projection, ...] = ("perspective", "orthographic")
 
 #: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).
 DEFAULT_HALF_HEIGHT = 1 / 2.145
+
+#: The vertical fields of view of perspective cameras, in degrees.
+FIELDS_OF_VIEW = (0.2, 179.8)
 
 _EYE, _TARGET, _UP = (0, 0, 0), (0, 0, -1), (0, 1, 0)
 
@@ -30,7 +33,7 @@ def _near(value: float | None) -> float | None:
 
 
 @frozen(field_transformer=with_names)
-class Camera:
+class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
 
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
@@ -86,4 +89,4 @@ class Camera:
 
 def half_height_of(fov: float) -> float:
     """Return the `half_height` of a perspective camera with a vertical field of view of `fov` degrees."""
-    return math.tan(math.radians(number(fov, "the field of view in degrees", 0.2, 179.8)) / 2)
+    return math.tan(math.radians(number(fov, "the field of view in degrees", *FIELDS_OF_VIEW)) / 2)

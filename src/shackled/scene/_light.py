@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, choice, color, number, optional_vector, vector
 from ..errors import InputError
-from ._value import array_key, checked, with_names
+from ..values import Value, array_key, checked, with_names
 
 LightKind = Literal["directional", "point", "spot"]
 LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
@@ -25,7 +25,7 @@ def _kind(value: str) -> LightKind:
 
 
 @frozen(field_transformer=with_names)
-class Light:
+class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
 
     kind: "directional", "point", or "spot", a point light that shines into a cone only.

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, Number, channels, color, fixed
 from ..errors import InputError
-from ._value import array_key, checked, plural, with_names
+from ..values import Value, array_key, checked, plural, with_names
 
 #: What a contract takes: vertices and faces are counted in 16 bits.
 MAX_VERTICES = 65535
@@ -97,7 +97,7 @@ def _rows_of_3(rows: NDArray[Number], name: str) -> NDArray[Number]:
 
 
 @frozen(field_transformer=with_names, repr=False)
-class Mesh:
+class Mesh(Value):
     """A triangle mesh; counter-clockwise faces are seen from the front.
 
     positions: (n, 3) float. faces: (m, 3) int, vertex numbers.

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
+from ..values import checked, plural, with_names
 from ._background import Background, background_of
 from ._camera import Camera
 from ._light import WHITE, Light
 from ._mesh import Mesh
 from ._object import Object
-from ._value import checked, plural, with_names
 
 MAX_SIDE = 2048
 MAX_LIGHTS = 4
@@ -102,7 +102,7 @@ class Scene:
             from ._staging import staged
 
             with np.errstate(over="ignore", invalid="ignore"):
-                points = np.concatenate([each.world_positions() for each in self.objects])
+                points = self.world_positions()
             camera, lights, background = staged(points, self.width, self.height)
         for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
             if getattr(self, name) is None:
@@ -113,13 +113,15 @@ class Scene:
         """The number of triangles of all objects."""
         return sum(each.mesh.triangles for each in self.objects)
 
+    def world_positions(self) -> Floats:
+        """Return the vertices of all objects in the world, (n, 3)."""
+        return np.concatenate([np.zeros((0, 3)), *(each.world_positions() for each in self.objects)])
+
     @property
     def bounds(self) -> Floats:
         """The box around all objects in the world, (2, 3): its lowest and its highest corner; zeros without objects."""
-        corners = [(points.min(axis=0), points.max(axis=0)) for points in map(Object.world_positions, self.objects)]
-        if not corners:
-            return np.zeros((2, 3))
-        return np.stack([np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)])
+        points = self.world_positions()
+        return np.stack([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a scene file, .json, with its meshes inside, such that loading it gives the same scene.

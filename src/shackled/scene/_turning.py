@@ -50,19 +50,13 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
     if number(frames, "the number of frames of a turntable", 2, MOST_FRAMES) != int(frames):
         raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
     turned = [scene, *(turn(scene, (0, 360 * step / frames, 0)) for step in range(1, int(frames)))]
-    camera = _holding(scene.camera, [_points(each) for each in turned], scene.width / scene.height)
+    camera = _holding(scene.camera, [each.world_positions() for each in turned], scene.width / scene.height)
     return [evolve(each, camera=camera) for each in turned]
 
 
 def middle(scene: Scene) -> Points:
     """Return the middle of the box around all objects."""
     return np.asarray(scene.bounds.mean(axis=0))
-
-
-def _points(scene: Scene) -> Points:
-    """Return all vertices, (n, 3), in the world."""
-    placed = [o.world_positions() for o in scene.objects]
-    return np.concatenate(placed) if placed else np.zeros((0, 3))
 
 
 def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:

@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from shackled import Scene, load
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_HALF_HEIGHT, Scene, load, original_scene, rotate
+from shackled.scene import DEFAULT_HALF_HEIGHT, original_scene, rotate
 
 LIGHTING = {
     "applyLighting": True,

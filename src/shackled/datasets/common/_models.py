@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import Background, Look, Material, Mesh, Scene, painted, stage
+from ...scene import Background, Material, Mesh, Scene, painted, stage
 from .. import Piece, cache_folder, keep
 from ._clean import creased
 
@@ -92,14 +92,12 @@ class Model:
             mesh = painted(mesh, self.color)
         return stage(
             mesh if self.crease is None else creased(mesh, self.crease),
-            Look(
-                azimuth=self.azimuth,
-                elevation=self.elevation,
-                material=MATERIAL,
-                background=BACKGROUND,
-                half_height=0.3,
-                cull=self.cull,
-            ),
+            material=MATERIAL,
+            background=BACKGROUND,
+            azimuth=self.azimuth,
+            elevation=self.elevation,
+            half_height=0.3,
+            cull=self.cull,
         )
 
 

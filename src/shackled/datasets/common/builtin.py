@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
-from ...scene import Background, Camera, Look, Material, Mesh, Object, Scene, painted, stage
+from ...scene import Background, Camera, Material, Mesh, Object, Scene, painted, stage
 from .. import Piece, teapot
 from . import shapes
 from ._cornell_box import cornell_box
@@ -22,17 +21,6 @@ NIGHT = Background((24, 26, 38), (70, 74, 98))
 PAPER = Background((243, 236, 222), (203, 190, 170))
 MIST = Background((222, 229, 236), (162, 176, 192))
 BLACK = Background((0, 0, 0))
-
-
-@dataclass(frozen=True)
-class _Staged:
-    """A mesh in a `Look`, as a function that makes the scene."""
-
-    mesh: Callable[[], Mesh]
-    look: Look
-
-    def __call__(self) -> Scene:
-        return stage(self.mesh(), self.look)
 
 
 def pieces() -> list[Piece]:
@@ -91,7 +79,7 @@ def _piece(name: str, title: str, make: Callable[[], Scene]) -> Piece:
 
 def _posed(mesh: Callable[[], Mesh], material: Material, background: Background, **look: Any) -> Callable[[], Scene]:
     chosen = {"margin": 0.12, "half_height": 0.3, **look}
-    return _Staged(mesh, Look(material=material, background=background, **chosen))
+    return lambda: stage(mesh(), material=material, background=background, **chosen)
 
 
 def _solid(mesh: Callable[[], Mesh], color: str, **look: Any) -> Callable[[], Scene]:

@@ -14,12 +14,11 @@ from ...scene import (
     Background,
     Camera,
     Light,
-    Look,
+    LookOptions,
     Material,
     Mesh,
     Object,
     Scene,
-    from_euler,
     stage,
     view_axes,
 )
@@ -49,14 +48,15 @@ class Icon:
     name: str
     title: str
     model: Callable[[], Solid]
-    look: Look
+    material: Material
+    look: LookOptions
     licence: str = "MIT"
     crease: float = CREASE
 
     def scene(self) -> Scene:
-        """The scene, 128 x 128 pixels unless it is rendered otherwise."""
-        smooth = self.look.material.shading == "smooth"
-        scene = stage(self.model().mesh(self.crease if smooth else None), self.look)
+        """Return the scene, 128 x 128 pixels."""
+        mesh = self.model().mesh(self.crease if self.material.shading == "smooth" else None)
+        scene = stage(mesh, material=self.material, **self.look)
         return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
 
     def piece(self) -> Piece:
@@ -83,18 +83,17 @@ def icon(
     of the model about x, y and z, in degrees. light: toward the only light, right, up and toward the viewer.
     margin: as in `Look`. crease: as in `Solid.mesh`.
     """
-    look = Look(
-        rotation=from_euler(turn),
+    look = LookOptions(
+        rotate=turn,
         azimuth=view[0],
         elevation=view[1],
         half_height=LENS,
         margin=margin,
-        material=material,
         background=Background(top, bottom),
+        lights=Light("directional", np.asarray(light) @ np.stack(view_axes(*view))),
         cull=True,
     )
-    look = evolve(look, lights=[Light("directional", np.asarray(light) @ np.stack(view_axes(look)))])
-    return lambda model: Icon(model.__name__, title, model, look, licence, crease)
+    return lambda model: Icon(model.__name__, title, model, material, look, licence, crease)
 
 
 def _cheaper(o: Object, camera: Camera) -> list[Object]:

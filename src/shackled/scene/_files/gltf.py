@@ -125,7 +125,7 @@ class _Gltf:
     def numbers(self, keys: Table, key: str, *types: str) -> NDArray[Any]:
         """(n, width): the elements of the accessor that a key names; normalized integers as fractions."""
         accessor = self.item(keys, key, "accessors")
-        width = _WIDTHS[accessor.choice("type", "", types)]
+        width = _WIDTHS[accessor.choice("type", types)]
         count = accessor.whole("count")
         if "bufferView" in accessor:
             values = self._rows(accessor, self._component(accessor), count, width)
