@@ -51,7 +51,7 @@ class Image(Value):
     bmp: bytes = b""
     gas: int | None = None
     intrinsic_gas: int | None = None
-    chain: str = ""
+    made_by: str = ""
     seconds: float = field(default=0.0, eq=False)
     scene: Scene | None = None
     calls: int = 1
@@ -77,7 +77,7 @@ class Image(Value):
         return self._counts[0]
 
     @property
-    def lit_pixels(self) -> int | None:
+    def covered_pixels(self) -> int | None:
         """How many any of the triangles covers; None if the scene is not known."""
         return self._counts[1]
 

@@ -36,8 +36,8 @@ def test_a_mesh_becomes_a_picture(capsys: pytest.CaptureFixture[str]) -> None:
     assert len(np.unique(expected.pixels.reshape(-1, 3), axis=0)) > 50
     assert "shape.png, 128 x 128 pixels" in output
     assert f"{expected.gas:,} (and {expected.intrinsic_gas:,} to send the scene)" in output
-    assert f"{expected.triangles:,} triangles, {expected.lit_pixels:,} lit pixels" in output
-    assert expected.chain in output
+    assert f"{expected.triangles:,} triangles, {expected.covered_pixels:,} lit pixels" in output
+    assert expected.made_by in output
     assert messages == ""
 
 

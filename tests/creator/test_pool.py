@@ -308,7 +308,7 @@ def test_a_picture_is_that_of_the_command_line() -> None:
         assert frame is not None
         assert frame.bmp == image.bmp
         assert (frame.gas, frame.intrinsic_gas) == (image.gas, image.intrinsic_gas)
-        assert (frame.triangles, frame.lit_pixels) == (image.triangles, image.lit_pixels)
+        assert (frame.triangles, frame.lit_pixels) == (image.triangles, image.covered_pixels)
         assert (np.asarray(PillowImage.open(BytesIO(frame.png))) == image.pixels).all()
         assert all(fit.fits for fit in frame.fits)
         quick = await pool.render("a", replace(state, size=Size(64, 32)), longest=16, count=False)

@@ -15,7 +15,20 @@ from PIL import Image as PillowImage
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import DATASETS, Cost, Piece, cost, draw, draw_all, find, page, pieces, require, sheet, table
+from shackled.datasets import (
+    DATASETS,
+    Piece,
+    PieceCost,
+    cost,
+    draw,
+    draw_all,
+    find,
+    page,
+    pieces,
+    require,
+    sheet,
+    table,
+)
 from shackled.datasets.common import models
 from shackled.errors import InputError
 from shackled.scene import Mesh, write_obj
@@ -59,7 +72,7 @@ def test_how_many_there_are(everything: list[Piece]) -> None:
 def test_any_seed_is_a_piece() -> None:
     scene = shackled.load(f"genesis/{'5a' * 32}")
     assert scene.objects
-    assert (shackled.render(scene).lit_pixels or 0) > 0
+    assert (shackled.render(scene).covered_pixels or 0) > 0
 
 
 @pytest.mark.parametrize(
@@ -196,7 +209,7 @@ def test_the_table_of_costs_is_what_is_measured(everything: list[Piece]) -> None
 
 
 def test_the_cost_of_what_is_not_here() -> None:
-    assert cost(require("bunny")) == Cost(None, None)
+    assert cost(require("bunny")) == PieceCost(None, None)
 
 
 # ---- drawings and galleries ----

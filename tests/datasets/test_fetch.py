@@ -20,7 +20,7 @@ import pytest
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import Cost, cost, find
+from shackled.datasets import PieceCost, cost, find
 from shackled.datasets.common import Model, checksum, fetch, take
 from shackled.datasets.common.shapes import icosphere
 from shackled.errors import FetchError, InputError
@@ -140,7 +140,7 @@ def test_a_model_is_fetched_once(ball: Model, server: Server, cache: Path) -> No
     assert np.abs(positions.min(axis=0) + positions.max(axis=0)).max() < 1e-6
     assert 900 < len(np.asarray(scene.objects[0].mesh.faces)) <= 1198
     assert scene.objects[0].cull  # it is still closed
-    assert (shackled.render("ball").lit_pixels or 0) > 5000
+    assert (shackled.render("ball").covered_pixels or 0) > 5000
     assert not fetch(ball)
     assert len(server.requests) == 1
     assert fetch(ball, again=True)
@@ -254,7 +254,7 @@ def test_a_kept_mesh_that_is_damaged(ball: Model) -> None:
     ball.prepared().write_bytes(b"PK\3\4 and no more")
     with pytest.raises(InputError, match="run: shackled datasets fetch --again ball"):
         shackled.load("ball")
-    assert cost(ball.piece()) == Cost(None, None)
+    assert cost(ball.piece()) == PieceCost(None, None)
     fetch(ball, again=True)
     assert shackled.load("ball").objects
 

@@ -56,7 +56,7 @@ def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
     (image,) = job.images
     assert image.bmp == whole.bmp
     assert (image.pixels == whole.pixels).all()
-    assert (image.triangles, image.lit_pixels) == (whole.triangles, whole.lit_pixels)
+    assert (image.triangles, image.covered_pixels) == (whole.triangles, whole.covered_pixels)
     assert job.calls == sum(job.shares.values())
     assert image.gas is None if where.chain == "reference" else image.gas >= whole.gas  # type: ignore[operator]
     if job.calls == 1:

@@ -86,7 +86,7 @@ def test_arrays_cannot_be_written_to() -> None:
     for copied in (pickle.loads(pickle.dumps((thing, camera, light))), copy.deepcopy((thing, camera, light))):
         assert copied == (thing, camera, light)
         one, other, third = copied
-        written = (one.position, one.rotation, one.mesh.positions, one.mesh.normals, other.eye, third.direction)
+        written = (one.position, one.rotation, one.mesh.positions, one.mesh.faces, other.eye, third.vector)
         assert not any(array.flags.writeable for array in written)
     mine = np.array(CORNERS)
     kept = Mesh(mine, FACES)
@@ -279,7 +279,7 @@ def test_objects_alone_are_staged() -> None:
         assert len(made.lights) == 1
         assert made.background != Background()
         image = render(made)
-        assert (image.lit_pixels or 0) > 1500
+        assert (image.covered_pixels or 0) > 1500
         assert np.ptp(image.pixels.reshape(-1, 3), axis=0).min() > 100
     assert Scene([place], width=64).camera != Scene([place]).camera
     assert replace(Scene([place]), width=64).camera == Scene([place]).camera

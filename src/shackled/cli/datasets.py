@@ -23,7 +23,7 @@ from rich.progress import (
 )
 
 from ..checks import choice
-from ..datasets import DATASETS, Cost, Piece, cost, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
 from ..errors import InputError
 
 CONSOLE = Console(stderr=True)
@@ -64,7 +64,7 @@ def list_(
             )
 
 
-def _object(piece: Piece, figures: Cost) -> dict[str, Any]:
+def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
     return {
         "name": piece.name,
         "dataset": piece.dataset,
@@ -78,7 +78,7 @@ def _object(piece: Piece, figures: Cost) -> dict[str, Any]:
     }
 
 
-def _line(piece: Piece, figures: Cost) -> tuple[str, str, str, str, str]:
+def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
     triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
     gas = "-" if figures.gas is None else f"{figures.gas:,}"
     terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
@@ -87,7 +87,7 @@ def _line(piece: Piece, figures: Cost) -> tuple[str, str, str, str, str]:
     return piece.name, triangles, gas, piece.title, terms
 
 
-def _summary(rows: Sequence[tuple[Piece, Cost]]) -> tuple[str, str, str, str, str]:
+def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:
     triangles = [figures.triangles for _, figures in rows if figures.triangles is not None]
     gas = [figures.gas for _, figures in rows if figures.gas is not None]
     first, last = rows[0][0], rows[-1][0]

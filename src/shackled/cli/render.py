@@ -130,7 +130,7 @@ def render(
             made = draw(scene, on=on, **told)
         else:
             made = turn(scene, turntable, duration=shown, on=on, **told)
-        counts = (made.triangles, made.lit_pixels) if isinstance(made, Image) else (None, None)
+        counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
     try:
         with LateBar("writing"):
             made.save(path)
@@ -142,7 +142,7 @@ def render(
         remove_parts(keep)
     report = _report(made, input, path, time.perf_counter() - started, counts, in_parts)
     frames = [made] if isinstance(made, Image) else made.frames
-    if not any(frame.lit_pixels for frame in frames):
+    if not any(frame.covered_pixels for frame in frames):
         print("nothing of the scene is seen: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
@@ -202,7 +202,7 @@ def _report(
         "gas": made.gas,
         "intrinsic_gas": made.intrinsic_gas,
         "seconds": round(seconds, 6),
-        "chain": frames[0].chain,
+        "chain": frames[0].made_by,
         "output": str(path),
         "sha256": digest.hexdigest(),
     }

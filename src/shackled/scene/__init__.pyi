@@ -12,6 +12,7 @@ from ._codec import (
     encode_scene,
     extensions,
 )
+from ._files.colors import TEXTURED, sample
 from ._files.content import MAX_BYTES
 from ._files.mesh_file import READERS, read_mesh
 from ._files.obj import write_obj
@@ -19,7 +20,6 @@ from ._files.original import original_scene
 from ._files.polygons import cut, fans
 from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scene
 from ._files.table import about
-from ._files.texture import TEXTURED, sample
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of

@@ -20,7 +20,7 @@ from ._mesh import Mesh
 from ._object import OPACITIES, Object
 from ._rotation import IDENTITY, rotation_of
 from ._scene import DEFAULT_SIDE, MAX_SIDE, Scene, lights_of
-from ._staging import AZIMUTH, ELEVATION, ELEVATIONS, MARGIN, MARGINS, View, frame, painted, placed
+from ._staging import AZIMUTH, ELEVATION, ELEVATIONS, MARGIN, MARGINS, Viewpoint, frame, painted, placed
 from ._turning import middle, turn
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made.
@@ -300,13 +300,13 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
     return simplify_scene(scene, look["max_triangles"])
 
 
-def view_of(look: Mapping[str, Any], width: int, height: int, orthographic: bool) -> View:
+def view_of(look: Mapping[str, Any], width: int, height: int, orthographic: bool) -> Viewpoint:
     """Return the view that a look asks for, in a picture of this size."""
     chosen = {name: look[name] for name in ("azimuth", "elevation", "margin") if name in look}
     half_height = half_height_in(look, orthographic)
     if half_height is not None and not orthographic:
         chosen["half_height"] = half_height
-    return View(projection="orthographic" if orthographic else "perspective", aspect=width / height, **chosen)
+    return Viewpoint(projection="orthographic" if orthographic else "perspective", aspect=width / height, **chosen)
 
 
 def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:

@@ -34,7 +34,7 @@ LARGEST = 1e305
 
 
 @frozen(field_transformer=with_names)
-class View:
+class Viewpoint:
     """The side from which a camera sees all objects, and how it projects.
 
     azimuth, elevation: where the viewer stands, in degrees: to the right of the front (+z), and above the horizon.
@@ -53,7 +53,7 @@ class View:
     aspect: float = 1.0
 
 
-def placed(mesh: Mesh, rotation: Floats, view: View, width: int, height: int) -> Scene:
+def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, width: int, height: int) -> Scene:
     """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
 
     The mesh keeps its coordinates; position and scale of the object do the rest.
@@ -81,7 +81,7 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
 
     InputError where a float does not hold their coordinates, or those of the camera.
     """
-    view = View(aspect=width / height)
+    view = Viewpoint(aspect=width / height)
     # of any size: squares of its lengths stay within floats
     largest = float(np.abs(points).max()) or 1.0
     if not largest < LARGEST:
@@ -96,7 +96,7 @@ def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
     return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
 
 
-def frame(points: NDArray[np.float64], view: View) -> Camera:
+def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
     """Return the camera of a view, as near as all points, (n, 3), fit the picture."""
     right, up, back = view_axes(view.azimuth, view.elevation)
     x, y, z = points @ right, points @ up, points @ back
@@ -123,7 +123,7 @@ def frame(points: NDArray[np.float64], view: View) -> Camera:
     )
 
 
-def key_light(view: View) -> Light:
+def key_light(view: Viewpoint) -> Light:
     """Return a light that stays where it is for the viewer, wherever the viewer stands."""
     return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(view.azimuth, view.elevation)))
 

@@ -14,6 +14,7 @@ import numpy as np
 from ...errors import InputError
 from ...scene import Background, Material, Mesh, Scene, painted, stage
 from .. import Piece, cache_folder, keep
+from . import builtin
 from ._clean import creased
 
 #: Raised when `prepare` or what is kept changes, so that what is in caches is not taken for it.
@@ -118,8 +119,15 @@ def model(name: str) -> Model:
 
 
 def pieces() -> list[Piece]:
-    """All models, whether they have been fetched or not."""
-    return [each.piece() for each in models().values()]
+    """Return the built-in pieces, then all models, whether they have been fetched or not."""
+    return [*builtin.pieces(), *(each.piece() for each in models().values())]
+
+
+def find(name: str) -> Piece | None:
+    """Return the piece of that name; None if there is none."""
+    if name in models():
+        return models()[name].piece()
+    return next((piece for piece in builtin.pieces() if piece.name == name), None)
 
 
 def save_mesh(mesh: Mesh, path: Path) -> None:

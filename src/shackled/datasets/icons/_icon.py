@@ -42,7 +42,7 @@ CREASE = 42.0
 
 
 @dataclass(frozen=True)
-class Icon:
+class IconModel:
     """A model with its pose, light and background."""
 
     name: str
@@ -76,7 +76,7 @@ def icon(
     margin: float = 0.06,
     licence: str = "MIT",
     crease: float = CREASE,
-) -> Callable[[Callable[[], Solid]], Icon]:
+) -> Callable[[Callable[[], Solid]], IconModel]:
     """Makes an icon, named as the function is that models it.
 
     title: for people. top, bottom: the colours of the background. view: azimuth and elevation of the viewer, and turn:
@@ -93,7 +93,7 @@ def icon(
         lights=Light("directional", np.asarray(light) @ np.stack(view_axes(*view))),
         cull=True,
     )
-    return lambda model: Icon(model.__name__, title, model, material, look, licence, crease)
+    return lambda model: IconModel(model.__name__, title, model, material, look, licence, crease)
 
 
 def _cheaper(o: Object, camera: Camera) -> list[Object]:

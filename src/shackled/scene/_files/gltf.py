@@ -23,10 +23,9 @@ from PIL import Image
 from ...errors import InputError
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._rotation import rotate
-from .colors import to_bytes
+from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
 from .content import parse, read_bytes, warn
 from .table import Table, about
-from .texture import TEXTURED, is_varied, open_image, sample
 from .weld import weld
 
 Array = NDArray[np.float64]

@@ -18,10 +18,9 @@ from PIL import Image
 
 from ...errors import InputError
 from .._mesh import DEFAULT_COLOR, Mesh
-from .colors import to_bytes
+from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
 from .content import read_text, warn
 from .polygons import cut
-from .texture import TEXTURED, is_varied, open_image, sample
 from .weld import weld
 
 ABSENT = -1

@@ -26,7 +26,7 @@ from .._mesh import Mesh
 from .._object import Object
 from .._rotation import IDENTITY, from_axis_angle, from_euler
 from .._scene import DEFAULT_SIDE, Scene
-from .._staging import BACKGROUND, View, frame, key_light, painted
+from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted
 from .content import parse, read_text
 from .mesh_file import READERS, read_mesh
 from .original import is_original, original_scene
@@ -178,7 +178,7 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
 }
 
 
-def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tuple[View, Camera]:
+def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tuple[Viewpoint, Camera]:
     given = _settings(keys, "camera")
     exclude(given, keys.place)
     if ("eye" in given) != ("target" in given):
