@@ -1,4 +1,4 @@
-"""Where a picture is rendered, as it is said to `render`."""
+"""Where a picture is rendered: the values of the parameter `on` of `render`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Processes:
     """Worker processes on this machine.
 
-    jobs: how many, 1..256; None for one for each processor. evm: "pyrevm", "pyevm" or "reference"; None for the
+    jobs: their number, 1..256; None for one per processor. evm: "pyrevm", "pyevm" or "reference"; None for the
     fastest that is installed.
     """
 
@@ -28,18 +28,18 @@ class Processes:
 
 def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
     if not urls or not all(isinstance(url, str) for url in urls):
-        raise InputError(f"the addresses of nodes are needed, such as http://127.0.0.1:8545, not {urls!r:.60}")
+        raise InputError(f"`urls` must be addresses of nodes, such as http://127.0.0.1:8545, not {urls!r:.60}")
     return urls
 
 
 @frozen(init=False)
 class Nodes:
-    """Nodes with a JSON-RPC interface, by their addresses; several share the work.
+    """Nodes with a JSON-RPC interface, by their URLs; several share the work.
 
-    address: of a renderer that is deployed there; None takes the one that is known, or brings it along.
-    timeout: seconds that a call may take. jobs: how many calls at a time to each node.
-    verify: how much of what they draw is compared with what is drawn here, "all", "some" or "none"; None compares all,
-    or some from 500 million gas on.
+    address: of a deployed renderer; None for the known one, or to send it along with each call.
+    timeout: of a call in seconds. jobs: concurrent calls per node.
+    verify: how many pixels are compared with the embedded EVM, "all", "some" or "none"; None for all below 500 million
+    gas, and some above.
     """
 
     urls: tuple[str, ...] = field(converter=_urls)
@@ -56,17 +56,17 @@ class Nodes:
         jobs: int = 1,
         verify: str | None = None,
     ) -> None:
-        """Name the nodes."""
+        """Take the URLs of the nodes."""
         self.__attrs_init__(urls, address, timeout, jobs, verify)
 
 
 @frozen
 class Cluster:
-    """Machines that share the work, with dask (the extra `cluster`).
+    """A dask cluster (the extra `cluster`).
 
-    address: of its scheduler, such as tcp://host:8786; None for a cluster on this machine.
-    jobs: workers of a cluster on this machine; None for one for each processor.
-    evm, verify: as of `Processes` and `Nodes`; of a cluster nothing is compared unless asked for.
+    address: of the scheduler, such as tcp://host:8786; None for a cluster on this machine.
+    jobs: workers of a cluster on this machine; None for one per processor.
+    evm, verify: as in `Processes` and `Nodes`; verify is "none" by default.
     """
 
     address: str | None = None
@@ -75,12 +75,12 @@ class Cluster:
     verify: str | None = None
 
 
-#: Where: here, by an EVM of this name or itself; or in one of these places.
+#: An embedded EVM, by its name or itself; worker processes, nodes, or a cluster.
 On = str | Chain | Processes | Nodes | Cluster
 
 
 def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] | None = None) -> Where:
-    """Return where to render. InputError for what is no place."""
+    """Return where to render. InputError for anything that is not an `On`."""
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:

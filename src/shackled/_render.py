@@ -1,4 +1,4 @@
-"""From anything that can be drawn to a picture."""
+"""Rendering: images and turntables of anything that `load` takes."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ def render(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Image:
-    """Make the picture of anything that `load` takes.
+    """Render anything that `load` takes.
 
-    size, look: as of `load`.
-    on: where: None for the fastest EVM that is installed here, "pyrevm", "pyevm" or "reference" for one by its name,
-    or `Processes`, `Nodes` or `Cluster`. The pixels are the same everywhere.
-    gas_limit: what a call may use. tile: side, or (width, height), in pixels of the parts in which the picture is made;
-    None takes what fits.
-    listener: told how a picture of several parts goes on. keep: a folder in which finished parts are kept, for the same
-    call to go on from there; whoever uses the picture removes it.
-    InputError for what is wrong with the scene, ChainError for what fails in a call.
+    size, look: as in `load`.
+    on: where to render: "pyrevm", "pyevm" or "reference" for an embedded EVM, `Processes`, `Nodes` or `Cluster`; None
+    for the fastest embedded EVM that is installed. The pixels are the same everywhere.
+    gas_limit: of a call. tile: side, or (width, height), in pixels of the parts in which a picture is rendered; None
+    for the largest that fit.
+    listener: receives the progress of a picture in several parts. keep: a folder for finished parts, from which the
+    same call continues after an interruption; the caller removes it.
+    InputError if the scene is not valid, ChainError if a call fails.
     """
     return draw(load(thing, size, **look), _where(on, gas_limit, tile), listener, keep)
 
@@ -55,10 +55,10 @@ def turntable(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Animation:
-    """Make the pictures of a full turn about the vertical axis through the middle of anything that `load` takes.
+    """Render a full turn about the vertical axis through the middle of anything that `load` takes.
 
-    The contract turns it: each frame is a call, with the rotation in it. Background, lights and camera stand still.
-    frames: how many, 2..720. duration: milliseconds that each is shown, 20..10,000. The rest as in `render`.
+    The contract rotates the objects; background, lights and camera stand still.
+    frames: their number, 2..720. duration: of each in milliseconds, 20..10,000. Other parameters as in `render`.
     """
     from .parallel import render_frames
 
@@ -67,7 +67,7 @@ def turntable(
 
 
 def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Path | None = None) -> Image:
-    """Return the picture of a scene, by one call here or by several anywhere."""
+    """Render a scene, by one call or in parts."""
     if where.alone:
         chain = where.chain
         return render_whole(scene, open_chain(chain) if chain is None or isinstance(chain, str) else chain)
@@ -77,7 +77,7 @@ def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Pat
 
 
 def render_whole(scene: Scene, chain: Chain) -> Image:
-    """Return the picture of a scene, by one call."""
+    """Render a scene by one call."""
     started = time.perf_counter()
     drawing = chain.draw(scene)
     seconds = time.perf_counter() - started

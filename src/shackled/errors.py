@@ -12,7 +12,7 @@ class InputError(ShackledError, ValueError):
 
 
 class InputWarning(UserWarning):
-    """Something in a file cannot be used, and is left out."""
+    """A part of a file is ignored."""
 
 
 class OutputError(ShackledError, OSError):
@@ -24,7 +24,7 @@ class OutputError(ShackledError, OSError):
 
 
 class FetchError(ShackledError):
-    """A file could not be downloaded, or not be kept."""
+    """A file could not be downloaded or written."""
 
 
 class ChainError(ShackledError):
@@ -40,7 +40,7 @@ class OutOfGasError(ChainError):
 
 
 class RevertError(ChainError):
-    """A call was reverted. data: what the contract said, empty if it said nothing or the node keeps it to itself."""
+    """A call was reverted. data: the revert data, empty if there is none or the node does not return it."""
 
     def __init__(self, message: str, data: bytes = b"") -> None:
         """Take the message, and the data of the revert."""
@@ -49,11 +49,11 @@ class RevertError(ChainError):
 
 
 class VerificationError(ChainError):
-    """What a chain keeps or tells is not what it should be."""
+    """Data of a chain differs from what it must be."""
 
 
 class TransactionError(ChainError):
-    """A transaction was not accepted, failed, or is still on its way."""
+    """A transaction was not accepted, failed, or is still pending."""
 
 
 class NodeError(ChainError):
@@ -61,29 +61,29 @@ class NodeError(ChainError):
 
 
 class NoAnswerError(NodeError):
-    """A node gave no answer now; it may give one later. The base of errors of that kind."""
+    """A node did not answer, but may answer later. The base of errors of that kind."""
 
 
 class NodeUnreachableError(NoAnswerError):
-    """There is no whole answer: nobody listens, the connection broke, or something else than a node answers."""
+    """There is no complete answer: the connection failed, or the server is not a node."""
 
 
 class NodeBusyError(NoAnswerError):
-    """A node is busy. retry_after: the seconds after which it wants to be asked again, if it says so."""
+    """A node is busy. retry_after: the seconds of its Retry-After header, if any."""
 
     def __init__(self, message: str, retry_after: float | None = None) -> None:
-        """Take the message, and the seconds of the pause."""
+        """Take the message, and the seconds to wait."""
         super().__init__(message)
         self.retry_after = retry_after
 
 
 class NodeTimeoutError(NoAnswerError):
-    """A node took too long, or gave up a call that did."""
+    """A call took too long."""
 
 
 class TooLargeError(NodeError):
-    """A request or an answer is larger than a node takes or gives."""
+    """A request or an answer exceeds a limit of a node."""
 
 
 class WrongChainError(NodeError):
-    """A node belongs to another chain than the one that is wanted, or to one that cannot run the contracts."""
+    """A node belongs to another chain, or to one that cannot run the contracts."""

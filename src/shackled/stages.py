@@ -1,9 +1,8 @@
-"""A picture of what each stage of the pipeline makes of a scene: the pipeline figure of the paper.
+"""A picture of the result of each stage of the pipeline: the pipeline figure of the paper.
 
-Stages 3 to 6 are drawn by the contracts: the same scene, asked for its edges, for its triangles in plain colours, for
-their light, and for the whole. The contracts return pixels only; so the points of stages 1 and 2 are those of the
-reference renderer, whose numbers are the contracts' own: the mesh as it unpacks it from the data of the call, and the
-records of its vertices.
+Stages 3 to 6 are drawn by the contracts: the same scene as wireframe, in plain colours, with light, and complete. The
+contracts return pixels only, so the points of stages 1 and 2 come from the reference renderer, which has the same
+numbers.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from .scene import MAX_VERTICES, Background, Material, Mesh, Object, Scene, enco
 Pixels = NDArray[np.uint8]
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
-#: The two greys of the pattern that stands for nothing, and the length of its squares at 128 pixels.
+#: The two greys of the checkerboard, and the side of its squares at 128 pixels.
 CHECKS, CHECK_SIDE = (46, 54), 8
 UNLIT = Material("unlit")
 
@@ -43,7 +42,7 @@ PAPER, PRINT, FINE_PRINT = (22, 25, 31), (236, 239, 243), (150, 158, 168)
 
 @dataclass(frozen=True)
 class Stage:
-    """What a stage made. pixels: (H, W, 3), rows from the top. detail: a few words with numbers."""
+    """The result of a stage. pixels: (H, W, 3), rows from the top. detail: figures in words."""
 
     name: str
     title: str
@@ -52,7 +51,7 @@ class Stage:
 
 
 def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
-    """The six stages of the paper, in their order. InputError and RenderError as `render` raises them."""
+    """Return the six stages of the paper, in their order. Errors as `render` raises them."""
     chain = chain or open_chain()
     data = encode(b"\0\0\0\0", scene)
     geometry = assemble(*read_call(data))[2]
@@ -92,7 +91,7 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
 
 
 def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
-    """The vertices where they stand in the world, from the front (+z), without a camera, filling the canvas."""
+    """Draw the vertices in world space, from the front (+z), without a camera, filling the canvas."""
     places, colors = [], []
     for part in geometry:
         # the columns of the rotation are the images of the axes
@@ -112,7 +111,7 @@ def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
 
 
 def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels, int]:
-    """The vertices where the vertex shader put them on the canvas, and how many of them are on it."""
+    """Draw the vertices where the vertex shader put them, and count those on the canvas."""
     places, colors, depths = [], [], []
     for part in geometry:
         for vertex, color in zip(part.vertices, part.mesh.colors, strict=True):
@@ -129,7 +128,7 @@ def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels
 
 
 def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
-    """Points as dots, those of the highest order last: (n, 2) places from the top left corner, in pixels."""
+    """Draw points as dots, the highest order last. places: (n, 2) pixels from the top left corner."""
     picture = PillowImage.fromarray(pixels)
     brush = ImageDraw.Draw(picture)
     few = np.clip(5 - 1.6 * np.log10(len(places)), 1, 4)
@@ -146,12 +145,12 @@ def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, 
 
 
 def edges(o: Object) -> Object:
-    """An object's triangles as wires."""
+    """Return an object as wireframe."""
     return evolve(o, wireframe=True, material=UNLIT)
 
 
 def filled(o: Object) -> Object:
-    """An object's triangles in the colours of their vertices, each a little brighter or darker than the next."""
+    """Return an object in the colours of its vertices, with varied brightness per triangle."""
     faces = o.mesh.faces
     if o.wireframe or faces.size > MAX_VERTICES:
         return evolve(o, material=UNLIT)
@@ -166,7 +165,7 @@ def filled(o: Object) -> Object:
 
 
 def over_nothing(scene: Scene, chain: Chain) -> Pixels:
-    """The fragments of a scene without its background. They are what does not depend on the background."""
+    """Draw the fragments of a scene without its background: the pixels that do not depend on it."""
     on_black, on_white = (
         decode_bmp(chain.draw(evolve(scene, background=background)).bmp, scene.width, scene.height)
         for background in (BLACK, WHITE)
@@ -176,7 +175,7 @@ def over_nothing(scene: Scene, chain: Chain) -> Pixels:
 
 
 def nothing(scene: Scene) -> Pixels:
-    """A pattern of checks that stands for nothing."""
+    """Return a checkerboard, which stands for transparency."""
     side = max(1, CHECK_SIDE * min(scene.width, scene.height) // 128)
     rows, columns = np.indices((scene.height, scene.width)) // side
     grey = np.where((rows + columns) % 2, *CHECKS).astype(np.uint8)
@@ -197,7 +196,7 @@ def _lights(scene: Scene) -> str:
 
 
 def strip(stages: list[Stage]) -> PillowImage.Image:
-    """The stages side by side, each with its name and number below."""
+    """Draw the stages side by side, each with its name and number below."""
     height, width = stages[0].pixels.shape[:2]
     enlarged = max(1, -(-STRIP_SIDE // min(width, height)))
     width, height = width * enlarged, height * enlarged

@@ -19,7 +19,6 @@ from PIL import Image as PillowImage
 from nodes import anvil, needs_anvil
 from shackled.chain import Drawing
 from shackled.cli.app import run
-from shackled.cli.arguments import with_cluster
 from shackled.parallel import draw_part
 from shackled.whole_file import write_whole
 
@@ -100,20 +99,20 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
     ("options", "message"),
     [
         (["--turntable", "1"], "the number of frames of a turntable must be a finite number from 2 to 720"),
-        (["--turntable", "3", "-o", "a.svg"], "must end in .gif or .png, or in nothing for a folder"),
+        (["--turntable", "3", "-o", "a.svg"], "must end in .gif or .png, or be a folder"),
         (["--turntable", "3", "-o", "missing/a.gif"], "the folder missing of the turntable a.gif does not exist"),
         (["--turntable", "3", "-o", "shape"], "shape is a file, not a folder to write to"),
         (["--turntable", "3", "--duration", "5"], "the duration of a frame in milliseconds must be"),
-        (["--duration", "50"], "--duration is about a --turntable"),
-        (["--tile", "0"], "--tile must be a side such as 128 or WIDTHxHEIGHT"),
+        (["--duration", "50"], "--duration needs --turntable"),
+        (["--tile", "0"], "--tile must be from 1 to 2048 pixels a side"),
         (["--tile", "4x"], "--tile must be a side such as 128 or WIDTHxHEIGHT"),
         (["--jobs", "0"], "--jobs must be from 1 to 256, not 0"),
         (["--gas-limit", "-1"], "--gas-limit must be a whole number of gas from 1"),
         (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
-        (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "leave out --chain"),
-        (["--rpc", "http://127.0.0.1:1", "--cluster"], "give --rpc or --cluster"),
-        (["--rpc-timeout", "5"], "--rpc-timeout is about a node"),
-        (["--verify", "all"], "--verify is about nodes or a cluster"),
+        (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "--rpc and --chain exclude each other"),
+        (["--rpc", "http://127.0.0.1:1", "--cluster", "local"], "--rpc and --cluster exclude each other"),
+        (["--rpc-timeout", "5"], "--rpc-timeout needs --rpc"),
+        (["--verify", "all"], "--verify needs --rpc or --cluster"),
         (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be all, some or none, not 'most'"),
         (["--chain", "reference", "--gas-limit", "1000"], "counts no gas: leave out --gas-limit"),
     ],
@@ -126,14 +125,6 @@ def test_wrong_usage(capsys: pytest.CaptureFixture[str], options: list[str], mes
     assert message in messages
     assert output == ""
     assert messages.count("\n") == 1
-
-
-def test_a_cluster_needs_no_address() -> None:
-    assert with_cluster(["render", "--cluster", "teapot"]) == ["render", "--cluster=", "teapot"]
-    assert with_cluster(["render", "teapot", "--cluster"]) == ["render", "teapot", "--cluster="]
-    assert with_cluster(["render", "--cluster", "--json"]) == ["render", "--cluster=", "--json"]
-    assert with_cluster(["--cluster", "tcp://a:1", "x"]) == ["--cluster", "tcp://a:1", "x"]
-    assert with_cluster(["--", "--cluster"]) == ["--", "--cluster"]
 
 
 def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> None:

@@ -362,7 +362,7 @@ def test_the_command(ball: Model, server: Server, capsys: pytest.CaptureFixture[
     ("arguments", "code", "message"),
     [
         (["fetch", "bal"], 2, "there is no model 'bal' to fetch; there are ball"),
-        (["fetch", "ball", "ball", "--from", "x.obj"], 2, "--from is the file of one model: give one NAME with it"),
+        (["fetch", "ball", "ball", "--from", "x.obj"], 2, "--from needs exactly one NAME"),
         (["fetch", "ball", "--from", "x.obj"], 2, "x.obj does not exist; a mesh file or archive is needed"),
         (["fetch", "ball", "--from", "."], 2, ". is no file; a mesh file or archive is needed"),
         (["fetch", "ball"], 1, "the connection was cut after 0 of"),

@@ -158,7 +158,7 @@ def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
 
 def test_nodes_need_addresses() -> None:
     for urls in ((), (5,), (["http://127.0.0.1:1"],)):
-        with pytest.raises(InputError, match=r"^the addresses of nodes are needed, such as http://127\.0\.0\.1:8545"):
+        with pytest.raises(InputError, match=r"^`urls` must be addresses of nodes, such as http://127\.0\.0\.1:8545"):
             Nodes(*urls)
 
 

@@ -20,7 +20,7 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
-from ..plain import plain
+from ..untrusted import plain
 
 #: How nodes word it, in small letters and without anything but letters. The first group with a word that fits is taken.
 TOO_LITTLE_GAS = (

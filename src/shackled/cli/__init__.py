@@ -8,13 +8,13 @@ from typing import NoReturn
 
 
 def main() -> NoReturn:
-    """The entry point."""
+    """Run the command and exit."""
     for name in ("stdout", "stderr"):
-        # one that was closed before the start
+        # it may have been closed before the start
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
     try:
-        # to read all of it in takes a moment, in which people may think again
+        # imports take a moment, in which Ctrl-C must work
         from .app import run
 
         code = run()

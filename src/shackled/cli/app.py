@@ -13,8 +13,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, InputWarning, ShackledError
-from ..plain import plain
-from .arguments import with_cluster
+from ..untrusted import plain
 from .bench import bench
 from .creator import creator
 from .datasets import datasets
@@ -27,7 +26,7 @@ from .render import render
 from .stages import stages
 from .token import token
 
-#: What typer makes of a keyboard interrupt.
+#: The exit code of typer for a keyboard interrupt.
 INTERRUPTED = 130
 
 app = typer.Typer(
@@ -50,7 +49,7 @@ app.add_typer(token, name="token")
 @app.callback(invoke_without_command=True)
 def shackled(
     context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
     """Pictures of 3D scenes, computed by Ethereum smart contracts."""
     if version:
@@ -60,7 +59,10 @@ def shackled(
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command; the exit code. What went wrong is said in one line on stderr, what is left out in another."""
+    """Run the command and return the exit code.
+
+    Errors and warnings are printed on stderr, one line each.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("always", InputWarning)
         warnings.showwarning = _note(warnings.showwarning)
@@ -69,9 +71,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        given = with_cluster(sys.argv[1:] if arguments is None else arguments)
-        code = app(args=given, standalone_mode=False, prog_name="shackled")
-        # what is still kept back could not be told about once the interpreter ends
+        code = app(args=None if arguments is None else list(arguments), standalone_mode=False, prog_name="shackled")
+        # errors of a later flush would not be reported
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
@@ -81,19 +82,19 @@ def _run(arguments: Sequence[str] | None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
     except OSError as error:
-        # as when the disk is full to which the output goes
+        # such as a full disk behind stdout
         _drop_output()
         where = f"{error.filename}: " if error.filename else ""
         return _fail(f"{where}{error.strerror or repr(error)}", 1)
     except Exception as error:
-        # errors of usage, whose class depends on the version of typer
+        # usage errors, whose class depends on the version of typer
         if not hasattr(error, "format_message"):
             raise
         return _fail(error.format_message(), getattr(error, "exit_code", 2))
 
 
 def _note(show: Callable[..., object]) -> Callable[..., None]:
-    """Shows an InputWarning as a line of its own, each once, and others as before."""
+    """Return a handler that prints each InputWarning once, on a line, and others as before."""
     told = set[str]()
 
     def showwarning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
@@ -107,7 +108,7 @@ def _note(show: Callable[..., object]) -> Callable[..., None]:
 
 
 def _drop_output() -> None:
-    """Forgets what standard output would not take, which the interpreter would try to write again at its end."""
+    """Discard output that could not be written, which the interpreter would otherwise try to write again at exit."""
     try:
         sys.stdout.flush()
     except OSError:

@@ -14,35 +14,32 @@ from ..whole_file import check_output_folder
 def bench(
     names: Annotated[
         list[str] | None,
-        typer.Argument(
-            help="Experiments; without any, all are made, or listed if there is no -o.", metavar="[NAME]..."
-        ),
+        typer.Argument(help="Experiments to run; all by default. Without -o they are listed.", metavar="[NAME]..."),
     ] = None,
     output: Annotated[
-        str | None, typer.Option("--output", "-o", help="The folder for CSV, plots and tables.", metavar="DIR")
+        str | None, typer.Option("--output", "-o", help="Folder for CSV files, plots and tables.", metavar="DIR")
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="All experiments, as without a NAME.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="A few small scenes, to see that it works.")] = False,
+    everything: Annotated[bool, typer.Option("--all", help="Run all experiments.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Use a few small scenes, as a smoke test.")] = False,
     processes: Annotated[
-        int | None, typer.Option("--processes", min=1, help="How many; else one for each core.", metavar="N")
+        int | None,
+        typer.Option("--processes", min=1, help="Number of processes; one per core by default.", metavar="N"),
     ] = None,
-    rpc: Annotated[
-        str | None, typer.Option("--rpc", help="A node that `engines` measures too, as http://...", metavar="URL")
-    ] = None,
+    rpc: Annotated[str | None, typer.Option("--rpc", help="Node that `engines` measures, too.", metavar="URL")] = None,
 ) -> None:
-    """Make the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
+    """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Lab, check_plots, run
 
     if not names and not everything and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
-        print("\nshackled bench NAME ... -o DIR makes them, shackled bench -o DIR all.")
+        print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR all.")
         return
     chosen = list(EXPERIMENTS) if everything or not names else list(dict.fromkeys(names))
     for name in chosen:
         if name not in EXPERIMENTS:
             raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
     if output is None:
-        raise InputError("the experiments need a folder to write to: -o DIR")
+        raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))
     check_plots()
     with Lab(quick, processes, rpc) as lab:

@@ -19,63 +19,64 @@ from .gas_tables import print_profile, print_report
 from .look_options import load_with, with_look
 from .option import option
 
-#: What --profile writes, by extension.
+#: The formats of --profile, by extension.
 FORMATS = (".json", ".svg")
 
 
 @with_look
 def gas(
-    input: Annotated[
-        str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
-    ],
+    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
     *,
     look: dict[str, Any],
     chain: Annotated[
-        str | None, option("--chain", f"Where it is measured: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME")
+        str | None,
+        option("--chain", f"EVM to measure in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
         typer.Option(
             "--rpc",
-            help="A node that counts the gas too, and on which the search is made.",
+            help="Node that also counts the gas, and runs the search.",
             metavar="URL",
             envvar="SHACKLED_RPC",
             show_default=False,
         ),
     ] = None,
-    address: Annotated[
-        str | None, option("--address", "Of a renderer on the node's chain, to be called.", "ADDRESS")
-    ] = None,
+    address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "How long the node may take for a call; else 120.", "SECONDS")
+        float | None, option("--rpc-timeout", "Timeout of a call to the node; 120 by default.", "SECONDS")
     ] = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of tables.")] = False,
+    as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
         option(
-            "--profile", "Gas by function and line too, and as a flame graph: .svg, or .json for speedscope.", "FILE"
+            "--profile",
+            "Also show gas by function and line, and write a flame graph: .svg, or .json for speedscope.",
+            "FILE",
         ),
     ] = None,
     stages: Annotated[
-        bool, option("--stages/--no-stages", "Gas by stage, which takes a slow EVM (py-evm) some seconds, or not.")
+        bool, option("--stages/--no-stages", "Show gas by stage, which takes some seconds in py-evm.")
     ] = True,
-    gas_price: Annotated[float, option("--gas-price", "Of a transaction, in gwei; else 1.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, option("--eth-price", "Of an ether, in US dollars.", "USD")] = None,
+    gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
+    eth_price: Annotated[float | None, option("--eth-price", "Price of an ether in US dollars.", "USD")] = None,
     lower: Annotated[
-        int, option("--lower", "Where the search begins: gas that does not suffice; else 0.", "GAS", "Search")
+        int, option("--lower", "Lower bound of the search, gas that does not suffice.", "GAS", "Search")
     ] = 0,
     upper: Annotated[
         int | None,
-        option("--upper", "Gas that does suffice; else it is doubled until it does.", "GAS", "Search"),
+        option(
+            "--upper", "Upper bound of the search, gas that suffices; found by doubling by default.", "GAS", "Search"
+        ),
     ] = None,
 ) -> None:
-    """Measure the gas of a picture: exactly, by a search over gas limits, by stage and by line, and where it fits."""
+    """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)
     _check_price(gas_price, "--gas-price", "gwei a gas")
     if eth_price is not None:
         _check_price(eth_price, "--eth-price", "US dollars an ether")
     if path is not None and not stages:
-        raise InputError("--profile is made of what --no-stages leaves out: give one of them")
+        raise InputError("--profile and --no-stages exclude each other: give one of them")
     traced = stages and can_trace()
     if path is not None and not traced:
         raise InputError(f"--profile needs {TRACER}")
@@ -110,7 +111,7 @@ def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> N
         return open_node(rpc.split()[0], address, timeout)
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None:
-            raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+            raise InputError(f"{name} needs --rpc")
     return None
 
 

@@ -1,4 +1,4 @@
-"""What `shackled gas` shows on stderr while it measures: the bracket as it narrows, then the trace."""
+"""Progress of `shackled gas` on stderr: the bounds of the search as they narrow, then the trace."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from rich.text import Text
 
 from ..gas import Step
 
-#: Steps that are shown at a time.
+#: Number of steps shown at a time.
 ROWS = 12
 BAR = 32
 
 
 class Progress:
-    """Shows steps and progress; nothing if it is quiet, a line for each step where stderr is no terminal."""
+    """The progress of a measurement: live on a terminal, a line per step elsewhere unless it is quiet."""
 
     def __init__(self, quiet: bool) -> None:
-        """`quiet` shows on a terminal only."""
+        """Take whether to show anything without a terminal."""
         self._console = Console(stderr=True)
         self._quiet = quiet
         self._steps: list[Step] = []
@@ -31,7 +31,7 @@ class Progress:
         self._live: Live | None = None
 
     def __enter__(self) -> Progress:
-        """Starts."""
+        """Start."""
         if self._console.is_terminal:
             self._live = Live(console=self._console)
             self._live.start()
@@ -40,12 +40,12 @@ class Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Leaves what was shown last."""
+        """Stop; the last state stays on screen."""
         if self._live is not None:
             self._live.stop()
 
     def step(self, step: Step) -> None:
-        """A step of the search."""
+        """Show a step of the search."""
         self._steps.append(step)
         if self._live is not None:
             self._live.update(self._view())
@@ -54,7 +54,7 @@ class Progress:
             print(f"call {len(self._steps):2}: {step.limit:>14,} {verdict}; {bracket(step)}", file=sys.stderr)
 
     def traced(self, used: int, total: int) -> None:
-        """How much gas the trace has used."""
+        """Show how much gas the trace has used."""
         if self._live is not None:
             if not self._bars.tasks:
                 self._bars.add_task("tracing", total=total)
@@ -72,10 +72,10 @@ class Progress:
 
 
 def bracket(step: Step) -> str:
-    """What is known after a step."""
+    """Return the bounds of the gas after a step."""
     return f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
 
 
 def _bar(step: Step) -> Text:
-    """What is not known yet: a character for each call that it takes to halve it away."""
+    """Return a bar with a character for each call that the search still needs."""
     return Text("█" * (BAR if step.upper is None else min(BAR, (step.upper - step.lower - 1).bit_length())))

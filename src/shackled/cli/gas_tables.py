@@ -1,4 +1,4 @@
-"""What `shackled gas` prints for people."""
+"""Tables of `shackled gas`."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from rich.table import Table
 from ..gas import Profile, Report, limits
 
 BAR = 24
-#: How many functions and lines are worth a row.
+#: Number of functions and lines shown.
 ROWS = 20
 
 
 def print_report(report: Report, gas_price: float, eth_price: float | None) -> None:
-    """Gas, search, stages, price, and where it fits."""
+    """Print gas, search, stages, price, and the limits that the gas fits."""
     console = _console()
     for label, value in _figures(report, gas_price, eth_price).items():
         console.print(f"{label:12} {value}", highlight=False, markup=False, soft_wrap=True)
@@ -33,7 +33,7 @@ def print_report(report: Report, gas_price: float, eth_price: float | None) -> N
 
 
 def print_profile(profile: Profile) -> None:
-    """Gas by function, and by line."""
+    """Print gas by function, and by line."""
     console = _console()
     functions = Table("function", "its own gas", "", "with calls", box=None, header_style="bold")
     _right(functions, 1, 2, 3)
@@ -50,7 +50,7 @@ def print_profile(profile: Profile) -> None:
 
 
 def _console() -> Console:
-    # what is written to a file is as wide as it needs to be
+    # files need no narrow tables
     return Console(file=sys.stdout, width=None if sys.stdout.isatty() else 160)
 
 

@@ -12,7 +12,7 @@ import typer
 from ..errors import InputError
 from ..ethereum import checksum_address
 from ..image import FORMATS, one_of
-from .option import option
+from .option import option, parse_size
 from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
 from .telling import say, tell
 
@@ -55,7 +55,6 @@ def mint(
     from ..deploy import Transactor, current_fees
     from ..image import check_output
     from ..tokens import Wanted, licence_of, plan_storage, read_back, store
-    from .parse import parse_size
 
     path = None if output is None else check_output(output)
     pixels = None if size is None else parse_size(size)

@@ -13,7 +13,7 @@ import typer
 from ..checks import number
 from ..errors import InputError
 from ..ethereum import at_most, ether, roughly
-from ..plain import plain
+from ..untrusted import plain
 from .option import option
 
 if TYPE_CHECKING:

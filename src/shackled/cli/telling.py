@@ -1,17 +1,17 @@
-"""What commands print: results on stdout, anything else on stderr, both in lines that are safe for a terminal."""
+"""Printing of commands: results on stdout, anything else on stderr, both safe for a terminal."""
 
 from __future__ import annotations
 
 import sys
 
-from ..plain import plain
+from ..untrusted import plain
 
 
 def tell(text: str) -> None:
-    """Prints a line of the result."""
+    """Print a line of the result on stdout."""
     print(plain(text), flush=True)
 
 
 def say(text: str) -> None:
-    """Prints a line that is no result."""
+    """Print a line on stderr."""
     print(plain(text), file=sys.stderr, flush=True)

@@ -18,20 +18,20 @@ DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
 
 
 def pieces(dataset: str | None = None) -> Iterator[Piece]:
-    """All pieces, dataset by dataset, or those of one dataset."""
+    """Yield the pieces of one dataset, or of all."""
     for each in DATASETS if dataset is None else (dataset,):
         yield from _module(each).pieces()
 
 
 def find(name: str) -> Piece | None:
-    """The piece of that name; None if there is none. `genesis/` takes the 64 hexadecimal digits of any seed as well."""
+    """Return the piece of that name; None if there is none. `genesis/` takes 64 hexadecimal digits of any seed, too."""
     dataset, prefix = _dataset_of(name)
     piece: Piece | None = _module(dataset).find(name.removeprefix(prefix))
     return piece
 
 
 def require(name: str) -> Piece:
-    """The piece of that name; InputError, with names that are close to it, if there is none."""
+    """Return the piece of that name; InputError, with similar names, if there is none."""
     piece = find(name)
     if piece is not None:
         return piece

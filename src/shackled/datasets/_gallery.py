@@ -21,7 +21,7 @@ PAPER, INK, FAINT = (250, 250, 248), (20, 22, 28), (110, 114, 122)
 
 
 def page(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> str:
-    """An HTML page that stands alone. Pieces without a drawing are shown as what can be fetched."""
+    """Return a self-contained HTML page. Pieces without a drawing are shown with the command that fetches them."""
     template = Template(files(__package__).joinpath("gallery.html").read_text("utf-8"))
     datasets = list(dict.fromkeys(piece.dataset for piece in pieces))
     return template.substitute(
@@ -32,7 +32,7 @@ def page(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> str:
 
 
 def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> bytes:
-    """A PNG with the drawings in rows, a label under each; pieces without one are left out."""
+    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out."""
     drawn = [(piece, drawings[piece.name]) for piece in pieces if piece.name in drawings]
     columns = max(1, min(len(drawn), round((len(drawn) * (CELL + LABEL) / CELL) ** 0.5) + 1))
     rows = max(1, -(-len(drawn) // columns))
@@ -74,7 +74,7 @@ def _figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
 
 
 def _fitting(text: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont) -> str:
-    """The text, cut so that it is no wider than a cell."""
+    """Return the text, cut to the width of a cell."""
     if font.getlength(text) <= CELL:
         return text
     while font.getlength(f"{text}…") > CELL:

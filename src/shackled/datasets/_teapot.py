@@ -63,8 +63,9 @@ LIMBS = (
 
 
 def patches() -> NDArray[np.float64]:
-    """(32, 4, 4, 3) control points, z up, such that the outside is where d/du x d/dv points, u and v in order of the
-    indices.
+    """Return the control points, (32, 4, 4, 3), z up, u and v in the order of the indices.
+
+    The outside is where d/du x d/dv points.
     """
     quarters = [_quarter(profile, turn) for profile in PROFILES for turn in range(4)]
     halves = [_half(limb, side) for limb in LIMBS for side in (-1, 1)]
@@ -72,9 +73,9 @@ def patches() -> NDArray[np.float64]:
 
 
 def teapot(divisions: int = 6) -> Mesh:
-    """The teapot with y up, about 6.4 wide, standing on y = 0, with the normals of its vertices.
+    """Return the teapot with y up, about 6.4 wide, standing on y = 0, with vertex normals.
 
-    divisions: into how many parts d each side of a patch is divided, 1..32; there are 64 d^2 - 8 d triangles.
+    divisions: parts d into which each side of a patch is divided, 1..32; there are 64 d^2 - 8 d triangles.
     """
     if not isinstance(divisions, int) or isinstance(divisions, bool) or not 1 <= divisions <= 32:
         raise InputError(f"the divisions of the teapot must be a whole number from 1 to 32, not {divisions!r}")
@@ -94,7 +95,7 @@ def teapot(divisions: int = 6) -> Mesh:
 
 
 def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
-    """The patch that a profile sweeps in a quarter turn about the z axis, after `turn` of them."""
+    """Return the patch that a profile sweeps in a quarter turn about the z axis, after `turn` of them."""
     rows = []
     for radius, height in profile:
         handle = radius * (KNOB_QUARTER if (radius, height) == (0.8, 3.15) else QUARTER)
@@ -106,7 +107,7 @@ def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
 
 
 def _half(limb: Limb, side: int) -> NDArray[np.float64]:
-    """The half of a limb at y < 0 (side -1) or y > 0 (side 1)."""
+    """Return the half of a limb at y < 0 (side -1) or y > 0 (side 1)."""
     points = np.array(
         [
             [(xi, 0, zi), (xi, side * width, zi), (xo, side * width, zo), (xo, 0, zo)]
@@ -117,6 +118,6 @@ def _half(limb: Limb, side: int) -> NDArray[np.float64]:
 
 
 def _bernstein(t: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 4): the weights of the four control points at each t."""
+    """Return the weights of the four control points at each t, (n, 4)."""
     s = 1 - t
     return np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3], axis=1)

@@ -160,7 +160,7 @@ class Mesh(Value):
 
 
 def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """(n, 3) unit normals: the mean of the faces around each vertex, weighted by area; zero where there is none."""
+    """Return unit normals, (n, 3): the mean of the faces around each vertex, weighted by area; zero where none are."""
     corners = positions[faces]
     face_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros_like(positions)

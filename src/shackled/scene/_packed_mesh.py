@@ -63,7 +63,7 @@ def _normals(mesh: Mesh) -> NDArray[np.float64]:
 
 
 def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(n, 3) unit vectors as (n, 4) bytes: three numbers of 10 bits, then two bits that are 0."""
+    """Return unit vectors, (n, 3), as (n, 4) bytes: three numbers of 10 bits, then two zero bits."""
     x, y, z = (np.rint(normals * NORMAL_UNIT).astype(np.int64) & 1023).T
     words = np.asarray(x << 22 | y << 12 | z << 2, dtype=">u4")
     return words.view(np.uint8).reshape(-1, 4)

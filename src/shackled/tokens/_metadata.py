@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..errors import VerificationError
-from ..json_text import read_json
-from ..plain import plain
+from ..untrusted import plain, read_json
 
 #: Marketplaces cut off, or do not show, what is longer.
 MAX_LENGTH = 100_000

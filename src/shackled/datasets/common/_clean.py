@@ -33,11 +33,10 @@ def prepare(
     turn_inside_out: bool = False,
     max_triangles: int = MAX_TRIANGLES,
 ) -> Mesh:
-    """The mesh cleaned, upright, about the origin with its farthest vertex at the distance 1, and of at most
-    `max_triangles` triangles.
+    """Return the mesh cleaned, turned, centred, scaled to a radius of 1, and simplified to `max_triangles`.
 
-    rotation: degrees about x, then y, then z. cap: whether to close its holes. turn_inside_out: whether its faces are
-    seen from inside. Colours stay, normals do not.
+    rotation: degrees about x, then y, then z. cap: whether to close holes. turn_inside_out: whether its faces are seen
+    from inside. Colours are kept, normals are not.
     """
     mesh = clean(mesh)
     if cap:
@@ -50,7 +49,10 @@ def prepare(
 
 
 def clean(mesh: Mesh) -> Mesh:
-    """One vertex for each position, no triangle twice, none back to back with another, and none without area."""
+    """Return the mesh with one vertex per position, without degenerate and duplicate triangles.
+
+    Triangles back to back with each other are removed, too.
+    """
     positions, first, number = np.unique(mesh.positions + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
     faces = _without_doubles(faces)
@@ -64,8 +66,9 @@ def clean(mesh: Mesh) -> Mesh:
 
 
 def _without_doubles(faces: Faces) -> Faces:
-    """Of triangles with the same corners one stays; none if as many of them face one way as the other, for those are a
-    fold that bounds nothing.
+    """Return the faces with one of all triangles with the same corners.
+
+    None is kept if as many of them face one way as the other: they are a fold that bounds nothing.
     """
     corners = np.sort(faces, axis=1)
     # the sign of the permutation that sorts the corners
@@ -79,7 +82,7 @@ def _without_doubles(faces: Faces) -> Faces:
 
 
 def capped(mesh: Mesh) -> Mesh:
-    """The mesh with a fan of triangles over each simple hole."""
+    """Return the mesh with each simple hole closed by a fan of triangles."""
     positions, faces = mesh.positions, mesh.faces
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     inner = set(map(tuple, edges[:, ::-1].tolist()))
@@ -104,7 +107,7 @@ def capped(mesh: Mesh) -> Mesh:
 
 
 def without_crumbs(mesh: Mesh) -> Mesh:
-    """The mesh without parts, held together by no vertex, of a few triangles."""
+    """Return the mesh without unconnected parts of a few triangles."""
     faces = mesh.faces
     part = parts(faces, len(mesh.positions))[faces[:, 0]]
     count = np.bincount(part)[part]
@@ -114,7 +117,7 @@ def without_crumbs(mesh: Mesh) -> Mesh:
 
 
 def parts(faces: Faces, count: int) -> NDArray[np.int64]:
-    """(count,): for each vertex the least number among those that faces connect it with."""
+    """Return, for each vertex, the least number among those that faces connect it with, (count,)."""
     label = np.arange(count)
     while True:
         least = label[faces].min(axis=1)
@@ -128,8 +131,9 @@ def parts(faces: Faces, count: int) -> NDArray[np.int64]:
 
 
 def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
-    """Simplified, such that a closed mesh stays closed if there is a way, for then half of it need not be drawn. Where
-    the collapse of edges stalls, the nearest vertices become one first, on grids that grow coarser.
+    """Simplify a mesh; a closed mesh stays closed if possible, since its back faces need not be drawn.
+
+    Where edge collapse fails, near vertices are merged first, on grids that grow coarser.
     """
     try:
         first = clean(simplify(mesh, max_triangles))
@@ -147,15 +151,16 @@ def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
 
 
 def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
-    """Turned, with the middle of its box at the origin, and its farthest vertex at the distance 1."""
+    """Return the mesh turned, centred, and scaled such that its farthest vertex is at the distance 1."""
     positions = rotate(from_euler(rotation), mesh.positions)
     positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
     return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
 
 
 def creased(mesh: Mesh, degrees: float) -> Mesh:
-    """The mesh with normals that are smooth but across edges at which its faces turn by more than `degrees`: each
-    corner takes the mean, weighted by area, of the faces around it that turn away from its own by less.
+    """Return the mesh with smooth normals, except across edges at which it turns by more than `degrees`.
+
+    The normal of a corner is the mean, weighted by area, of the faces around it that turn away from its own by less.
     """
     positions, faces = mesh.positions, mesh.faces
     a, b, c = positions[faces].transpose(1, 0, 2)
@@ -177,7 +182,7 @@ def creased(mesh: Mesh, degrees: float) -> Mesh:
 
 
 def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
-    """For each face, how large its part is across, as a share of the whole mesh."""
+    """Return, for each face, the extent of its part as a share of that of the mesh."""
     corners = mesh.positions[mesh.faces]
     low = np.full((part.max() + 1, 3), np.inf)
     high = -low
@@ -188,7 +193,7 @@ def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
 
 
 def _clustered(mesh: Mesh, cells: int) -> Mesh:
-    """The vertices in each cell of a grid, `cells` along its longest side, as one in their mean place."""
+    """Merge the vertices in each cell of a grid, `cells` along the longest side, at their mean."""
     positions = mesh.positions
     cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / cells))
     _, first, number = np.unique(cell, axis=0, return_index=True, return_inverse=True)

@@ -38,8 +38,9 @@ HALF_HEIGHT = 0.025 / 2 / 0.035
 
 
 def cornell_box() -> Scene:
-    """The box with its lamp in the ceiling, seen by the published camera. There are no shadows: nothing in the pipeline
-    casts any.
+    """Return the box with its lamp in the ceiling, seen by the published camera.
+
+    There are no shadows: nothing in the pipeline casts any.
     """
     room = [(FLOOR, WHITE), *((part, WHITE) for part in _ceiling()), (BACK_WALL, WHITE)]
     room += [(RIGHT_WALL, GREEN), (LEFT_WALL, RED)]
@@ -62,12 +63,12 @@ def cornell_box() -> Scene:
 
 
 def _ceiling() -> list[Quad]:
-    """The ceiling around the lamp."""
+    """Return the ceiling around the lamp."""
     return [(CEILING[k], CEILING[(k + 1) % 4], LAMP[(k + 1) % 4], LAMP[k]) for k in range(4)]
 
 
 def _block(height: float, corners: Sequence[tuple[float, float]]) -> list[Quad]:
-    """The top and the four sides, from outside."""
+    """Return the top and the four sides of a block, seen from outside."""
     top = [(x, height, z) for x, z in corners]
     bottom = [(x, 0.0, z) for x, z in corners]
     sides: list[Quad] = [(top[k], bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4]) for k in range(4)]

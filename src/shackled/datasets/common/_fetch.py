@@ -35,9 +35,9 @@ def _no_progress(here: int, whole: int | None) -> None:
 
 
 def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) -> bool:
-    """Downloads a model unless its file is in the cache, and prepares it; whether there was anything to do.
+    """Download a model unless it is in the cache, and prepare it; return whether anything was done.
 
-    again: prepare it anew, and in the place of a file of one's own. FetchError if it cannot be downloaded or kept.
+    again: prepare it again, replacing a file of the user. FetchError if it cannot be downloaded or written.
     """
     prepared = model.prepared()
     if not again and model.kept() is not None:
@@ -48,8 +48,9 @@ def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) 
 
 
 def take(model: Model, path: Path) -> bool:
-    """Prepares a model from a file of one's own in the place of a download; whether it is the very file that would have
-    been downloaded. InputError if it is no mesh that can be read.
+    """Prepare a model from a local file instead of a download; return whether it is the published file.
+
+    InputError if it is not a readable mesh.
     """
     if not path.is_file():
         raise InputError(
@@ -63,7 +64,7 @@ def take(model: Model, path: Path) -> bool:
 
 
 def checksum(path: Path, like: str) -> str:
-    """Of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
+    """Return the checksum of a file, of the kind of another: "sha256:..." or "git-blob:..."."""
     kind = like.partition(":")[0]
     digest = hashlib.sha256()
     if kind == "git-blob":
@@ -86,7 +87,7 @@ def _keep(model: Model, path: Path, prepared: Path) -> None:
 
 
 def download(model: Model, progress: Progress = _no_progress) -> Path:
-    """The file of a model as it is published, from the cache or else from the first of its addresses that has it."""
+    """Return the path of the published file, from the cache or from the first address that has it."""
     import pooch
 
     pooch.get_logger().setLevel(logging.ERROR)
@@ -136,7 +137,7 @@ class _Downloader:
         return True
 
     def _transfer(self, address: str, part: Path) -> None:
-        """Downloads what is missing of the file."""
+        """Download the missing part of the file."""
         import requests
 
         name = self._model.name
@@ -196,7 +197,7 @@ class _Downloader:
 
 
 def _part(model: Model) -> Path:
-    """Where a download is until it is whole."""
+    """Return the path of an unfinished download."""
     return model.original.with_name(f"{model.original.name}.part")
 
 
@@ -210,7 +211,7 @@ def _host(address: str) -> str:
 
 @contextmanager
 def _on_disk(model: Model) -> Iterator[None]:
-    """Says in one line what the disk does not allow."""
+    """Raise a FetchError for errors of the disk."""
     try:
         yield
     except OSError as error:

@@ -54,19 +54,19 @@ class Model:
         return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
 
     def prepared(self, own: bool = False) -> Path:
-        """Where the cleaned and simplified mesh is kept; `own`: the one from a file of the user."""
+        """Return the path of the cleaned and simplified mesh. own: of the one from the user's own file."""
         return cache_folder() / "models" / f"{self.name}{'.own' if own else ''}.v{VERSION}.npz"
 
     def kept(self) -> Path | None:
-        """The prepared mesh, that of the user's own file before the downloaded one; None if there is none yet."""
+        """Return the path of the prepared mesh, the user's own before the downloaded one; None if there is none."""
         return next((path for path in (self.prepared(own=True), self.prepared()) if path.is_file()), None)
 
     def is_own(self) -> bool:
-        """Whether a file of the user stands in the place of the download."""
+        """Return whether a file of the user replaces the download."""
         return self.prepared(own=True).is_file()
 
     def piece(self) -> Piece:
-        """The piece, fetched or not."""
+        """Return the piece, whether it has been fetched or not."""
         own = self.is_own()
         return Piece(
             self.name,
@@ -81,14 +81,14 @@ class Model:
         )
 
     def scene(self) -> Scene:
-        """The scene; InputError if the model has not been fetched yet."""
+        """Return the scene; InputError if the model has not been fetched."""
         path = self.kept()
         if path is None:
             raise InputError(f"{self.name} is not here yet; run: shackled datasets fetch {self.name}")
         return self.staged(load_mesh(path, self.name))
 
     def staged(self, mesh: Mesh) -> Scene:
-        """The scene of a prepared mesh, in the colours of its file if there are any."""
+        """Return the scene of a prepared mesh, in the colours of its file if there are any."""
         if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
         return stage(
@@ -104,7 +104,7 @@ class Model:
 
 @cache
 def models() -> dict[str, Model]:
-    """All models, by their names."""
+    """Return all models by name."""
     text = files(__package__).joinpath("models.toml").read_text("utf-8")
     return {
         name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in tomllib.loads(text).items()
@@ -112,7 +112,7 @@ def models() -> dict[str, Model]:
 
 
 def model(name: str) -> Model:
-    """The model of that name; InputError if there is none."""
+    """Return the model of that name; InputError if there is none."""
     if name not in models():
         raise InputError(f"there is no model {name!r} to fetch; there are {', '.join(models())}")
     return models()[name]
@@ -131,7 +131,7 @@ def find(name: str) -> Piece | None:
 
 
 def save_mesh(mesh: Mesh, path: Path) -> None:
-    """Keeps a prepared mesh. OSError if it cannot be written."""
+    """Write a prepared mesh. OSError if it cannot be written."""
     stream = io.BytesIO()
     np.savez_compressed(
         stream,
@@ -143,7 +143,7 @@ def save_mesh(mesh: Mesh, path: Path) -> None:
 
 
 def load_mesh(path: Path, name: str) -> Mesh:
-    """The mesh that `save_mesh` wrote."""
+    """Load a mesh that `save_mesh` wrote."""
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
             return Mesh(data["positions"], data["faces"], data["colors"])

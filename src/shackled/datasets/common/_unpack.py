@@ -35,10 +35,10 @@ class _Readable(Protocol):
 
 
 def read_model(path: Path, member: str | None = None) -> Mesh:
-    """The mesh of a mesh file, of a 3MF, of a mesh file that is packed with gzip, or of one in a zip or tar archive.
+    """Read the mesh of a mesh file, a 3MF, a gzipped mesh file, or a mesh file in a zip or tar archive.
 
-    member: the file in the archive; None takes the largest mesh file of a known kind. Materials and textures are left
-    out without a note: of a model only the mesh is fetched. InputError, one line that begins with the path, for
+    member: the file in the archive; None for the largest mesh file of a known kind. Materials and textures are ignored
+    without a warning, since only the mesh of a model is fetched. InputError, one line that begins with the path, for
     anything that is wrong with the file.
     """
     with warnings.catch_warnings():
@@ -125,7 +125,7 @@ def _limited(file: _Readable, path: Path) -> bytes:
 
 
 def _read_3mf(path: Path, model: bytes) -> Mesh:
-    """All meshes of a 3MF, where they are in their own coordinates."""
+    """Read all meshes of a 3MF, each in its own coordinates."""
     positions: list[tuple[float, float, float]] = []
     faces: list[tuple[int, int, int]] = []
     first = 0

@@ -24,7 +24,7 @@ BLACK = Background((0, 0, 0))
 
 
 def pieces() -> list[Piece]:
-    """All of them, the scenes of the paper first."""
+    """Return all built-in pieces, the scenes of the paper first."""
     return [
         _piece(
             "teapot",
@@ -63,7 +63,7 @@ def pieces() -> list[Piece]:
 
 
 def first_render() -> Scene:
-    """The first picture that the contracts of 2021 made: the two triangles in the appendix of their paper."""
+    """Return the first picture of the contracts of 2021: the two triangles in the appendix of their paper."""
     points = [(-1, 0, 0), (-1, 2, 0), (0, 2, 0), (1, 0, 5), (1, -2, 5), (0, -2, 5)]
     colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (0, 255, 255), (255, 0, 255)]
     return Scene(

@@ -22,7 +22,7 @@ TURN = 2 * np.pi
 
 
 def patch(surface: Surface, across: int, down: int) -> Mesh:
-    """A surface of 2 * across * down triangles, seen from where d/du x d/dv points.
+    """Return a surface of 2 * across * down triangles, seen from where d/du x d/dv points.
 
     Points that meet are one vertex, so that seams and poles are smooth, and what has no area there is left out.
     """
@@ -33,8 +33,10 @@ def patch(surface: Surface, across: int, down: int) -> Mesh:
 
 
 def one_sided(surface: Surface, across: int, down: int) -> Mesh:
-    """A surface without inside and outside, as in `patch`, with the faces of both sides: each is lit and seen from its
-    own. The vertices where it closes upon itself are not one, for their normals may point opposite ways.
+    """Return a surface without inside and outside, as in `patch`, with faces on both sides.
+
+    Each face is lit and seen from its own side. Vertices where the surface closes upon itself are not merged, because
+    their normals may point opposite ways.
     """
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     step = 1e-5
@@ -51,12 +53,12 @@ def one_sided(surface: Surface, across: int, down: int) -> Mesh:
 
 
 def sphere(across: int = 32, down: int = 16) -> Mesh:
-    """Radius 1, by circles of longitude and latitude."""
+    """Return a sphere of radius 1, divided by longitude and latitude."""
     return patch(lambda u, v: _around(TURN * u, -np.cos(np.pi * v), np.sin(np.pi * v)), across, down)
 
 
 def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down: int = 16) -> Mesh:
-    """A ring about the y axis."""
+    """Return a ring about the y axis."""
 
     def surface(u: Array, v: Array) -> Array:
         return _around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
@@ -65,7 +67,7 @@ def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down:
 
 
 def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84, down: int = 7) -> Mesh:
-    """A tube along a knot that winds p times about the axis of a torus (z), and q times about its ring."""
+    """Return a tube along a knot that winds p times about the axis of a torus (z), and q times about its ring."""
 
     def center(t: Array) -> Array:
         reach = 0.6 + 0.25 * np.cos(q * t)
@@ -75,7 +77,7 @@ def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84
 
 
 def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: int = 8) -> Mesh:
-    """A tube along a helix about the y axis, its ends closed."""
+    """Return a tube along a helix about the y axis, its ends closed."""
 
     def center(u: Array) -> Array:
         return np.stack([0.6 * np.cos(TURN * turns * u), 1.6 * u - 0.8, -0.6 * np.sin(TURN * turns * u)], axis=-1)
@@ -89,7 +91,7 @@ def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: in
 
 
 def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 1.0) -> Surface:
-    """The surface at the distance thickness * width of a curve that is never straight."""
+    """Return the surface at the distance thickness * width of a curve that is never straight."""
 
     def surface(u: Array, v: Array) -> Array:
         step = 1e-4
@@ -106,7 +108,7 @@ def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 
 
 
 def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
-    """A band that is half a turn twisted: one side, one edge."""
+    """Return a band that is half a turn twisted: one side, one edge."""
 
     def surface(u: Array, v: Array) -> Array:
         angle, offset = TURN * u, width * (2 * v - 1)
@@ -117,7 +119,7 @@ def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
 
 
 def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
-    """A closed surface with one side, as a bottle whose neck goes through its wall to meet the bottom from inside."""
+    """Return a closed surface with one side, a bottle whose neck goes through its wall to its bottom."""
 
     def surface(u: Array, v: Array) -> Array:
         # the middle line goes up inside the belly, over the top, down through the neck: a closed curve in x and y, with
@@ -134,7 +136,7 @@ def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
 
 
 def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: int = 36, down: int = 16) -> Mesh:
-    """Between a cube (0, 0), a ball (1, 1) and an octahedron (2, 2)."""
+    """Return a shape between a cube (0, 0), a sphere (1, 1) and an octahedron (2, 2)."""
 
     def power(x: Array, exponent: float) -> Array:
         return np.asarray(np.sign(x) * np.abs(np.where(np.abs(x) < 1e-12, 0, x)) ** exponent)
@@ -151,7 +153,7 @@ def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: in
 
 
 def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
-    """A tube that grows as it winds down about the y axis, open at its end."""
+    """Return a tube that grows as it winds down about the y axis, open at its end."""
 
     def surface(u: Array, v: Array) -> Array:
         angle, growth = TURN * turns * u, np.exp(0.62 * turns * (u - 1))
@@ -166,17 +168,17 @@ def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
 
 
 def cylinder(around: int = 40) -> Mesh:
-    """Radius 0.75, height 1.8, along the y axis."""
+    """Return a cylinder of radius 0.75 and height 1.8 along the y axis."""
     return _lathe([0, 0.75, 0.75, 0], [-0.9, -0.9, 0.9, 0.9], around)
 
 
 def cone(around: int = 40) -> Mesh:
-    """Radius 0.85, height 1.8, its point upward."""
+    """Return a cone of radius 0.85 and height 1.8 that points upward."""
     return _lathe([0, 0.85, 0], [-0.9, -0.9, 0.9], around)
 
 
 def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
-    """What a broken line sweeps about the y axis, from the bottom up; smooth around, with edges between its parts."""
+    """Return the surface of a polyline turned about the y axis, smooth around, with edges between its parts."""
     parts = []
     k, top = np.arange(around), around + 1
     angle = TURN * np.arange(around + 1) / around
@@ -196,36 +198,36 @@ def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
 
 
 def cube() -> Mesh:
-    """Sides of length 1.2; each corner has the colour of its place: red along x, green along y, blue along z."""
+    """Return a cube of side 1.2 with its position as colour: red along x, green along y, blue along z."""
     corners = np.array(list(product((0, 1), repeat=3)))
     return Mesh(1.2 * corners - 0.6, _faces_of(corners), colors=255 * corners)
 
 
 def tetrahedron() -> Mesh:
-    """4 triangles."""
+    """Return a regular tetrahedron, 4 triangles."""
     return hull([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
 
 
 def octahedron() -> Mesh:
-    """8 triangles."""
+    """Return a regular octahedron, 8 triangles."""
     return hull(np.concatenate([np.eye(3), -np.eye(3)]))
 
 
 def icosahedron() -> Mesh:
-    """20 triangles."""
+    """Return a regular icosahedron, 20 triangles."""
     phi = (1 + 5**0.5) / 2
     return hull([np.roll((0, s, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)])
 
 
 def dodecahedron() -> Mesh:
-    """12 pentagons."""
+    """Return a regular dodecahedron, 12 pentagons."""
     phi = (1 + 5**0.5) / 2
     corners = [np.roll((0, s / phi, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)]
     return hull(np.array([*corners, *product((-1, 1), repeat=3)]))
 
 
 def icosphere(halvings: int = 2) -> Mesh:
-    """Radius 1: an icosahedron whose edges are halved again and again; 20 * 4^halvings triangles."""
+    """Return a sphere of radius 1: an icosahedron, subdivided into 20 * 4^halvings triangles."""
     positions, faces = np.asarray(icosahedron().positions), np.asarray(icosahedron().faces)
     for _ in range(halvings):
         a, b, c = positions[faces].transpose(1, 0, 2)
@@ -237,14 +239,15 @@ def icosphere(halvings: int = 2) -> Mesh:
 
 
 def hull(points: ArrayLike) -> Mesh:
-    """The convex polyhedron of corners that all lie on it, its faces as fans; on the unit sphere if they are."""
+    """Return the convex polyhedron of corners that all lie on it, normalized to the unit sphere."""
     corners = _unit(np.asarray(points, dtype=np.float64))
     return Mesh(corners, _faces_of(corners))
 
 
 def menger_sponge(depth: int = 2) -> Mesh:
-    """A cube with square tunnels, in each of the cubes that stay again; only the faces that can be seen from outside
-    or from within the tunnels. 12, 144, 2,112 triangles for depth 0, 1, 2.
+    """Return a Menger sponge: a cube with square tunnels, recursively. Only visible faces are included.
+
+    It has 12, 144, 2,112 triangles for depth 0, 1, 2.
     """
     side = 3**depth
     place = np.indices((side,) * 3)
@@ -272,7 +275,7 @@ def menger_sponge(depth: int = 2) -> Mesh:
 
 
 def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
-    """The mesh in colours from `low` to `high` along an axis."""
+    """Return the mesh in colours from `low` to `high` along an axis."""
     height = mesh.positions @ np.asarray(axis, dtype=np.float64)
     share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
     ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
@@ -281,7 +284,7 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
 
 
 def joined(*meshes: Mesh) -> Mesh:
-    """All of them as one mesh, with the normals if all have some."""
+    """Return several meshes as one, with normals if all have some."""
     starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
     return Mesh(
@@ -296,7 +299,7 @@ def joined(*meshes: Mesh) -> Mesh:
 
 
 def _around(angle: Array, height: Array, reach: Array) -> Array:
-    """Points about the y axis."""
+    """Return points about the y axis."""
     x, y, z = np.broadcast_arrays(reach * np.cos(angle), height, -reach * np.sin(angle))
     return np.stack([x, y, z], axis=-1)
 
@@ -321,7 +324,7 @@ def _smooth(positions: Array, faces: NDArray[np.int64]) -> Mesh:
 
 
 def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
-    """(m, 3): the faces of the convex polyhedron with these corners, seen from outside."""
+    """Return the faces of the convex polyhedron with these corners, (m, 3), seen from outside."""
     corners = np.asarray(points, dtype=np.float64)
     corners = corners - corners.mean(axis=0)
     count = len(corners)

@@ -14,14 +14,14 @@ COUNT = 1024
 
 
 def seed_of(number: int) -> bytes:
-    """The seed of a piece of the collection, from 0 to 1023."""
+    """Return the seed of a piece of the collection, from 0 to 1023."""
     if not 0 <= number < COUNT:
         raise InputError(f"the pieces of the collection are numbered from 0 to {COUNT - 1}, not {number}")
     return keccak256(f"shackled-{number}".encode("ascii"))
 
 
 def parse_seed(text: str) -> bytes:
-    """A seed, written as 64 hexadecimal digits, with or without 0x, or as the number of a piece of the collection."""
+    """Return the seed of 64 hexadecimal digits, with or without 0x, or of the number of a piece."""
     if re.fullmatch(r"(0[xX])?[0-9a-fA-F]{64}", text):
         return bytes.fromhex(text[-64:])
     if re.fullmatch(r"0|[1-9][0-9]{0,3}", text) and int(text) < COUNT:
@@ -32,12 +32,12 @@ def parse_seed(text: str) -> bytes:
 
 
 def pieces() -> Iterator[Piece]:
-    """The pieces of the collection."""
+    """Return the pieces of the collection."""
     return (_piece(str(number), seed_of(number)) for number in range(COUNT))
 
 
 def find(name: str) -> Piece | None:
-    """The piece of that number or of that seed, as `parse_seed` reads it; None if it is neither."""
+    """Return the piece of a number or seed, as `parse_seed` reads it; None if it is neither."""
     try:
         seed = parse_seed(name)
     except InputError:

@@ -39,7 +39,7 @@ class GenesisPiece:
     faces: Sequence[Point3]
 
     def document(self) -> dict[str, Any]:
-        """The piece as JSON has it; `seed` in 64 hexadecimal digits."""
+        """Return the piece as a JSON object; `seed` is 64 hexadecimal digits."""
         return {
             "seed": self.seed.hex(),
             "structure": self.structure,
@@ -56,7 +56,7 @@ class GenesisPiece:
         }
 
     def scene(self) -> Scene:
-        """How it is drawn: 128 x 128 pixels, seen from the front, lit from the left."""
+        """Return the scene: 128 x 128 pixels, seen from the front, lit from the left."""
         mesh = Mesh(self.verts, self.faces, self.cols)
         return Scene(
             [Object(mesh, POSITION, material=MATERIAL, cull=self.culling, wireframe=self.wireframe)],

@@ -23,7 +23,7 @@ def _no_progress(done: int, total: int) -> None:
 
 
 def check_sheet(path: str | Path) -> Path:
-    """The path, if a sheet can be written there."""
+    """Return the path, if a sheet can be written there."""
     path = Path(path)
     if path.suffix.lower() != ".png":
         raise InputError(f"the sheet {path} must end in .png")
@@ -41,11 +41,11 @@ def render_sheet(
     workers: int | None = None,
     progress: Progress = _no_progress,
 ) -> None:
-    """Draws the first `count` pieces by the contracts, size x size pixels each, in rows, into one PNG.
+    """Render the first `count` pieces, size x size pixels each, in rows, into one PNG.
 
-    workers: how many processes draw at once; None takes as many as there are cores. Each drawing is kept in the cache
-    folder when it is done: a run that was stopped goes on where it was. progress is told how many are done, and of how
-    many. InputError if the file cannot be written.
+    workers: number of worker processes; None for one per core. progress: called with the number of finished pieces and
+    of all. Finished drawings are kept in the cache folder, so that an interrupted run continues. InputError or
+    OutputError if the file cannot be written.
     """
     path = check_sheet(path)
     check_number(count, "the number of pieces of a sheet", 1, COUNT)

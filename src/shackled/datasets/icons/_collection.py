@@ -43,10 +43,10 @@ ICONS = (
 
 
 def pieces() -> Iterable[Piece]:
-    """All icons."""
+    """Return all icons."""
     return [icon.piece() for icon in ICONS]
 
 
 def find(name: str) -> Piece | None:
-    """The icon of that name, without the dataset's: `find("diamond")`."""
+    """Return the icon of that name, without the name of the dataset, such as "diamond"; None if there is none."""
     return next((icon.piece() for icon in ICONS if icon.name == name), None)

@@ -60,7 +60,7 @@ class IconModel:
         return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
 
     def piece(self) -> Piece:
-        """The icon as a piece of the dataset."""
+        """Return the icon as a piece of the dataset."""
         return Piece(f"icons/{self.name}", "icons", self.title, self.licence, self.scene)
 
 
@@ -77,11 +77,11 @@ def icon(
     licence: str = "MIT",
     crease: float = CREASE,
 ) -> Callable[[Callable[[], Solid]], IconModel]:
-    """Makes an icon, named as the function is that models it.
+    """Declare an icon, named as the function that models it.
 
-    title: for people. top, bottom: the colours of the background. view: azimuth and elevation of the viewer, and turn:
-    of the model about x, y and z, in degrees. light: toward the only light, right, up and toward the viewer.
-    margin: as in `Look`. crease: as in `Solid.mesh`.
+    top, bottom: the colours of the background. view: azimuth and elevation of the viewer; turn: of the model about x, y
+    and z; all in degrees. light: direction toward the only light, in the directions right, up and toward the viewer.
+    margin: as in `load`. crease: as in `Solid.mesh`.
     """
     look = LookOptions(
         rotate=turn,
@@ -97,8 +97,10 @@ def icon(
 
 
 def _cheaper(o: Object, camera: Camera) -> list[Object]:
-    """Objects that look the same and cost less: the nearest triangles first, for what they hide is not lit; and those
-    that are flat apart from the others, for they need no normals.
+    """Return objects that look the same and cost less gas.
+
+    The nearest triangles come first, since what they hide is not lit; flat parts are separated, since they need no
+    normals.
     """
     faces = o.mesh.faces
     distance = np.linalg.norm(o.world_positions() - camera.eye, axis=1)[faces].mean(axis=1)
@@ -118,7 +120,7 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
 
 
 def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
-    """Some of the faces, in that order, with the vertices that they need."""
+    """Return some of the faces, in that order, with the vertices that they need."""
     columns: list[NDArray[np.float64]] = [mesh.positions, mesh.colors.astype(np.float64)]
     if smooth and mesh.normals is not None:
         columns.append(mesh.normals)

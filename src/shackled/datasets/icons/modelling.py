@@ -43,37 +43,38 @@ class Solid:
     # ---- moving ----
 
     def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
-        """Moved by so many units."""
+        """Return the solid moved."""
         return replace(self, corners=self.corners + np.array((x, y, z)))
 
     def turned(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
-        """Turned about the x, then the y, then the z axis, counter-clockwise as seen from its positive end."""
+        """Return the solid turned about the x, then the y, then the z axis, by degrees, counter-clockwise."""
         return replace(self, corners=rotate(from_euler((x, y, z)), self.corners.reshape(-1, 3)).reshape(-1, 3, 3))
 
     def scaled(self, x: float = 1, y: float = 1, z: float = 1) -> Solid:
-        """Scaled about the origin; a negative factor mirrors, and the triangles still face outward."""
+        """Return the solid scaled about the origin; a negative factor mirrors it, and faces still point outward."""
         return self.bent(lambda points: points * (x, y, z))
 
     def mirrored(self) -> Solid:
-        """The mirror image, left and right exchanged."""
+        """Return the mirror image, left and right exchanged."""
         return self.scaled(x=-1)
 
     def bent(self, function: Callable[[Array], Array]) -> Solid:
-        """Each point (of (n, 3)) taken elsewhere; `function` must not turn the solid inside out other than by
-        mirroring it.
+        """Return the solid with a function applied to its points, (n, 3).
+
+        The function may mirror the solid, but not turn it inside out in any other way.
         """
         return _outward(replace(self, corners=function(self.corners.reshape(-1, 3)).reshape(-1, 3, 3)))
 
     # ---- colouring ----
 
     def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
-        """In one colour; or only the triangles whose centres, (m, 3), `where` says yes to."""
+        """Return the solid in one colour, or only the triangles whose centres, (m, 3), `where` selects."""
         mask = np.ones(len(self.corners), dtype=bool) if where is None else where(self.corners.mean(axis=1))
         channels = np.array(checks.color(color, "the colour of a solid"), dtype=np.uint8)
         return replace(self, colors=np.where(mask[:, None, None], channels, self.colors))
 
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
-        """In a gradient along an axis, from the farthest point on its negative side to that on its positive one."""
+        """Return the solid in a gradient along an axis, from its lowest to its highest point."""
         along = self.corners @ np.asarray(axis, dtype=np.float64)
         part = ((along - along.min()) / np.ptp(along))[..., None]
         start, end = (np.array(checks.color(color, "the colour of a solid")) for color in (low, high))
@@ -82,16 +83,15 @@ class Solid:
     # ---- the result ----
 
     def volume(self) -> float:
-        """The sum of the volumes of the parts."""
+        """Return the sum of the volumes of the parts."""
         a, b, c = (self.corners - self.corners.mean(axis=(0, 1))).transpose(1, 0, 2)
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
     def mesh(self, crease: float | None = None) -> Mesh:
-        """The mesh, in `STEPS` whole coordinates a unit, for flat shading; or with normals for smooth shading.
+        """Return the mesh in whole coordinates, `STEPS` per unit, for flat shading, or with normals for smooth shading.
 
-        crease: with it, edges at which the surface turns by fewer degrees look round, all others stay sharp.
-
-        Vertices are shared wherever place, colour and normal are the same.
+        crease: the angle in degrees up to which edges look round; None for no normals. Vertices are shared where
+        position, colour and normal are the same.
         """
         corners = np.rint(self.corners * STEPS)
         kept = _distinct(corners)
@@ -105,32 +105,32 @@ class Solid:
 
 
 def union(*solids: Solid) -> Solid:
-    """All of them as one; where they overlap, nothing is cut away."""
+    """Return all solids as one; where they overlap, nothing is cut away."""
     return Solid(np.concatenate([s.corners for s in solids]), np.concatenate([s.colors for s in solids]))
 
 
 def above(y: float) -> Where:
-    """For `painted`: what lies higher than that."""
+    """Select what is higher, for `painted`."""
     return lambda at: at[:, 1] > y
 
 
 def below(y: float) -> Where:
-    """For `painted`: what lies lower than that."""
+    """Select what is lower, for `painted`."""
     return lambda at: at[:, 1] < y
 
 
 def from_axis(at: Array) -> Array:
-    """(n,): the distances of points (n, 3) from the y axis."""
+    """Return the distances of points (n, 3) from the y axis, (n,)."""
     return np.asarray(np.hypot(at[:, 0], at[:, 2]))
 
 
 def both(solid: Solid) -> Solid:
-    """The solid, and its mirror image on the other side of x = 0."""
+    """Return the solid and its mirror image on the other side of x = 0."""
     return solid + solid.mirrored()
 
 
 def around(solid: Solid, count: int, start: float = 0) -> Solid:
-    """So many copies around the y axis, the first turned by `start` degrees."""
+    """Return copies of a solid around the y axis, the first turned by `start` degrees."""
     return union(*(solid.turned(y=start + 360 * i / count) for i in range(count)))
 
 
@@ -138,9 +138,9 @@ def around(solid: Solid, count: int, start: float = 0) -> Solid:
 
 
 def loft(rings: ArrayLike, closed: bool = False) -> Solid:
-    """A skin over rings of points, (k, n, 3), with flat ends; or back to the first ring, without ends, if `closed`.
+    """Return a skin over rings of points, (k, n, 3), with flat ends; if `closed`, back to the first ring.
 
-    The points of a ring go around the solid; those that are the same are joined, a whole ring of them is a tip.
+    The points of a ring go around the solid; equal points are merged, and a ring of equal points is a tip.
     """
     points = np.asarray(rings, dtype=np.float64)
     here = points if closed else points[:-1]
@@ -155,9 +155,9 @@ def loft(rings: ArrayLike, closed: bool = False) -> Solid:
 
 
 def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
-    """A polygon (n, 2) of the x-y plane, `depth` thick, half of it on either side of the plane.
+    """Return a polygon (n, 2) of the x-y plane, `depth` thick, half of it on either side of the plane.
 
-    bevel: so much of both faces' rims is cut off at 45 degrees.
+    bevel: the width by which the rims of both faces are cut off at 45 degrees.
     """
     points, z = np.asarray(outline, dtype=np.float64), depth / 2
     if bevel == 0:
@@ -167,8 +167,9 @@ def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
 
 
 def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
-    """A profile of (radius, y) points, (k, 2), turned about the y axis; with flat ends where it does not begin or end
-    on the axis, or, if `closed`, a ring whose section is the polygon.
+    """Return a profile of (radius, y) points, (k, 2), turned about the y axis.
+
+    Its ends are flat where it does not begin or end on the axis. closed: whether the profile is the section of a ring.
     """
     circle = regular(segments, 1.0, 180 / segments)
     radius, y = np.asarray(profile, dtype=np.float64).T
@@ -180,9 +181,9 @@ def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
 
 
 def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Sequence[float] | None = None) -> Solid:
-    """A polygon (n, 2) carried along a path (k, 3), always upright on it, and scaled by (k,) factors.
+    """Return a polygon (n, 2) swept along a path (k, 3), perpendicular to it, and scaled by (k,) factors.
 
-    closed: the path, then in a plane, returns to its first point; otherwise the ends are flat.
+    closed: whether the path, then in a plane, returns to its first point; otherwise the ends are flat.
     """
     points, section = np.asarray(path, dtype=np.float64), np.asarray(outline, dtype=np.float64)
     factors = np.ones(len(points)) if scales is None else np.asarray(scales, dtype=np.float64)
@@ -204,12 +205,12 @@ def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Seq
 
 
 def box(width: float, height: float, depth: float) -> Solid:
-    """A box about the origin: 12 triangles."""
+    """Return a box about the origin, 12 triangles."""
     return prism(rectangle(width, height), depth)
 
 
 def bevelled_box(width: float, height: float, depth: float, bevel: float) -> Solid:
-    """A box about the origin whose edges are cut off, `bevel` from each: 44 triangles."""
+    """Return a box about the origin with its edges cut off by `bevel`, 44 triangles."""
     z = depth / 2
     # each corner twice, for the two corners of the ring beside it
     small = np.repeat(rectangle(width - 2 * bevel, height - 2 * bevel), 2, axis=0)
@@ -218,17 +219,17 @@ def bevelled_box(width: float, height: float, depth: float, bevel: float) -> Sol
 
 
 def cylinder(radius: float, height: float, segments: int, top: float | None = None) -> Solid:
-    """A cylinder about the origin along y; or, with another radius at the top, a part of a cone."""
+    """Return a cylinder about the origin along y, or, with another radius at the top, a truncated cone."""
     return revolve([(radius, -height / 2), (radius if top is None else top, height / 2)], segments)
 
 
 def cone(radius: float, height: float, segments: int) -> Solid:
-    """A cone that stands on the origin, its tip at y = height."""
+    """Return a cone that stands on the origin, with its tip at y = height."""
     return revolve([(radius, 0), (0, height)], segments)
 
 
 def sphere(radius: float, segments: int, rings: int) -> Solid:
-    """A sphere about the origin of 2 * segments * (rings - 1) triangles, with poles at top and bottom."""
+    """Return a sphere about the origin of 2 * segments * (rings - 1) triangles."""
     angles = np.linspace(-90, 90, rings + 1)
     profile = np.stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))], axis=1) * radius
     profile[[0, -1], 0] = 0
@@ -236,7 +237,7 @@ def sphere(radius: float, segments: int, rings: int) -> Solid:
 
 
 def icosphere(radius: float, divisions: int) -> Solid:
-    """A sphere about the origin of 20 * 4^divisions nearly equal triangles."""
+    """Return a sphere about the origin of 20 * 4^divisions nearly equal triangles."""
     golden = (1 + 5**0.5) / 2
     pairs = [(s, t * golden) for s in (-1, 1) for t in (-1, 1)]
     points = np.array([np.roll((0, *pair), axis) for axis in range(3) for pair in pairs], dtype=np.float64)
@@ -258,21 +259,21 @@ def icosphere(radius: float, divisions: int) -> Solid:
 
 
 def torus(radius: float, thickness: float, segments: int, sides: int) -> Solid:
-    """A ring about the y axis, `thickness` being the radius of its section: 2 * segments * sides triangles."""
+    """Return a ring about the y axis of 2 * segments * sides triangles. thickness: the radius of its section."""
     return revolve(regular(sides, thickness) + np.array((radius, 0)), segments, closed=True)
 
 
 def tube(
     path: ArrayLike, radius: float, sides: int, closed: bool = False, scales: Sequence[float] | None = None
 ) -> Solid:
-    """A round rod along a path (k, 3): `sweep` of a regular polygon."""
+    """Return a round rod along a path (k, 3): `sweep` of a regular polygon."""
     return sweep(regular(sides, radius), path, closed, scales)
 
 
 def link(length: float, width: float, thickness: float, steps: int, sides: int) -> Solid:
-    """A link of a chain in the x-y plane, along x: two half circles of `steps` parts each, joined by straight rods.
+    """Return a chain link in the x-y plane, along x: two half circles of `steps` parts, joined by straight rods.
 
-    length, width: from one middle of the rod to that opposite. thickness: the radius of the rod.
+    length, width: between the centres of opposite rods. thickness: the radius of the rod.
     """
     radius = width / 2
     angles = np.radians(np.linspace(-90, 90, steps + 1))
@@ -281,9 +282,9 @@ def link(length: float, width: float, thickness: float, steps: int, sides: int) 
 
 
 def pixels(rows: Sequence[str], palette: dict[str, str], depth: float) -> Solid:
-    """A picture of characters as a relief of boxes, one unit a pixel, about the origin; " " is empty.
+    """Return a relief of boxes, one unit per character, about the origin; " " is empty.
 
-    Neighbours of the same colour in a row, and equal runs in rows below one another, become one box.
+    Neighbours of the same colour in a row, and equal runs in consecutive rows, become one box.
     """
     height, width = len(rows), max(map(len, rows))
     runs: dict[tuple[int, int, str], tuple[int, int]] = {}
@@ -317,7 +318,7 @@ def _at(outline: Array, z: float) -> Array:
 
 
 def _distinct(corners: Array) -> NDArray[np.bool_]:
-    """Which triangles have three different corners."""
+    """Return which triangles have three different corners, (m,) bool."""
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     return np.asarray(sides.min(axis=1) > SAME)
 
@@ -329,7 +330,7 @@ def _outward(solid: Solid) -> Solid:
 
 
 def _cap(ring: Array) -> Array:
-    """The triangles, (m, 3, 3), of a flat ring, running as it does; none for a tip or a line."""
+    """Return the triangles of a flat ring, (m, 3, 3), in its orientation; none for a tip or a line."""
     points = ring[np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1) > SAME]
     if len(points) < 3:
         return np.empty((0, 3, 3))
@@ -341,8 +342,9 @@ def _cap(ring: Array) -> Array:
 
 
 def _normals(corners: Array, crease: float) -> Array:
-    """(m, 3, 3) unit normals of the corners: the mean of the faces that meet there and differ by less than `crease`
-    degrees, weighted by their angles.
+    """Return unit normals of the corners, (m, 3, 3).
+
+    Each is the mean, weighted by angle, of the faces that meet there and differ by less than `crease` degrees.
     """
     sides = np.roll(corners, -1, axis=1) - corners
     faces = np.cross(sides[:, 0], sides[:, 1])

@@ -52,9 +52,9 @@ def is_varied(image: Image.Image) -> bool:
 
 
 def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
-    """(n, 3) colours 0..255 between the nearest four texels.
+    """Return the colours of an image, (n, 3), 0..255, interpolated between the nearest four texels.
 
-    coordinates: (n, 2) float, from the left bottom (0, 0) to the right top (1, 1); beyond that the image repeats.
+    coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
     """
     texels = np.asarray(image.convert("RGB"), dtype=np.float64)
     height, width = texels.shape[:2]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputError, InputWarning
-from ...json_text import read_json, read_toml
+from ...untrusted import read_json, read_toml
 
 #: No mesh that a contract takes comes near this size; beyond it a file would only fill the memory.
 MAX_BYTES = 256 * 2**20

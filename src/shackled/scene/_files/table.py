@@ -24,7 +24,7 @@ class Table:
     """
 
     def __init__(self, value: object, where: str, known: tuple[str, ...] | None = None) -> None:
-        """`known` are the keys that it may have, None for any."""
+        """Take a table. known: the keys that it may have; None for any."""
         if not isinstance(value, Mapping):
             keys = f" with keys of {', '.join(known)}" if known else ""
             raise InputError(f"{where} must be a table{keys}, not {value!r:.60}")
@@ -36,7 +36,7 @@ class Table:
         self.where = where
 
     def __contains__(self, key: str) -> bool:
-        """Whether the key is there."""
+        """Return whether the key is there."""
         return key in self.values
 
     def place(self, key: str) -> str:
@@ -79,7 +79,7 @@ class Table:
         return tuple(float(part) for part in value)
 
     def matrix(self, key: str, whole: bool = False) -> NDArray[Any]:
-        """(n, 3): rows of three numbers, none if the key is absent; integers if they must be whole."""
+        """Return rows of three numbers, (n, 3), none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
         for place, row in rows:
             if not isinstance(row, list) or len(row) != 3 or not all(is_number(value) for value in row):
