@@ -54,7 +54,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "magnified": lambda: ready(through(flat(teapot_scene(1)))),
     "orthographic": lambda: ready(above(teapot_scene(1))),
     "inverted": lambda: ready(flat(teapot_scene(1)), invert=True),
-    "a piece of the collection": lambda: ready(load("genesis/907")),
+    "an icon": lambda: ready(load("icons/bell")),
 }
 
 

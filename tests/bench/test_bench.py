@@ -309,7 +309,7 @@ def test_mistakes_are_told(
 def test_without_matplotlib(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(bench, "find_spec", lambda name: None)
+    monkeypatch.setattr("shackled.bench._experiments.find_spec", lambda name: None)
     assert run(["bench", "deploy", "--quick", "-o", str(tmp_path)]) == 2
     assert "pip install 'shackled[bench]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

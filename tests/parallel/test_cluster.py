@@ -77,7 +77,7 @@ def test_what_a_worker_says_is_told(address: str) -> None:
 def test_something_else_than_a_cluster() -> None:
     """Nothing but one line, and at once."""
     program = (
-        "import sys; from shackled.cli.app import run; from shackled.parallel import cluster; cluster.PATIENCE = 2; "
+        "import sys; from shackled.cli.app import run; from shackled.parallel import _cluster; _cluster.PATIENCE = 2; "
         "sys.exit(run(['render', 'cube', '--size', '8', '--cluster', %r]))"
     )
     with serving(lambda request: Reply(b"?")) as url:

@@ -25,8 +25,8 @@ def test_gas_of_tiles(side: int) -> None:
         assert written[f"{across} x {down}"] == sum(gas(scene, "renderTile", part) for part in parts)
 
 
-def test_strips_cost_about_as_much_as_squares() -> None:
+def test_few_strips_cost_about_as_much_as_squares() -> None:
     for written in FIGURES["Tiles"].values():
-        assert written["1 x 4"] < 1.1 * written["2 x 2"]
+        assert written["1 x 4"] < 1.02 * written["2 x 2"]
         # of 128 rows, two each
-        assert written["1 x 64"] < 1.2 * written["8 x 8"]
+        assert written["1 x 64"] < 1.18 * written["8 x 8"]

@@ -1,7 +1,9 @@
 """How a canvas is cut into tiles.
 
-Tiles are strips as wide as the canvas wherever that is possible: the rows of a triangle are then cut as little as they
-can be.
+Tiles are strips as wide as the canvas wherever that is possible: the estimate of what a tile costs is made of strips.
+Up to eight strips cost as much as squares (1 x 8 as 2 x 4). Of more tiles, squares show fewer faces each, and the
+contract leaves the others out: at 512 x 512 pixels 16 strips cost 3 % more than 2 x 8 tiles, 32 strips 7 % more than
+4 x 8.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ FEWEST_ROWS = 4
 
 
 def cut(width: int, height: int, pixels: int, at_least: int = 1) -> list[Rectangle]:
-    """Tiles of a canvas, rows from the top.
+    """Return tiles of a canvas, rows from the top.
 
     pixels: of a tile at most, 1 or more. at_least: so many tiles, if there are so many rows.
     """
