@@ -351,7 +351,7 @@ def test_a_large_picture_does_not_stand_in_the_way(monkeypatch: pytest.MonkeyPat
 
 def test_what_is_wrong_is_said() -> None:
     async def test(pool: Pool) -> None:
-        with pytest.raises(InputError, match="there is no piece 'teapott'; close is teapot"):
+        with pytest.raises(InputError, match="there is no piece 'teapott'; did you mean teapot"):
             await pool.render("a", State(Source("piece", "teapott")))
         with pytest.raises(InputError, match="is not here, or no more: hand it in again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))

@@ -130,8 +130,8 @@ def test_unused_vertices_are_dropped_in_order() -> None:
     mesh = Mesh([[9, 9, 9], [0, 0, 0], [8, 8, 8], [5, 0, 0], [0, 5, 0]], [[1, 4, 3]], np.arange(15).reshape(5, 3))
     fitted = fit(scene_of(mesh)).objects[0].mesh
     assert fitted.positions.tolist() == [[0, 0, 0], [5, 0, 0], [0, 5, 0]]
-    assert np.asarray(fitted.faces).tolist() == [[0, 2, 1]]
-    assert np.asarray(fitted.colors).tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
+    assert fitted.faces.tolist() == [[0, 2, 1]]
+    assert fitted.colors.tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
 
 
 @pytest.mark.parametrize(("vertices", "faces"), [(65536, 30000), (3, 65536)])

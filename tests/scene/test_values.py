@@ -186,7 +186,7 @@ def test_dark_colours_of_the_original_stay_dark(tmp_path: Any) -> None:
     (tmp_path / "dark.json").write_text(json.dumps(document), "utf-8")
     dark = load(tmp_path / "dark.json")
     assert dark.background == Background((1, 0, 0), (0, 1, 1))
-    assert np.asarray(dark.objects[0].mesh.colors).tolist() == [[1, 0, 0]] * 3
+    assert dark.objects[0].mesh.colors.tolist() == [[1, 0, 0]] * 3
 
 
 def test_integers_of_numpy_are_sizes() -> None:

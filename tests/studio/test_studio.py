@@ -96,7 +96,7 @@ def test_what_is_kept_is_the_scene(world: World) -> None:
     pointer = stored(world, SCENE)
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert struct[0] == (48, 40)
-    sizes = [5 + 13 * len(POT.positions) + 6 * len(np.asarray(POT.faces)), 5 + 9 * 3 + 6]
+    sizes = [5 + 13 * len(POT.positions) + 6 * len(POT.faces), 5 + 9 * 3 + 6]
     assert [len(o[0]) for o in struct[6]] == sizes
     # a scene that is not kept is drawn in the same way, its meshes wherever they are
     data = call_data(f"drawPNG({SCENE_STRUCT},uint256)", struct, 1)

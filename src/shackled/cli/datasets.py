@@ -175,17 +175,14 @@ def gallery(
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
-    from ..whole_file import write_output
+    from ..whole_file import check_output_file, write_output
 
     wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]
     for path in paths:
         if path.suffix.lower() not in (".html", ".png"):
             raise InputError(f"the gallery {path} must end in .html or .png")
-        if path.is_dir():
-            raise InputError(f"{path} is a folder, not the file of a gallery")
-        if not path.parent.is_dir():
-            raise InputError(f"the folder {path.parent} of the gallery {path.name} does not exist")
+        check_output_file(path, "gallery")
     shown, genesis = [], 0
     for piece in pieces(wanted):
         genesis += piece.dataset == "genesis"

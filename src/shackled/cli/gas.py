@@ -44,7 +44,7 @@ def gas(
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "Timeout of a call to the node; 120 by default.", "SECONDS")
+        float | None, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", show_default="120")
     ] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[

@@ -48,7 +48,8 @@ def render(
         option("--turntable", "Render a full turn in this many frames.", "FRAMES", "Turntable"),
     ] = None,
     duration: Annotated[
-        int | None, option("--duration", f"Duration of a frame; {DURATION} by default.", "MILLISECONDS", "Turntable")
+        int | None,
+        option("--duration", "Duration of a frame.", "MILLISECONDS", "Turntable", show_default=str(DURATION)),
     ] = None,
     chain: Annotated[
         str | None,

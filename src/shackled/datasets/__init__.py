@@ -1,7 +1,4 @@
-"""Scenes that come with the package, and models that are fetched on request.
-
-Each dataset is a module or package with `pieces()` and `find(name)`; it is imported when it is first asked for.
-"""
+"""Datasets: scenes that come with the package, and third-party models that are downloaded on request."""
 
 import lazy_loader
 

@@ -1,7 +1,4 @@
-"""Scenes that come with the package, and models that are fetched on request.
-
-Each dataset is a module or package with `pieces()` and `find(name)`; it is imported when it is first asked for.
-"""
+"""Pieces by name. Each dataset is a package with `pieces()` and `find(name)`, imported on first use."""
 
 from __future__ import annotations
 
@@ -13,7 +10,7 @@ from typing import Any
 from ..errors import InputError
 from ._piece import Piece
 
-#: The datasets, and what stands before the names of their pieces.
+#: The datasets, and the prefixes of the names of their pieces.
 DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
 
 
@@ -36,7 +33,7 @@ def require(name: str) -> Piece:
     if piece is not None:
         return piece
     close = get_close_matches(name.lower(), [each.name for each in pieces()], n=3)
-    hint = f"close is {' or '.join(close)}; " if close else ""
+    hint = f"did you mean {' or '.join(close)}? " if close else ""
     raise InputError(f"there is no piece {name!r}; {hint}`shackled datasets list` shows all")
 
 

@@ -1,4 +1,4 @@
-"""All pieces on one page, or in one picture."""
+"""Galleries: pieces on an HTML page or in a contact sheet."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from PIL import ImageDraw, ImageFont
 from ._drawing import Thumbnail
 from ._piece import Piece
 
-#: Of the contact sheet, in pixels.
+#: Sizes in the contact sheet, in pixels.
 CELL, LABEL, GAP = 128, 32, 8
 PAPER, INK, FAINT = (250, 250, 248), (20, 22, 28), (110, 114, 122)
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..scene import Mesh, vertex_normals
+from ..scene import Mesh, vertex_normals, without_slivers
 
 Profile = tuple[tuple[float, float], ...]
 Limb = tuple[tuple[tuple[float, float], tuple[float, float], float], ...]
@@ -87,10 +87,8 @@ def teapot(divisions: int = 6) -> Mesh:
     # patches meet in the same points but for rounding
     x, y, z = np.round(points.reshape(-1, 3), 9).T
     positions, number = np.unique(np.stack([x, z, -y], axis=1) + 0.0, axis=0, return_inverse=True)
-    faces = number.reshape(-1)[faces]
     # at the knob's top and in the middle of the bottom a whole side of a patch is one point
-    one, two, three = faces.T
-    faces = faces[(one != two) & (two != three) & (three != one)]
+    faces = without_slivers(number.reshape(-1)[faces])
     return Mesh(positions, faces, normals=vertex_normals(positions, faces))
 
 

@@ -26,7 +26,7 @@ from ._from_trimesh import is_trimesh, mesh_of, objects_of
 from ._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals
+from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
@@ -114,6 +114,7 @@ __all__ = [
     "vertex_normals",
     "view_axes",
     "weld",
+    "without_slivers",
     "write_obj",
     "write_scene",
 ]

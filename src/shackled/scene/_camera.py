@@ -1,4 +1,4 @@
-"""Where the eye is and how it projects."""
+"""Cameras: position, direction and projection."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ class Camera(Value):
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
     half_height: half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half
         the vertical field of view, 2^-10..2^10), in world units for an orthographic one.
-    near: distance of the near plane; what is nearer is clipped. Positive for a perspective camera. None chooses a
-        1,024th of how far any object reaches from the eye; all that is before an orthographic one is shown.
+    near: distance of the near plane, before which geometry is clipped. Positive for a perspective camera. None for
+        1/1,024 of the farthest distance of an object; an orthographic camera then clips nothing.
     """
 
     eye: Floats = field(default=_EYE, converter=vector, eq=array_key, metadata=checked("the camera's eye"))

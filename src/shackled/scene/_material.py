@@ -1,4 +1,4 @@
-"""How a surface answers light."""
+"""Materials."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A mesh with its place in the world."""
+"""Objects: meshes placed in the world."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class Object(Value):
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
         in degrees about x, then y, then z, or as a (3, 3) matrix.
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
-    opacity: what it hides of what is behind it, 0..1. Objects of less than 1 are drawn after the others, in the order
-        of the scene, each over what is there; the farthest should come first.
+    opacity: 0..1. Objects below 1 are drawn after the others, blended in the order of the scene; the farthest should
+        come first.
     """
 
     mesh: Mesh = field(converter=_mesh)

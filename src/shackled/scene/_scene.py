@@ -1,4 +1,4 @@
-"""Everything that a picture is made from."""
+"""Scenes: objects, camera, lights, background and size."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ..
 
 
 def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
-    """Return the lights that are meant: one alone, or up to four in a list; None is replaced by a Scene."""
+    """Return lights, given as one or as a list of up to four; None is replaced by the Scene."""
     if value is None:
         return value  # type: ignore[return-value]
     lights = _list([value] if isinstance(value, Light) else value, "lights")
@@ -77,9 +77,9 @@ class Scene:
 
     objects: also a Mesh in place of an Object, or one alone.
     background: also a colour, or two, (top, bottom).
-    camera, lights, background: where none of the three is given, objects are staged: the camera comes as near as it can
-        with all of them in the picture, from a little above and to the side, and a white light shines from the upper
-        left. Otherwise None is `Camera()`, no light, or black.
+    camera, lights, background: if none of the three is given, objects are staged: the camera sees all of them from a
+        little above and to the side, and a white light shines from the upper left. Otherwise None is `Camera()`, no
+        light, or black.
     ambient_light: the colour of the light that comes from everywhere.
     invert: every byte v of the picture becomes 255 - v.
     width, height: of the picture in pixels, 1..2048.
@@ -95,7 +95,7 @@ class Scene:
     height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
 
     def __attrs_post_init__(self) -> None:
-        """Choose what is not given."""
+        """Set the default camera, lights and background."""
         camera, background = Camera(), Background()
         lights: tuple[Light, ...] = ()
         if self.objects and self.camera is None and self.lights is None and self.background is None:

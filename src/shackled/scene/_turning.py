@@ -1,4 +1,4 @@
-"""A scene turned about its middle."""
+"""Rotation of scenes about their centre."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._scene import Scene
 Points = NDArray[np.float64]
 
 MOST_FRAMES = 720
-#: The part of the half width and half height of the picture that may be filled.
+#: The share of the half width and half height of the picture that may be filled.
 FILLED = 0.92
 
 
@@ -25,7 +25,7 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
     """Return the scene with all objects turned together about their middle; camera and lights stay.
 
     rotation: degrees about x, then y, then z; a quaternion (x, y, z, w); or a (3, 3) matrix.
-    The meshes are left as they are: the contract turns them, by the rotations of the objects.
+    The meshes do not change: the contract applies the rotations of the objects.
     """
     rotation, center = rotation_of(rotation), middle(scene)
     return evolve(
@@ -44,8 +44,8 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
 def full_turn(scene: Scene, frames: int) -> list[Scene]:
     """Return the scene in equal steps of a full turn about the vertical axis, counter-clockwise as seen from above.
 
-    Background, lights and camera stand still. Where a scene that was wholly in the picture would not stay there, the
-    camera is moved back for all frames.
+    Background, lights and camera stand still. If a scene that is completely in the picture would leave it, the camera
+    is moved back for all frames.
     """
     if number(frames, "the number of frames of a turntable", 2, MOST_FRAMES) != int(frames):
         raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")

@@ -1,4 +1,4 @@
-"""From a mesh as it was scanned or modelled to one that a contract draws for little gas."""
+"""Cleaning and simplification of scanned or modelled meshes, so that a contract draws them for little gas."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
-from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld
+from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld, without_slivers
 
-#: As many triangles as the largest object of the Shackled paper has.
+#: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198
 #: Parts of fewer triangles are crumbs of a scan, if they are also a small share of the whole.
 CRUMB = 12
@@ -55,11 +55,10 @@ def clean(mesh: Mesh) -> Mesh:
     """
     positions, first, number = np.unique(mesh.positions + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
-    faces = _without_doubles(faces)
+    # by their indices too, because the area of a sliver may be rounded to more than zero
+    faces = without_slivers(_without_doubles(faces))
     a, b, c = positions[faces].transpose(1, 0, 2)
-    # of the indices too, for the area of a sliver may be rounded to more than zero
-    different = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = faces[different & np.cross(b - a, c - a).any(axis=1)]
+    faces = faces[np.cross(b - a, c - a).any(axis=1)]
     if not len(faces):
         raise InputError("the mesh has no triangle with an area")
     return _compact(positions, faces, mesh.colors[first])

@@ -1,7 +1,7 @@
-"""Downloads models and prepares them.
+"""Download and preparation of models.
 
-A file is downloaded beside its place, under a name that ends in .part, and goes there only if its checksum is right. A
-download that was cut goes on where it stopped, if the server can do that. So what stands in the cache is always whole.
+A file is downloaded under a name that ends in .part, and renamed if its checksum is right, so that files in the cache
+are always complete. An interrupted download continues where it stopped, if the server can do that.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from ._clean import prepare
 from ._models import Model, save_mesh
 from ._unpack import read_model
 
-#: Seconds to wait for a connection, and for more of the file.
+#: Timeouts in seconds: of a connection, and between parts of the file.
 TIMEOUT = (10, 30)
-#: Bytes that are read and written at once; what came of the last of them is lost when a connection is cut.
+#: Bytes that are read and written at a time.
 CHUNK = 1 << 13
 
-#: Called with the bytes that are here, and those that there will be, None if nobody knows.
+#: Called with the bytes downloaded so far, and the size of the file, None if it is not known.
 Progress = Callable[[int, int | None], None]
 
 
@@ -110,7 +110,7 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
 
 
 class _Downloader:
-    """What pooch calls for a download: it checks the sum of the file again, and puts it into its place."""
+    """A downloader for pooch, which also verifies the checksum and moves the file."""
 
     def __init__(self, model: Model, progress: Progress) -> None:
         self._model = model

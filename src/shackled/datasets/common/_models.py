@@ -1,4 +1,4 @@
-"""Models of other people: what is known of them, and the pieces that they become once they are fetched."""
+"""Third-party models: their metadata, and their pieces."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .. import Piece, cache_folder, keep
 from . import builtin
 from ._clean import creased
 
-#: Raised when `prepare` or what is kept changes, so that what is in caches is not taken for it.
+#: Incremented when `prepare` or the format of its files changes, so that caches are not reused.
 VERSION = 1
 
 MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
@@ -27,7 +27,7 @@ OWN_LICENCE = "that of your own file"
 
 @dataclass(frozen=True)
 class Model:
-    """An entry of models.toml, which says what the fields mean; `size` is its `bytes`, None where it is not known."""
+    """An entry of models.toml, which documents the fields; `size` is its `bytes`, None if it is not known."""
 
     name: str
     title: str
@@ -49,7 +49,7 @@ class Model:
 
     @property
     def original(self) -> Path:
-        """Where the file is kept as it was downloaded."""
+        """The path of the downloaded file."""
         suffix = Path(self.addresses[0]).suffix
         return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
 
@@ -74,7 +74,7 @@ class Model:
             self.title,
             OWN_LICENCE if own else self.licence,
             self.scene,
-            # what is allowed with a file of which nothing is known is for its owner to say
+            # the terms of a file of the user are not known
             commercial=self.commercial and not own,
             credit="" if own else self.author,
             ready=lambda: self.kept() is not None,
@@ -84,7 +84,7 @@ class Model:
         """Return the scene; InputError if the model has not been fetched."""
         path = self.kept()
         if path is None:
-            raise InputError(f"{self.name} is not here yet; run: shackled datasets fetch {self.name}")
+            raise InputError(f"{self.name} has not been fetched; run: shackled datasets fetch {self.name}")
         return self.staged(load_mesh(path, self.name))
 
     def staged(self, mesh: Mesh) -> Scene:
@@ -135,9 +135,9 @@ def save_mesh(mesh: Mesh, path: Path) -> None:
     stream = io.BytesIO()
     np.savez_compressed(
         stream,
-        positions=np.asarray(mesh.positions, dtype=np.float32),
-        faces=np.asarray(mesh.faces, dtype=np.uint16),
-        colors=np.asarray(mesh.colors, dtype=np.uint8),
+        positions=mesh.positions.astype(np.float32),
+        faces=mesh.faces.astype(np.uint16),
+        colors=mesh.colors,
     )
     keep(path, stream.getvalue())
 
@@ -147,7 +147,7 @@ def load_mesh(path: Path, name: str) -> Mesh:
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
             return Mesh(data["positions"], data["faces"], data["colors"])
-    except Exception as error:  # what is made of a broken file may be of any class
+    except Exception as error:  # broken files raise errors of any class
         raise InputError(
             f"{path} cannot be read ({type(error).__name__}); run: shackled datasets fetch --again {name}"
         ) from None

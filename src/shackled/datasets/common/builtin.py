@@ -1,4 +1,4 @@
-"""The common objects that need no file, each with the light and the pose that suit it."""
+"""Common objects that need no file, each with a suitable pose and look."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Meshes that a formula gives. All are about the origin and about 2 across, with y up; faces are seen from outside."""
+"""Meshes from formulas, about the origin and about 2 across, with y up; faces are seen from outside."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import color as checked_color
-from ...scene import Mesh, vertex_normals
+from ...scene import Mesh, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
@@ -29,7 +29,7 @@ def patch(surface: Surface, across: int, down: int) -> Mesh:
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
     positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
-    return _smooth(positions, _with_area(number.reshape(-1)[faces]))
+    return _smooth(positions, without_slivers(number.reshape(-1)[faces]))
 
 
 def one_sided(surface: Surface, across: int, down: int) -> Mesh:
@@ -228,7 +228,8 @@ def dodecahedron() -> Mesh:
 
 def icosphere(halvings: int = 2) -> Mesh:
     """Return a sphere of radius 1: an icosahedron, subdivided into 20 * 4^halvings triangles."""
-    positions, faces = np.asarray(icosahedron().positions), np.asarray(icosahedron().faces)
+    start = icosahedron()
+    positions, faces = start.positions, start.faces
     for _ in range(halvings):
         a, b, c = positions[faces].transpose(1, 0, 2)
         ab, bc, ca = _unit(a + b), _unit(b + c), _unit(c + a)
@@ -312,11 +313,6 @@ def _grid(across: int, down: int) -> NDArray[np.int64]:
     number = np.arange((across + 1) * (down + 1)).reshape(across + 1, down + 1)
     a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
     return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-
-
-def _with_area(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    a, b, c = faces.T
-    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
 
 
 def _smooth(positions: Array, faces: NDArray[np.int64]) -> Mesh:

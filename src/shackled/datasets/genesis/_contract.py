@@ -1,4 +1,4 @@
-"""Pieces as the contract makes them."""
+"""Pieces and pictures from the contract."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...image import Image, decode_bmp
 from ._piece import GenesisPiece, Point3
 
 CONTRACT = "Genesis"
-#: Of a picture, in pixels.
+#: The side of a picture, in pixels.
 SIDE = 128
 
 #: A packed mesh: its header, then vertices and colours, then faces (contracts/src/scene/Mesh.sol).
@@ -26,7 +26,7 @@ def call(function: str, seed: bytes, chain: Chain | None = None) -> CallResult:
     """Call a function of the contract that takes a seed. RenderError where the seed has no piece."""
     place = open_chain() if chain is None else chain
     if not isinstance(place, ContractChain):
-        raise InputError(f"{place.name} runs no contracts, and has no pieces")
+        raise InputError(f"{place.name} runs no contracts")
     if len(seed) != 32:
         raise InputError(f"a seed has 32 bytes, not {len(seed)}")
     return place.call(CONTRACT, artifact(CONTRACT).interface.encode(function, seed))

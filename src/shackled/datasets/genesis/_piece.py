@@ -11,7 +11,7 @@ from ...scene import Background, Light, Material, Mesh, Object, Scene
 #: A vertex, a colour, or the corners of a face.
 Point3 = tuple[int, int, int]
 
-#: Every piece is lit alike: its colours show in full, and light comes from the left.
+#: Every piece has full ambient light, and a light from the left.
 MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
 LIGHT = Light("directional", (-50, 0, 0))
 POSITION = (0, 0, -2500)
@@ -19,7 +19,7 @@ POSITION = (0, 0, -2500)
 
 @dataclass(frozen=True)
 class GenesisPiece:
-    """What a seed stands for.
+    """The piece of a seed.
 
     background: the colours at the top and at the bottom. prisms: how many. verts: six a prism. cols: their colours,
     red, green and blue, 0..255. faces: seven a prism. culling: whether faces that turn away are left out.

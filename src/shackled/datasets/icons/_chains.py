@@ -1,4 +1,4 @@
-"""What chains are about: coins, locks and keys, links and blocks."""
+"""Icons of chains: coins, locks and keys, links and blocks."""
 
 from __future__ import annotations
 

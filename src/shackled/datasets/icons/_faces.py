@@ -1,4 +1,4 @@
-"""What looks back."""
+"""Icons with faces."""
 
 from __future__ import annotations
 

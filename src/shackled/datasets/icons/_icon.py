@@ -1,4 +1,4 @@
-"""An icon: a solid, and how it is shown."""
+"""Icons: solids with a pose, a light and a background."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ METAL = Material("smooth", ambient=0.42, diffuse=0.68, specular=0.6, shininess=2
 FACETED = Material("flat", ambient=0.44, diffuse=0.68, specular=0.3, shininess=16)
 SPARKLING = Material("flat", ambient=0.58, diffuse=0.54, specular=0.4, shininess=10)
 
-#: Toward the light, right, up and toward the viewer: from the upper left, low enough for what stands upright.
+#: Toward the light, right, up and toward the viewer: from the upper left, low enough for upright objects.
 LIGHT = (-0.45, 0.5, 0.9)
 
-#: `half_height` of the camera: a long lens, so that what is near does not look large.
+#: `half_height` of the camera: a long lens, with little perspective distortion.
 LENS = 0.2
 
-#: Edges at which a surface turns by more degrees than this are seen.
+#: Edges are sharp where a surface turns by more than these degrees.
 CREASE = 42.0
 
 

@@ -1,4 +1,4 @@
-"""What is kept in chests, and won, and rung."""
+"""Icons of treasures and prizes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What grows, burns, beats and flies."""
+"""Icons of plants, vehicles and other things."""
 
 from __future__ import annotations
 

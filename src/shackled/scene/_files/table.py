@@ -1,4 +1,4 @@
-"""Tables of a TOML or JSON document, read with care: every message says where it is about and what would be right."""
+"""Checked access to tables of a TOML or JSON document; every message says where the error is."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Word = TypeVar("Word", bound=str)
 
 
 class Table:
-    """A table, and what its keys hold.
+    """A table of a document.
 
     where: its place in the document for messages, such as `objects[1].material`, empty for the document itself. Each
     reading method returns the default where the key is absent, and raises InputError where its value is of another
@@ -124,7 +124,7 @@ class Table:
 
 @contextmanager
 def about(where: str) -> Iterator[None]:
-    """Put a place before the messages of what happens inside."""
+    """Prefix the messages of InputErrors with a place."""
     try:
         yield
     except InputError as error:
@@ -132,5 +132,5 @@ def about(where: str) -> Iterator[None]:
 
 
 def is_number(value: object) -> bool:
-    """Return whether it is a finite number, and no truth value."""
+    """Return whether a value is a finite number, and not a truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300
