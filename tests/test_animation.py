@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from PIL import Image as PillowImage
 from PIL import ImageSequence
 
 from shackled import Animation, Image, InputError
-from shackled.animation import check_animation, frame_names
+from shackled.animation import FORMATS, check_animation, frame_names
 from shackled.image import encode_bmp
 
 
@@ -29,7 +30,7 @@ def frames(data: bytes) -> list[np.ndarray]:
         return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
 
 
-@pytest.mark.parametrize(("animation", "extension"), [(FEW, ".gif"), (FEW, ".png"), (MANY, ".png")])
+@pytest.mark.parametrize(("animation", "extension"), [*((FEW, extension) for extension in FORMATS), (MANY, ".png")])
 def test_every_pixel_is_kept(animation: Animation, extension: str) -> None:
     found = frames(animation.encode(extension))
     assert len(found) == len(animation.frames)
@@ -60,8 +61,8 @@ def test_a_palette_of_exactly_256_colours_is_exact() -> None:
 def test_formats_with_and_without_a_dot() -> None:
     assert FEW.encode("gif") == FEW.encode(".GIF")
     assert FEW.encode("png") == FEW.encode(".png")
-    for wrong in (".bmp", "webp", "", None):
-        with pytest.raises(InputError, match=r"^the format must be one of \.gif \.png, not "):
+    for wrong in (".bmp", "jpg", "", None):
+        with pytest.raises(InputError, match=re.escape(f"the format must be one of {' '.join(FORMATS)}, not ")):
             FEW.encode(wrong)  # type: ignore[arg-type]
 
 
@@ -85,9 +86,12 @@ def test_frames_of_one_size_are_needed() -> None:
 
 
 def test_frames_that_are_alike_take_their_time() -> None:
-    for extension in (".gif", ".png"):
+    for extension in FORMATS:
         with PillowImage.open(io.BytesIO(Animation([FEW.frames[i] for i in (0, 0, 1)], 50).encode(extension))) as file:
-            shown = sum(frame.info["duration"] for frame in ImageSequence.Iterator(file))
+            shown = 0
+            for frame in ImageSequence.Iterator(file):
+                frame.load()  # some formats say only then how long a frame is shown
+                shown += frame.info["duration"]
             assert shown == 150
             assert file.info["loop"] == 0
 

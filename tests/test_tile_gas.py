@@ -76,8 +76,9 @@ def parts(width: int, height: int) -> list[Rectangle]:
     return [Rectangle(left, top, w, h) for left, w in columns for top, h in rows]
 
 
-#: The colours of a patch or two, where the whole has each fragment shaded for itself.
-PATCHES = 30_000
+#: The colours of a patch or two, where the whole has each fragment shaded for itself; the search for the faces of a
+#: small mesh that a tile shows.
+PATCHES = 48_000
 
 
 @pytest.mark.parametrize("first", range(0, 150, 50))

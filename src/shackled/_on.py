@@ -1,4 +1,4 @@
-"""Where a picture is rendered: the values of the parameter `on` of `render`."""
+"""The values of the argument `on` of `render`: where calls run."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class Processes:
     """Worker processes on this machine.
 
-    jobs: their number, 1..256; None for one per processor. evm: "pyrevm", "pyevm" or "reference"; None for the
-    fastest that is installed.
+    jobs: number of processes, 1..256; None for one per processor.
+    evm: "pyrevm", "pyevm" or "reference"; None for the fastest that is installed.
     """
 
     jobs: int | None = None
@@ -34,12 +34,14 @@ def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
 
 @frozen(init=False)
 class Nodes:
-    """Nodes with a JSON-RPC interface, by their URLs; several share the work.
+    """JSON-RPC nodes, which share the work.
 
-    address: of a deployed renderer; None for the known one, or to send it along with each call.
-    timeout: of a call in seconds. jobs: concurrent calls per node.
-    verify: how many pixels are compared with the embedded EVM, "all", "some" or "none"; None for all below 500 million
-    gas, and some above.
+    urls: addresses of the nodes.
+    address: address of a deployed renderer; None uses the known one, or sends the contracts with the call.
+    timeout: time limit of a call in seconds; None for 120.
+    jobs: number of concurrent calls per node.
+    verify: how much is compared with the embedded EVM: "all", "some" or "none"; None compares all of a picture below
+        500 million gas, and some of a larger one.
     """
 
     urls: tuple[str, ...] = field(converter=_urls)
@@ -56,7 +58,7 @@ class Nodes:
         jobs: int = 1,
         verify: str | None = None,
     ) -> None:
-        """Take the URLs of the nodes."""
+        """Take the addresses of the nodes."""
         self.__attrs_init__(urls, address, timeout, jobs, verify)
 
 
@@ -64,9 +66,10 @@ class Nodes:
 class Cluster:
     """A dask cluster (the extra `cluster`).
 
-    address: of the scheduler, such as tcp://host:8786; None for a cluster on this machine.
-    jobs: workers of a cluster on this machine; None for one per processor.
-    evm, verify: as in `Processes` and `Nodes`; verify is "none" by default.
+    address: address of the scheduler, such as tcp://host:8786; None starts a cluster on this machine.
+    jobs: number of workers of a cluster on this machine; None for one per processor.
+    evm: as in `Processes`.
+    verify: as in `Nodes`; None compares nothing.
     """
 
     address: str | None = None
@@ -75,12 +78,12 @@ class Cluster:
     verify: str | None = None
 
 
-#: An embedded EVM, by its name or itself; worker processes, nodes, or a cluster.
+#: Where calls run: in the EVM of this name, in this EVM, or in one of these.
 On = str | Chain | Processes | Nodes | Cluster
 
 
 def where_of(on: On | None, gas_limit: int | None = None, tile: tuple[int, int] | None = None) -> Where:
-    """Return where to render. InputError for anything that is not an `On`."""
+    """Return where to render. InputError if `on` is something else."""
     from .parallel import Where
 
     if isinstance(on, str) and "://" in on:

@@ -1,4 +1,4 @@
-"""Rendering: images and turntables of anything that `load` takes."""
+"""Rendering of pictures and turntables."""
 
 from __future__ import annotations
 
@@ -28,16 +28,17 @@ def render(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Image:
-    """Render anything that `load` takes.
+    """Render a picture.
 
-    size, look: as in `load`.
-    on: where to render: "pyrevm", "pyevm" or "reference" for an embedded EVM, `Processes`, `Nodes` or `Cluster`; None
-    for the fastest embedded EVM that is installed. The pixels are the same everywhere.
-    gas_limit: of a call. tile: side, or (width, height), in pixels of the parts in which a picture is rendered; None
-    for the largest that fit.
-    listener: receives the progress of a picture in several parts. keep: a folder for finished parts, from which the
-    same call continues after an interruption; the caller removes it.
-    InputError if the scene is not valid, ChainError if a call fails.
+    thing, size, look: as in `load`.
+    on: where the calls run: the name of an EVM ("pyrevm", "pyevm", "reference"), `Processes`, `Nodes` or `Cluster`;
+        None for the fastest EVM that is installed. The pixels are the same everywhere.
+    gas_limit: gas that a call may use.
+    tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
+    listener: receives the progress of a picture of several tiles.
+    keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
+
+    Raises InputError for an invalid scene, ChainError if a call fails.
     """
     return draw(load(thing, size, **look), _where(on, gas_limit, tile), listener, keep)
 
@@ -55,10 +56,14 @@ def turntable(
     keep: Path | None = None,
     **look: Unpack[LookOptions],
 ) -> Animation:
-    """Render a full turn about the vertical axis through the middle of anything that `load` takes.
+    """Render a full turn about the vertical axis through the middle of the scene.
 
-    The contract rotates the objects; background, lights and camera stand still.
-    frames: their number, 2..720. duration: of each in milliseconds, 20..10,000. Other parameters as in `render`.
+    The contract rotates the scene: each frame is one call. Background, lights and camera do not move.
+
+    thing, size, look: as in `load`.
+    frames: number of frames, 2..720.
+    duration: time for which a frame is shown in milliseconds, 20..10,000.
+    on, gas_limit, tile, listener, keep: as in `render`.
     """
     from .parallel import render_frames
 
@@ -67,7 +72,7 @@ def turntable(
 
 
 def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Path | None = None) -> Image:
-    """Render a scene, by one call or in parts."""
+    """Render a scene, by one call or by several."""
     if where.alone:
         chain = where.chain
         return render_whole(scene, open_chain(chain) if chain is None or isinstance(chain, str) else chain)

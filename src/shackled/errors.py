@@ -1,18 +1,18 @@
-"""The errors of the library. Each message is one line and names parameters as `size`, in backticks."""
+"""The errors of the library. A message is one line and names parameters in backticks, such as `size`."""
 
 from __future__ import annotations
 
 
 class ShackledError(Exception):
-    """The base of all errors of the library."""
+    """Base of all errors of the library."""
 
 
 class InputError(ShackledError, ValueError):
-    """A value or a file is wrong. The message says what is wrong, where, and what would be right."""
+    """An invalid value or file. The message says what is wrong, where, and what would be right."""
 
 
 class InputWarning(UserWarning):
-    """A part of a file is ignored."""
+    """A part of a file cannot be used and is ignored."""
 
 
 class OutputError(ShackledError, OSError):
@@ -24,32 +24,32 @@ class OutputError(ShackledError, OSError):
 
 
 class FetchError(ShackledError):
-    """A file could not be downloaded or written."""
+    """A file could not be downloaded or stored."""
 
 
 class ChainError(ShackledError):
-    """A contract, a node or a transaction failed. The base of all errors of that kind."""
+    """Base of all errors of contracts, nodes and transactions."""
 
 
 class RenderError(ChainError):
-    """A contract refused a scene, or did not return a picture."""
+    """A contract refused a scene or did not return a picture."""
 
 
 class OutOfGasError(ChainError):
-    """A call needed more gas than it had."""
+    """A call needed more gas than its limit."""
 
 
 class RevertError(ChainError):
-    """A call was reverted. data: the revert data, empty if there is none or the node does not return it."""
+    """A call reverted. data: the revert data, empty if the contract or the node gives none."""
 
     def __init__(self, message: str, data: bytes = b"") -> None:
-        """Take the message, and the data of the revert."""
+        """Take the message and the revert data."""
         super().__init__(message)
         self.data = data
 
 
 class VerificationError(ChainError):
-    """Data of a chain differs from what it must be."""
+    """Data on a chain is not as expected."""
 
 
 class TransactionError(ChainError):
@@ -57,33 +57,33 @@ class TransactionError(ChainError):
 
 
 class NodeError(ChainError):
-    """A node failed, not the contract that it ran."""
+    """A fault of a node, not of the contract that it ran."""
 
 
 class NoAnswerError(NodeError):
-    """A node did not answer, but may answer later. The base of errors of that kind."""
+    """Base of errors after which a node may answer later."""
 
 
 class NodeUnreachableError(NoAnswerError):
-    """There is no complete answer: the connection failed, or the server is not a node."""
+    """No complete answer: nothing listens, the connection broke, or the server is not a node."""
 
 
 class NodeBusyError(NoAnswerError):
-    """A node is busy. retry_after: the seconds of its Retry-After header, if any."""
+    """A node is busy. retry_after: the delay in seconds that it requests, or None."""
 
     def __init__(self, message: str, retry_after: float | None = None) -> None:
-        """Take the message, and the seconds to wait."""
+        """Take the message and the requested delay."""
         super().__init__(message)
         self.retry_after = retry_after
 
 
 class NodeTimeoutError(NoAnswerError):
-    """A call took too long."""
+    """A node took too long, or aborted a call that did."""
 
 
 class TooLargeError(NodeError):
-    """A request or an answer exceeds a limit of a node."""
+    """A request or an answer exceeds the size limit of a node."""
 
 
 class WrongChainError(NodeError):
-    """A node belongs to another chain, or to one that cannot run the contracts."""
+    """A node belongs to another chain than expected, or to one that cannot run the contracts."""

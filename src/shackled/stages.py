@@ -31,11 +31,11 @@ BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 CHECKS, CHECK_SIDE = (46, 54), 8
 UNLIT = Material("unlit")
 
-#: The golden ratio, whose multiples spread evenly whatever their number.
+#: Multiples of the golden ratio, modulo 1, are evenly distributed for any count.
 GOLDEN = (5**0.5 - 1) / 2
 DARKEST = 0.45
 
-#: The strip: least side of a picture in it, and space for its caption.
+#: The strip: minimum side of a picture, margin, and height of the caption.
 STRIP_SIDE, MARGIN, CAPTION = 224, 12, 44
 PAPER, PRINT, FINE_PRINT = (22, 25, 31), (236, 239, 243), (150, 158, 168)
 
@@ -94,7 +94,7 @@ def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
     """Draw the vertices in world space, from the front (+z), without a camera, filling the canvas."""
     places, colors = [], []
     for part in geometry:
-        # the columns of the rotation are the images of the axes
+        # the columns of the rotation matrix are the images of the axes
         axes = np.array(to_matrix(part.object.rotation), float) / 2**32
         scale = part.object.scale / 2**32
         places.append(scale * np.array(part.mesh.positions, float) @ axes + np.array(part.object.position) / 2**32)

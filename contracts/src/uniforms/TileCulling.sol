@@ -22,8 +22,8 @@ import "../pipeline/Registers.sol";
 // The order of the faces is kept. That of the vertices is not: numbers put only vertices at the same place in order, and a face with two
 // of those is not drawn.
 
-/// @dev Meshes of fewer faces are kept whole. The functions take 16,000 gas, and culling n faces pays only where more than about 0.37 n + 27
-/// of them are left out: never below 43.
+/// @dev Meshes of fewer faces are kept whole. The functions take 16,000 gas, and culling n faces pays only where more than about
+/// 0.37 n + 27 of them are left out: never below 43.
 uint256 constant LEAST_FACES = 48;
 /// @dev Meshes are kept whole, too, if fewer than 3/4 of their vertices lie beyond borders, where one beyond two borders counts twice: the
 /// faces that are kept would cost more to write anew than the others save.

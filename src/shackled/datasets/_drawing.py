@@ -37,7 +37,9 @@ SIZE = 128
 class Thumbnail:
     """A drawing of a piece.
 
-    triangles: of its meshes. gas: of the execution; None where none is counted. png: the bytes of the picture.
+    triangles: number of triangles of its meshes.
+    gas: gas of the execution, or None.
+    png: the PNG file.
     """
 
     name: str

@@ -14,7 +14,7 @@ def _always() -> bool:
 
 @dataclass(frozen=True)
 class Piece:
-    """One scene of a dataset.
+    """A scene of a dataset, with a name and a licence.
 
     name: for instance "teapot", "icons/diamond" or "genesis/12".
     dataset: "common", "icons" or "genesis".

@@ -1,4 +1,4 @@
-"""What a picture costs: exactly, by a search over gas limits, by stage and by line, and where it fits."""
+"""The gas of a picture: exactly, by a search, by stage and line, and the limits within which it fits."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Where the gas of one function goes: its basic blocks, how often each is passed, and its instructions."""
+"""The gas of one function: its basic blocks with their executions and instructions."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _NAMES = {
     0xFD: "REVERT",
     0xFE: "INVALID",
 }
-#: Gas of instructions whose price is always the same, but for those of 3; the price of others is no measure.
+#: Gas of instructions with a constant price other than 3.
 _PRICES = {
     **dict.fromkeys((0x02, 0x04, 0x05, 0x06, 0x07, 0x0B), 5),
     **dict.fromkeys((0x08, 0x09, 0x56), 8),
@@ -50,10 +50,11 @@ _JUMPDEST, _ENDS = 0x5B, {0x00, 0x56, 0x57, 0xF3, 0xFD, 0xFE}
 
 @dataclass(frozen=True)
 class Block:
-    """Instructions that are always passed one after the other.
+    """A basic block.
 
-    begin: the position of the first. count: how often they were passed. instructions: as people write them, what is
-    pushed in hexadecimal digits.
+    begin: position of the first instruction.
+    count: number of executions.
+    instructions: mnemonics; a push is its value in hexadecimal.
     """
 
     begin: int
@@ -63,7 +64,7 @@ class Block:
 
 
 def functions(root: Frame, contract: str) -> list[tuple[str, int]]:
-    """Return the functions of a contract that were called below a frame, with their own gas, the dearest first."""
+    """Return the functions of a contract called below a frame, with their own gas, the most expensive first."""
     gas: Counter[str] = Counter()
     for frame in _frames(root, contract):
         gas[_name(frame)] += frame.gas()
@@ -71,7 +72,7 @@ def functions(root: Frame, contract: str) -> list[tuple[str, int]]:
 
 
 def blocks(root: Frame, contract: str, function: str) -> list[Block]:
-    """Return the blocks of a function that were run, in the order of the code, with the gas of each."""
+    """Return the executed blocks of a function, in the order of the code."""
     costs: Counter[int] = Counter()
     for frame in _frames(root, contract):
         if _name(frame) == function:
@@ -95,7 +96,7 @@ def _name(frame: Frame) -> str:
 
 
 def _split(code: bytes) -> list[list[tuple[int, int, str]]]:
-    """Position, operation and text of each instruction, by blocks."""
+    """Return position, opcode and text of each instruction, by blocks."""
     found: list[list[tuple[int, int, str]]] = [[]]
     at = 0
     while at < len(code):

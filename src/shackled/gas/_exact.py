@@ -1,4 +1,4 @@
-"""The gas of a picture, exactly, and what a call must be given for it."""
+"""The exact gas of a picture, and the gas limit that its call needs."""
 
 from __future__ import annotations
 
@@ -10,17 +10,19 @@ from ..errors import InputError
 from ..scene import Scene, encode
 from ._runs import engine_calls
 
-#: EIP-150: of the gas left, a call is handed all but one 64th.
+#: EIP-150: a call passes on all but a 64th of the remaining gas.
 KEPT = 64
 
 
 @dataclass(frozen=True)
 class Exact:
-    """What a render costs.
+    """The gas of a render.
 
-    gas: of the execution. intrinsic_gas: what a transaction costs before it. engine_gas: the part of `gas` that the
-    Renderer's calls of its engines use; dearest_call: that of the one that uses most. floor_gas: the least that a
-    transaction with this data costs, by EIP-7623.
+    gas: gas of the execution.
+    intrinsic_gas: gas that a transaction pays before it.
+    engine_gas: the part of `gas` used by the calls to engines.
+    dearest_call: gas of the most expensive of these calls.
+    floor_gas: minimum of a transaction with this calldata, by EIP-7623.
     """
 
     gas: int
@@ -31,28 +33,28 @@ class Exact:
 
     @property
     def transaction_gas(self) -> int:
-        """What a transaction is charged."""
+        """Gas that a transaction is charged."""
         return max(self.intrinsic_gas + self.gas, self.floor_gas)
 
     def limit(self, searched: int) -> int:
-        """Return the gas limit that a request needs, if its execution needs `searched`."""
+        """Return the gas limit of a request whose execution needs a limit of `searched`."""
         return max(self.intrinsic_gas + searched, self.floor_gas)
 
 
 def counting(chain: Chain) -> ContractChain:
-    """Return the chain, if it counts gas; otherwise InputError."""
+    """Return the chain. InputError if it does not count gas."""
     if not isinstance(chain, ContractChain):
         raise InputError(f"gas is counted where contracts run, not by the {chain.name}: take `chain` pyrevm or pyevm")
     return chain
 
 
 def render_call(scene: Scene) -> bytes:
-    """Return the data of the call `Renderer.render`."""
+    """Return the calldata of `Renderer.render`."""
     return encode(artifact("Renderer").selectors["render"], scene)
 
 
 def measure(scene: Scene, chain: ContractChain) -> Exact:
-    """Renders the scene, and its part in the engines."""
+    """Measure the gas of a render, and of its engine calls."""
     data = render_call(scene)
     result = chain.call("Renderer", data)
     gas = [call.result.gas for call in engine_calls(scene, chain)]
@@ -60,22 +62,21 @@ def measure(scene: Scene, chain: ContractChain) -> Exact:
 
 
 def floor_gas(data: bytes) -> int:
-    """Return what a transaction with this data costs at least, since Prague."""
+    """Return the minimum gas of a transaction with this calldata, since Prague."""
     return 21000 + 10 * (4 * len(data) - 3 * data.count(0))
 
 
 def needed_for(gas: int) -> int:
-    """Return the least gas of which all but a 64th is at least `gas`."""
+    """Return the lowest amount of which all but a 64th is at least `gas`."""
     return gas + (gas - 1) // (KEPT - 1) if gas else 0
 
 
 @dataclass(frozen=True)
 class Margin:
-    """Why a limit of exactly the gas that is used does not suffice.
+    """The difference between the lowest sufficient gas limit and the gas used.
 
-    kept: gas that must be left when an engine is called for the dearest run of objects, because a 64th of what is there
-        is not handed on.
-    after: gas that the Renderer uses behind that call, which comes out of what was kept.
+    kept: gas that the Renderer retains during the most expensive engine call, because a 64th is not passed on.
+    after: gas that the Renderer uses after that call, paid from what it retained.
     """
 
     kept: int
@@ -83,11 +84,11 @@ class Margin:
 
     @property
     def gas(self) -> int:
-        """By how much the limit exceeds what is used."""
+        """Gas by which the limit exceeds the gas used."""
         return self.kept - self.after
 
 
 def margin(exact: Exact, searched: int) -> Margin:
-    """Return the account of the difference between what a call uses and the least limit that it needs."""
+    """Return the difference between the lowest sufficient limit, `searched`, and the gas used."""
     kept = needed_for(exact.dearest_call) - exact.dearest_call
     return Margin(kept, kept - (searched - exact.gas))

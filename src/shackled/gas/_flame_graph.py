@@ -1,4 +1,4 @@
-"""A profile as a picture: an SVG flame graph, from stages at the top through functions down to lines."""
+"""A profile as an SVG flame graph: stages at the top, then functions, then lines."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ._stages import STAGES
 
 WIDTH, ROW, MARGIN = 1200, 18, 8
 
-#: Boxes that are narrower, in pixels, are left out.
+#: Minimum width of a box, in pixels; narrower boxes are left out.
 NARROWEST = 0.4
-#: Pixels of a character of the text, and what it leaves free in its box.
+#: Width of a character and free space in a box, in pixels.
 CHARACTER, PADDING = 6.3, 8
 
 STYLE = (
@@ -30,9 +30,9 @@ class _Box:
 
 
 def flame_graph(profile: Profile, name: str) -> str:
-    """Return the SVG document. A box is as wide as its gas; pointing at one says how much that is.
+    """Return the SVG document. The width of a box is its gas, which its tooltip shows.
 
-    Calls that are common to all of a stage, such as that of the Engine, are left out.
+    Calls that are common to all costs of a stage, such as that of the Engine, are left out.
     """
     root = _Box()
     common = _common_calls(profile)
@@ -64,10 +64,10 @@ def flame_graph(profile: Profile, name: str) -> str:
 
 
 def _common_calls(profile: Profile) -> dict[str, int]:
-    """Return how many of the first calls are the same for all of a stage: they would be rows of one box each."""
+    """Return how many of the outermost calls all costs of a stage share: each would be a row with one box."""
     first: dict[str, tuple[str, ...]] = {}
     for cost in profile.costs:
-        # the function itself stays
+        # without the function itself
         calls = first.setdefault(cost.stage, cost.calls[:-1])
         same = next((i for i, (a, b) in enumerate(zip(calls, cost.calls[:-1], strict=False)) if a != b), None)
         first[cost.stage] = calls[: min(len(calls), len(cost.calls) - 1) if same is None else same]
@@ -77,7 +77,7 @@ def _common_calls(profile: Profile) -> dict[str, int]:
 def _draw(
     parts: list[str], name: str, box: _Box, left: float, top: float, scale: float, total: int, hue: int, depth: int
 ) -> int:
-    """Adds a box and what is inside; how many rows that takes."""
+    """Append a box and its inner boxes; return the number of rows."""
     width = box.gas * scale
     if width < NARROWEST:
         return depth

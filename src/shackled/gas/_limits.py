@@ -1,4 +1,4 @@
-"""Where a call fits: the gas limits of transactions, nodes and providers, as documented; see limits.toml."""
+"""The documented gas limits of transactions, nodes and providers, from limits.toml."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from importlib.resources import files
 
 @dataclass(frozen=True)
 class Limit:
-    """How much gas one request may use. kind: "transaction" or "call". date: of the source."""
+    """The gas limit of one request. kind: "transaction" or "call". date: date of the source."""
 
     name: str
     gas: int
@@ -22,6 +22,6 @@ class Limit:
 
 @cache
 def limits() -> tuple[Limit, ...]:
-    """Return all that are known, the smallest first."""
+    """Return all known limits, the lowest first."""
     data = tomllib.loads(files(__package__).joinpath("limits.toml").read_text("utf-8"))
     return tuple(sorted((Limit(**entry) for entry in data["limit"]), key=lambda limit: limit.gas))

@@ -1,4 +1,4 @@
-"""Where the gas of a picture goes: by stage, by function of the contracts, and by line of their sources."""
+"""The gas of a picture by stage, by function of the contracts, and by line of their sources."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ _Key = TypeVar("_Key")
 
 @dataclass(frozen=True)
 class Cost:
-    """Gas of one line in one function, called in one way, for one stage.
+    """Gas of one line for one stage and one call stack.
 
-    calls: the functions that led there, the outermost first, the last of which the line stands in. file, line: line is
-    from 1; the file is empty where the compiler names none.
+    calls: the call stack, outermost function first; the last one contains the line.
+    file: path of the source; "" if the compiler names none.
+    line: line number from 1.
     """
 
     stage: str
@@ -32,18 +33,18 @@ class Cost:
 
     @property
     def function(self) -> str:
-        """The function in which the line stands."""
+        """The function that contains the line."""
         return self.calls[-1]
 
     @property
     def place(self) -> str:
-        """Such as pipeline/View.sol:12."""
+        """File and line, such as pipeline/View.sol:12."""
         return f"{self.file}:{self.line}" if self.file else "(compiler)"
 
 
 @dataclass(frozen=True)
 class FunctionCost:
-    """The gas of a function: its own, and with that of what it calls."""
+    """The gas of a function, without (`own`) and with (`total`) the functions that it calls."""
 
     name: str
     own: int
@@ -52,37 +53,39 @@ class FunctionCost:
 
 @dataclass(frozen=True)
 class Profile:
-    """The costs of a call; they add up to its gas."""
+    """The costs of a call; their sum is its gas."""
 
     costs: tuple[Cost, ...]
 
     @property
     def gas(self) -> int:
-        """All of it."""
+        """The gas of the call."""
         return sum(cost.gas for cost in self.costs)
 
     def stages(self) -> dict[str, int]:
-        """Gas by stage, in the order in which a picture is made; stages that need none are there with 0."""
+        """Return the gas of each stage, in the order in which a picture is made; 0 for stages without gas."""
         gas = _sums((cost.stage, cost.gas) for cost in self.costs)
         return {stage: gas[stage] for stage in STAGES}
 
     def functions(self) -> list[FunctionCost]:
-        """Gas by function, those first that use most themselves."""
+        """Return the gas of each function, sorted by their own gas, the highest first."""
         own = _sums((cost.function, cost.gas) for cost in self.costs)
-        # once for each cost, however often a function is among its callers
+        # once per cost, even if a function occurs several times in its call stack
         total = _sums((name, cost.gas) for cost in self.costs for name in set(cost.calls))
         return [FunctionCost(name, own[name], gas) for name, gas in sorted(total.items(), key=lambda e: -own[e[0]])]
 
     def lines(self) -> list[tuple[str, str, int]]:
-        """Place, function and gas of each line, the dearest first."""
+        """Return place, function and gas of each line, the most expensive first."""
         gas = _sums(((cost.place, cost.function), cost.gas) for cost in self.costs)
         return [(place, function, each) for (place, function), each in gas.most_common()]
 
 
 def profile(scene: Scene, report: Callable[[int], None] | None = None) -> Profile:
-    """Return the profile of a render, made in py-evm: some two million gas a second.
+    """Profile a render in py-evm, at about two million gas a second.
 
-    report: is told now and then how much gas has been used. InputError if py-evm is not installed.
+    report: receives the gas used so far, from time to time.
+
+    Raises InputError if py-evm is not installed.
     """
     root, result = trace("Renderer", render_call(scene), report)
     gas: Counter[tuple[str, tuple[str, ...], str, int]] = Counter()
@@ -100,7 +103,7 @@ def _collect(frame: Frame, callers: tuple[str, ...], gas: Counter[tuple[str, tup
         for at, each in costs.items():
             place = mapped.places.get(at)
             line = _line(frame, mapped, place)
-            # functions that were inlined have no calls of their own, but their instructions say where they are from
+            # inlined functions make no calls, but the source map has the place of their instructions
             inlined = place.function if place is not None and not _is_own(frame, mapped, place) else None
             key = stage, (*calls, inlined) if inlined and inlined != name else calls, line[0], line[1]
             gas[key] += each
@@ -116,7 +119,7 @@ def _name(frame: Frame, mapped: SourceMap) -> str:
 
 
 def _is_own(frame: Frame, mapped: SourceMap, place: Place) -> bool:
-    """Return whether a place belongs to the function of the frame: one within assembly lies in one of Solidity."""
+    """Return whether a place is in the function of the frame; a function in assembly is inside a Solidity function."""
     entered = mapped.places.get(frame.entry)
     return entered is not None and frame.entry > 0 and entered.function == place.function
 
@@ -125,7 +128,7 @@ def _line(frame: Frame, mapped: SourceMap, place: Place | None) -> tuple[str, in
     if place is None or not place.file:
         return "", 0
     if place.block and frame.entry in mapped.entry_lines and _is_own(frame, mapped, place):
-        # of assembly only the function within it is known
+        # within assembly only the function is known
         return place.file, max(place.line, mapped.entry_lines[frame.entry])
     return place.file, place.line
 

@@ -1,4 +1,4 @@
-"""All that is known of the gas of one picture."""
+"""The report of `shackled gas`."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ GWEI_PER_ETHER = 10**9
 
 @dataclass(frozen=True)
 class Report:
-    """What a picture costs.
+    """The gas of one picture.
 
-    triangles, lit_pixels: as `Chain.count` gives them. profile: None if none was wanted. chain: where it was measured.
+    triangles, lit_pixels: as returned by `Chain.count`.
+    profile: None if not requested.
+    chain: name of the chain that measured it.
     """
 
     scene: Scene
@@ -33,20 +35,20 @@ class Report:
 
     @property
     def margin(self) -> Margin:
-        """Why a call needs a higher limit than it uses gas."""
+        """The difference between the lowest sufficient limit and the gas used."""
         return margin(self.exact, self.search.gas)
 
     @property
     def request_limit(self) -> int:
-        """The gas limit that a transaction or an eth_call needs: both count what is paid before the execution."""
+        """The gas limit of a transaction or an eth_call, which includes intrinsic gas."""
         return self.exact.limit(self.search.gas)
 
     def per(self, count: int) -> float | None:
-        """Gas for each of so many; None for none."""
+        """Return the gas divided by a count; None for 0."""
         return self.exact.gas / count if count else None
 
     def ether(self, gas_price: float) -> float:
-        """Return the price of a transaction, at so many gwei a gas."""
+        """Return the price of a transaction in ether, for a gas price in gwei."""
         return self.exact.transaction_gas * gas_price / GWEI_PER_ETHER
 
     def to_json(self, gas_price: float, eth_price: float | None) -> dict[str, Any]:
@@ -102,11 +104,15 @@ def make_report(
     on_trace: Callable[[int, int], None] | None = None,
     searched: Caller | None = None,
 ) -> Report:
-    """Measures a render, searches for its gas between two limits, and traces it.
+    """Measure a render, search for its gas limit, and profile it.
 
-    on_step: is told every step of the search. on_trace: is told now and then how much gas the trace has used, of how
-    much. searched: where the search is made, if not where the rest is measured. InputError if stages are wanted and
-    py-evm is not installed.
+    lower, upper: limits of the search.
+    stages: whether to profile.
+    on_step: receives each step of the search.
+    on_trace: receives the gas traced so far, and the total.
+    searched: the chain of the search, if not `chain`.
+
+    Raises InputError if `stages` is true and py-evm is not installed.
     """
     exact = measure(scene, chain)
     data = render_call(scene)

@@ -1,6 +1,4 @@
-"""The calls that the Renderer makes of its engines, one for each run of objects: the twin of Runs.sol and of what the
-Renderer does with it.
-"""
+"""The calls of the Renderer to its engines, one for each run of objects, as in Runs.sol and Renderer.sol."""
 
 from __future__ import annotations
 
@@ -28,15 +26,15 @@ from ..reference.layout import (
 )
 from ..scene import WIREFRAME, Rectangle, Scene, encode
 
-#: Of Pipeline.sol.
+#: As in Pipeline.sol.
 BAND_PIXELS = 16384
-#: Words of an answer before the pixels, in bytes.
+#: Bytes of a result before the pixels.
 HEAD = 0x40
 
 
 @dataclass(frozen=True)
 class EngineCall:
-    """A call of an engine, and what came of it."""
+    """A call of an engine, and its result."""
 
     engine: str
     data: bytes
@@ -52,7 +50,7 @@ class _Object:
 
 
 def engine_calls(scene: Scene, chain: ContractChain) -> list[EngineCall]:
-    """Return all that the Renderer makes to render a scene, made once more."""
+    """Repeat all engine calls of a render."""
     whole = Rectangle(0, 0, scene.width, scene.height)
     data = _uniforms(scene, whole, chain)
     if len(_runs(data)) == 1 or scene.width * scene.height <= BAND_PIXELS:
@@ -89,7 +87,7 @@ def _calls(uniforms: bytes, chain: ContractChain) -> Iterator[EngineCall]:
 
 
 def _runs(data: bytes) -> list[list[_Object]]:
-    """Runs of objects that one engine draws after another; an empty one if there is nothing to draw."""
+    """Return the runs of consecutive objects that one engine draws; one empty run without objects."""
     objects, position = [], _load(data, _place(OBJECTS_BEGIN))
     for number in range(_load(data, _place(OBJECT_COUNT))):
         mode, flags = (_load(data, position + word - OBJECT_BYTES) for word in (OBJECT_MODE, OBJECT_FLAGS))
@@ -98,7 +96,7 @@ def _runs(data: bytes) -> list[list[_Object]]:
         objects.append(_Object(number, position, "FragmentEngine" if by_fragments else "Engine", is_blended))
         position += _load(data, position)
     runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]
-    # stable: what is not opaque comes last
+    # stable sort: objects that are not opaque come last
     ordered = [run for _, run in sorted(runs, key=lambda each: each[0][1])]
     return ordered or [[]]
 

@@ -1,4 +1,4 @@
-"""How much gas a call needs, from nothing but whether a limit sufficed: a search by halves between two gas limits."""
+"""Binary search for the lowest sufficient gas limit of a call."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ from typing import Protocol
 from ..chain import DEFAULT_GAS_LIMIT
 from ..errors import InputError, OutOfGasError
 
-#: The first limit that is tried where no upper one is given; it is doubled until it suffices.
+#: The first limit without an upper one; it is doubled until it suffices.
 FIRST_LIMIT = 1 << 20
 
 
 class Caller(Protocol):
-    """Whatever makes calls of contracts and raises OutOfGasError where the limit does not suffice."""
+    """An object that calls contracts, and raises OutOfGasError if the gas limit is too low."""
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> object:
-        """Calls a contract, by the name of its artifact."""
+        """Call a contract, by the name of its artifact."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One call: the limit that was tried, whether it sufficed, and what is known after it.
+    """One call of a search: its gas limit, whether it was enough, and the bracket after it.
 
-    lower: the largest limit that is known not to suffice, or the lower limit of the search. upper: the smallest that
-    is known to; None while there is none.
+    lower: the highest limit that is known to be too low, or the lower limit of the search.
+    upper: the lowest limit that is known to be enough, or None.
     """
 
     limit: int
@@ -36,14 +36,14 @@ class Step:
 
 @dataclass(frozen=True)
 class Search:
-    """What a search found: the least gas limit that suffices, and the calls that led there."""
+    """The result of a search: the lowest sufficient gas limit, and the calls."""
 
     gas: int
     steps: tuple[Step, ...]
 
     @property
     def calls(self) -> int:
-        """How many calls were made."""
+        """Number of calls."""
         return len(self.steps)
 
 
@@ -54,11 +54,14 @@ def search(
     report: Callable[[Step], None] | None = None,
     most: int = DEFAULT_GAS_LIMIT,
 ) -> Search:
-    """Return the least limit above `lower` that is enough.
+    """Return the lowest limit above `lower` that is enough.
 
-    enough: makes the call with this limit; what is enough stays enough with more. lower: taken not to suffice.
-    upper: a limit that should; None doubles until one does, up to `most`. report: is told every step.
-    InputError if the limits are the wrong way round, OutOfGasError if the upper one does not suffice.
+    enough: makes the call with a limit and says whether it was enough; must be monotonic.
+    lower: a limit that is assumed to be too low.
+    upper: a limit that should be enough; None doubles the limit until it is, up to `most`.
+    report: receives each step.
+
+    Raises InputError unless 0 <= lower < upper, OutOfGasError if the upper limit is not enough.
     """
     last = most if upper is None else upper
     if not 0 <= lower < last:
@@ -91,7 +94,7 @@ def search(
 
 
 def suffices(chain: Caller, contract: str, data: bytes) -> Callable[[int], bool]:
-    """Return whether a call succeeds with a gas limit. Raises ChainError if it fails for another reason."""
+    """Return a function that says whether a call succeeds with a gas limit; other failures raise ChainError."""
 
     def call(limit: int) -> bool:
         try:

@@ -1,4 +1,4 @@
-"""Where in the sources each instruction of a contract comes from."""
+"""The place in the sources of each instruction of a contract."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _PUSH1, _PUSH32 = 0x60, 0x7F
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the sources: its name with that of its contract or file, and its place in bytes."""
+    """A function: its name with that of its contract or file, and its range in bytes."""
 
     name: str
     begin: int
@@ -26,7 +26,7 @@ class Function:
 
 @dataclass(frozen=True)
 class Source:
-    """A file of the sources."""
+    """A source file."""
 
     name: str
     text: bytes
@@ -34,21 +34,22 @@ class Source:
     line_begins: tuple[int, ...]
 
     def line(self, place: int) -> int:
-        """Return the line of a byte, from 1."""
+        """Return the line of a byte offset, from 1."""
         return bisect_right(self.line_begins, place)
 
     def function(self, begin: int, end: int) -> str | None:
-        """Return the function that holds these bytes."""
+        """Return the function that contains a range of bytes."""
         return next((f.name for f in self.functions if f.begin <= begin and end <= f.end), None)
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where an instruction comes from.
+    """The place of an instruction in the sources.
 
-    function: None if it is the compiler's own, such as reading the ABI. line: from 1. jump: "i" where a function is
-    entered, "o" where one is left, "-" otherwise. block: whether the place is a whole block of inline assembly, which
-    the compiler does not divide.
+    function: None for code of the compiler, such as ABI decoding.
+    line: from 1.
+    jump: "i" for a jump into a function, "o" for a jump out of one, "-" otherwise.
+    block: whether the place is a whole block of inline assembly, which the compiler does not subdivide.
     """
 
     file: str
@@ -60,7 +61,7 @@ class Place:
 
 @dataclass(frozen=True)
 class SourceMap:
-    """The places of a contract's instructions, and the functions that begin at them, by position in the code."""
+    """The places of a contract's instructions, and the functions that begin there, by position in the code."""
 
     contract: str
     places: dict[int, Place]
@@ -77,7 +78,7 @@ def source_map(contract: str) -> SourceMap:
     fields = ["0", "0", "-1", "-"]
     entries = data["map"].split(";")
     for at, entry in zip(_instructions(artifact(contract).runtime), entries, strict=False):
-        # begin:length:source:jump:..., each as in the entry before if it is empty
+        # begin:length:source:jump:...; an empty field repeats that of the previous entry
         for i, field in enumerate(entry.split(":")[:4]):
             fields[i] = field or fields[i]
         begin, length, number = map(int, fields[:3])
@@ -96,7 +97,7 @@ def source_map(contract: str) -> SourceMap:
 
 
 def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
-    """Name and line of a function of the compiler's intermediate language."""
+    """Return name and line of a function of the compiler's intermediate language."""
     if span is None:
         return name, 0
     source, (_, begin, end) = _sources()[span[0]], span
@@ -104,7 +105,7 @@ def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
     if exact is not None:
         return exact, source.line(begin)
     if name.startswith("usr$"):
-        # a function within inline assembly, whose copies have numbers
+        # a function in inline assembly; its copies have numbers
         own = re.sub(r"_\d+$", "", name.removeprefix("usr$"))
         stem = source.name.rpartition("/")[2].removesuffix(".sol")
         found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
@@ -113,7 +114,7 @@ def _entry(name: str, span: tuple[int, int, int] | None) -> tuple[str, int]:
 
 
 def _instructions(code: bytes) -> list[int]:
-    """Return the positions of the instructions, without what is pushed."""
+    """Return the positions of the instructions, without pushed data."""
     places, at = [], 0
     while at < len(code):
         places.append(at)
@@ -129,14 +130,14 @@ def _data() -> dict[str, Any]:
 
 @cache
 def _sources() -> dict[int, Source]:
-    """Return the sources that the compiler was given, by its numbers for them."""
+    """Return the compiled sources, by the compiler's numbers."""
     texts: dict[str, dict[str, str]] = {}
     for group in {artifact(contract).group for contract in _data()["contracts"]}:
         request = json.loads(files("shackled.artifacts").joinpath(f"standard-input-{group}.json").read_text("utf-8"))
         texts |= request["sources"]
     sources = {}
     for number, source in _data()["sources"].items():
-        # what others wrote is not kept here
+        # the artifacts do not contain the sources of libraries
         text = texts[source["name"]].get("content", "").encode()
         functions = tuple(Function(name, begin, begin + length) for name, begin, length in source["functions"])
         begins = (0, *(match.end() for match in re.finditer(rb"\n", text)))

@@ -1,4 +1,4 @@
-"""A profile in the format of speedscope, a viewer of flame graphs: https://www.speedscope.app."""
+"""A profile as a file for speedscope, a flame graph viewer: https://www.speedscope.app."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SCHEMA = "https://www.speedscope.app/file-format-schema.json"
 
 
 def speedscope(profile: Profile, name: str) -> dict[str, Any]:
-    """Return the content of the JSON file: stages hold functions, which hold lines; the weights are gas."""
+    """Return the content of the JSON file: stages contain functions, which contain lines; weights are gas."""
     frames: dict[tuple[str, str, int], int] = {}
     costs = sorted(profile.costs, key=lambda cost: (cost.stage, cost.calls, cost.file, cost.line))
     samples = [[frames.setdefault(frame, len(frames)) for frame in _frames(cost)] for cost in costs]

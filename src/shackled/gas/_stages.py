@@ -1,4 +1,4 @@
-"""The stages of a picture, and which sources belong to them."""
+"""The stages of a picture, and their source files."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ STAGES = (
     REST,
 )
 
-#: The stage of each source; of one that belongs to two stages, that of most functions. Others serve all stages.
+#: The stage of each source file (of most of its functions). Other files serve all stages.
 _SOURCES = {
     "scene/Checks.sol": "checks",
     "scene/Extensions.sol": "checks",
@@ -68,7 +68,7 @@ _SOURCES = {
 
 
 def stages_of(source_map: SourceMap) -> dict[int, str]:
-    """Return the stage of each instruction by its position; code that serves several stages has none."""
+    """Return the stage of each instruction, by position; code that serves several stages is left out."""
     stages = {}
     for at, place in source_map.places.items():
         if place.function is not None:

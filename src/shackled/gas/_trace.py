@@ -1,4 +1,4 @@
-"""A call, instruction by instruction: what each cost, in which function, called from where, at work for which stage."""
+"""Tracing of a call: the gas of each instruction by function, call stack and stage."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ _STRIDE = 1 << 16
 
 @dataclass(eq=False)
 class Frame:
-    """A function with the calls that led to it; the same for every call by the same way.
+    """A function with a call stack; all calls with the same stack share a frame.
 
-    contract: the name of its artifact. entry: the position at which it begins; 0 is the contract itself.
-    costs: gas by stage and position of the instruction, without that of calls.
+    contract: name of the artifact.
+    entry: position at which the function begins; 0 for the contract itself.
+    costs: gas by stage and position of the instruction, without calls.
     """
 
     contract: str
@@ -36,18 +37,18 @@ class Frame:
     calls: dict[tuple[str, int], Frame] = field(default_factory=dict)
 
     def call(self, contract: str, entry: int) -> Frame:
-        """Return the frame of a function that is called here."""
+        """Return the frame of a function that this one calls."""
         key = contract, entry
         if key not in self.calls:
             self.calls[key] = Frame(contract, entry, self)
         return self.calls[key]
 
     def frames(self) -> list[Frame]:
-        """This frame and all below it."""
+        """Return this frame and all below it."""
         return [self, *(frame for each in self.calls.values() for frame in each.frames())]
 
     def gas(self) -> int:
-        """Return the gas of this frame without what it calls."""
+        """Return the gas of this frame, without calls."""
         return sum(sum(costs.values()) for costs in self.costs.values())
 
 
@@ -56,14 +57,16 @@ TRACER = "the package py-evm: pip install 'shackled[profile]'"
 
 
 def can_trace() -> bool:
-    """Return whether there is an EVM that can be traced."""
+    """Return whether py-evm is installed."""
     return find_spec("eth") is not None
 
 
 def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[Frame, CallResult]:
-    """Makes a call in py-evm; the frame of the contract, and the result.
+    """Trace a call in py-evm; return the frame of the contract, and the result.
 
-    report: is told now and then how much gas has been used. InputError if py-evm is not installed.
+    report: receives the gas used so far, from time to time.
+
+    Raises InputError if py-evm is not installed.
     """
     if not can_trace():
         raise InputError(f"gas by stage and line needs {TRACER}")
@@ -75,7 +78,7 @@ def trace(contract: str, data: bytes, report: Callable[[int], None] | None = Non
 
 
 class _Tracer(PyEvmChain):
-    """Keeps what the last call cost."""
+    """An EVM that records the costs of its last call."""
 
     def __init__(self, report: Callable[[int], None] | None) -> None:
         super().__init__()
@@ -85,7 +88,7 @@ class _Tracer(PyEvmChain):
     def _state(self) -> Any:
         state = super()._state()
         self.root = None
-        #: Who is calling, for which stage; and the gas of the call that ended last.
+        #: The calling frame and its stage; the gas of the last finished call.
         self._caller: tuple[Frame | None, str] = None, REST
         self._called = 0
         tracer, base = self, state.computation_class
@@ -103,7 +106,7 @@ class _Tracer(PyEvmChain):
         return state
 
     def _run_code(self, computation: Any) -> None:
-        """Run the loop of py-evm, and count the gas of each instruction."""
+        """Run the interpreter loop of py-evm, and record the gas of each instruction."""
         from eth.exceptions import Halt
         from eth.vm.logic.invalid import InvalidOpcode
 
@@ -116,7 +119,7 @@ class _Tracer(PyEvmChain):
         frame = Frame(contract, 0, None) if caller is None else caller.call(contract, 0)
         if self.root is None:
             self.root = frame
-        #: Frame and stage of each call that is open, and where it should return to.
+        #: Frame, stage and return position of each open call.
         returns: list[tuple[Frame, str, int]] = []
         costs = frame.costs[stage]
         code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
@@ -140,7 +143,7 @@ class _Tracer(PyEvmChain):
             costs[at] += before - after
             before = after
             if opcode >= _FIRST_CALL:
-                # what was called has books of its own
+                # the called contract records its own costs
                 costs[at] -= self._called
             if halted:
                 break
@@ -155,7 +158,7 @@ class _Tracer(PyEvmChain):
                         frame, stage, back = returns.pop()
                 elif returns and mapped.places[target].function not in (None, mapped.entries.get(frame.entry)):
                     frame, stage, _ = returns.pop()
-                # else the common end of several functions, of the compiler's making, from where it goes on
+                # else a shared end of several functions, made by the compiler: stay in this frame
                 costs = frame.costs[stage]
             countdown -= 1
             if not countdown:

@@ -1,6 +1,4 @@
-"""Common objects of computer graphics: shapes that a formula gives, scenes of the Shackled paper, and models of other
-people that are fetched on request.
-"""
+"""Common objects of computer graphics: shapes, scenes of the Shackled paper, and models of other authors."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""The mesh in a file of any kind, archives among them."""
+"""Reading of meshes from any file, including archives."""
 
 from __future__ import annotations
 

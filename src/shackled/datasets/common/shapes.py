@@ -24,7 +24,7 @@ TURN = 2 * np.pi
 def patch(surface: Surface, across: int, down: int) -> Mesh:
     """Return a surface of 2 * across * down triangles, seen from where d/du x d/dv points.
 
-    Points that meet are one vertex, so that seams and poles are smooth, and what has no area there is left out.
+    Equal points are one vertex, so seams and poles are smooth. Triangles without area are left out.
     """
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)

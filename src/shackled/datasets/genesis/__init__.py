@@ -1,4 +1,4 @@
-"""Shackled Genesis: 1024 pieces from a generator that runs in a contract. Every seed of 32 bytes is a piece."""
+"""Shackled Genesis: 1024 pieces of an on-chain generator. Every seed of 32 bytes gives a piece."""
 
 import lazy_loader
 

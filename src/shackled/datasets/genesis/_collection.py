@@ -1,4 +1,4 @@
-"""Shackled Genesis: 1024 pieces from a generator that runs in a contract. Every seed of 32 bytes is a piece."""
+"""The Genesis collection, and the pieces of other seeds."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _piece(label: str, seed: bytes) -> Piece:
 
 
 def generate(seed: bytes) -> GenesisPiece:
-    """Make the piece of a seed by the contract. RenderError for the rare seed that has none."""
+    """Generate the piece of a seed with the contract. RenderError for the rare seeds without a piece."""
     from ._contract import generate_on_chain
 
     return generate_on_chain(seed)[0]

@@ -1,4 +1,4 @@
-"""A piece of the collection."""
+"""A piece of Genesis."""
 
 from __future__ import annotations
 
@@ -21,8 +21,12 @@ POSITION = (0, 0, -2500)
 class GenesisPiece:
     """The piece of a seed.
 
-    background: the colours at the top and at the bottom. prisms: how many. verts: six a prism. cols: their colours,
-    red, green and blue, 0..255. faces: seven a prism. culling: whether faces that turn away are left out.
+    background: the colours of the top and the bottom.
+    prisms: number of prisms.
+    verts: six vertices per prism.
+    cols: their colours, red, green and blue, 0..255.
+    faces: seven faces per prism.
+    culling: whether faces that point away are left out.
     """
 
     seed: bytes

@@ -1,4 +1,4 @@
-"""The whole collection in one picture."""
+"""The collection in one picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shackled Icons: small models of our own, each with a light, a pose and a background."""
+"""Shackled Icons: small models made by code, each with its own light, pose and background."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Shackled Icons: small models of our own, each with a light, a pose and a background."""
+"""The collection of icons."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Solids: closed surfaces of coloured triangles, made by lofting rings of points, and put together without booleans.
+"""Solids: closed surfaces of coloured triangles, made by lofting rings of points, combined without booleans.
 
-+x is right, +y up, +z toward the viewer; lengths are in units of the model (icons are some 2 units large), angles in
-degrees, colours as everywhere ("#rrggbb" or red, green, blue 0..255). Triangles run counter-clockwise as seen from
-outside. Parts of a whole may reach into each other: the depth buffer hides what is inside.
++x is right, +y up, +z toward the viewer. Lengths are in units of the model (icons are about 2 units large), angles in
+degrees. Colours are "#rrggbb" or red, green, blue, 0..255. Triangles are counter-clockwise seen from outside. Parts of
+a solid may overlap: the depth buffer hides what is inside.
 """
 
 from __future__ import annotations
@@ -29,9 +29,10 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class Solid:
-    """Triangles, each with its own corners and colours; edges are shared where corners are equal.
+    """Triangles with their own corners and colours; edges are shared where corners are equal.
 
-    corners: (m, 3, 3), for each triangle three points. colors: (m, 3, 3), for each of them red, green, blue, 0..255.
+    corners: (m, 3, 3), three points for each triangle.
+    colors: (m, 3, 3), red, green, blue, 0..255 for each corner.
     """
 
     corners: Array

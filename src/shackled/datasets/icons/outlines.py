@@ -1,4 +1,4 @@
-"""Polygons in the plane: (n, 2) arrays of corners, counter-clockwise, none twice, the last joined to the first."""
+"""Polygons in the plane: (n, 2) arrays of distinct corners, counter-clockwise, the last joined to the first."""
 
 from __future__ import annotations
 

@@ -1,0 +1,8 @@
+"""Render a built-in model, save the picture, and print what it cost."""
+
+import shackled
+
+image = shackled.render("teapot", size=64, color="tomato")
+image.save("teapot.png")
+print(image)  # <Image 64x64, 491 triangles, 4.1M gas>
+print(f"{image.pixels.shape} pixels, {image.gas:,} gas, {image.made_by}")

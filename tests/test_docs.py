@@ -1,0 +1,137 @@
+"""The Python code and the commands of the documentation, and the short programs."""
+
+from __future__ import annotations
+
+import ast
+import re
+import runpy
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.main import get_command
+
+import shackled
+from nodes import KEY, anvil, needs_anvil
+from shackled.cli.app import app
+
+ROOT = Path(__file__).resolve().parent.parent
+DOCS = ROOT / "docs"
+PROGRAMS = sorted((ROOT / "examples" / "programs").glob("*.py"))
+#: Those that need a node, whose address is in SHACKLED_RPC.
+ON_A_NODE = {"node", "stored_mesh"}
+#: Pages whose blocks form one program; of the others only the imports are run, since they need nodes or much time.
+RUNNING = {"datasets", "energy", "gas", "genesis", "icons", "look", "reference", "stages", "tutorial"}
+TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
+MODEL = """ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z
+element face 1\nproperty list uchar int vertex_indices\nend_header\n0 1 0\n-1 -1 0\n1 -1 0\n3 0 1 2\n"""
+
+
+def blocks(page: Path) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```$", page.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+
+
+PAGES = [page for page in sorted(DOCS.glob("*.md")) if blocks(page)]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_code_of_a_page_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    code = ast.parse("\n".join(blocks(page)))
+    imports = [statement for statement in code.body if isinstance(statement, ast.Import | ast.ImportFrom)]
+    for statement in imports:
+        if isinstance(statement, ast.ImportFrom) and (statement.module or "").startswith("shackled."):
+            assert "._" not in (statement.module or "")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / "teapot.obj").write_text(TRIANGLE)
+    (tmp_path / "model.ply").write_text(MODEL)
+    if page.stem not in RUNNING:
+        code.body = list(imports)
+    names: dict[str, Any] = {
+        "shackled": shackled,
+        "vertices": [(0, 1, 0), (-1, -1, 0), (1, -1, 0)],
+        "faces": [[0, 1, 2]],
+    }
+    exec(compile(code, str(page), "exec"), names)
+
+
+@pytest.mark.parametrize("page", [*sorted(DOCS.glob("*.md")), ROOT / "README.md"], ids=lambda page: page.stem)
+def test_the_commands_of_a_page_exist(page: Path) -> None:
+    """With the options that are shown."""
+    for line in re.findall(r"^(?:\$ )?(?:\.venv/bin/)?(shackled [a-z].*)$", page.read_text("utf-8"), re.MULTILINE):
+        words = shlex.split(line, comments=True)[1:]
+        command = get_command(app)
+        while words and hasattr(command, "commands"):
+            command = command.commands[words.pop(0)]
+        known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
+        assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
+
+
+def test_the_reference_has_every_name_with_an_example() -> None:
+    text = (DOCS / "reference.md").read_text("utf-8")
+    used = {
+        node.attr
+        for node in ast.walk(ast.parse("\n".join(blocks(DOCS / "reference.md"))))
+        if isinstance(node, ast.Attribute)
+    }
+    assert set(shackled.__all__) <= used
+    plain = {"__version__", "replace"}  # which mkdocstrings cannot show
+    assert [name for name in shackled.__all__ if name not in plain and f"::: shackled.{name}\n" not in text] == []
+
+
+@pytest.fixture(scope="module")
+def node() -> Iterator[str]:
+    with anvil() as running:
+        yield running.url
+
+
+def run(program: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    runpy.run_path(str(program), run_name="__main__")
+
+
+@pytest.mark.parametrize("program", [p for p in PROGRAMS if p.stem not in ON_A_NODE], ids=lambda program: program.stem)
+def test_a_program_runs(
+    program: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run(program, tmp_path, monkeypatch)
+    assert capsys.readouterr().out or list(tmp_path.iterdir())
+
+
+@needs_anvil
+@pytest.mark.parametrize("name", sorted(ON_A_NODE))
+def test_a_program_runs_on_a_node(
+    name: str, node: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("SHACKLED_RPC", node)
+    monkeypatch.setenv("KEY", KEY)
+    run(ROOT / "examples" / "programs" / f"{name}.py", tmp_path, monkeypatch)
+    assert "gas" in capsys.readouterr().out
+
+
+def test_the_programs_are_short_and_listed() -> None:
+    page = (DOCS / "programs.md").read_text("utf-8")
+    assert len(PROGRAMS) >= 12
+    for program in PROGRAMS:
+        text = program.read_text("utf-8")
+        assert 5 <= len(text.splitlines()) <= 25
+        assert f"[`{program.name}`]" in page
+        assert f'\n--8<-- "{program.name}"\n' in page
+
+
+def test_the_programs_have_strict_types() -> None:
+    """As in a project of somebody else, without the configuration of this one."""
+    command = [
+        sys.executable,
+        "-m",
+        "mypy",
+        "--strict",
+        "--config-file=",
+        *map(str, PROGRAMS),
+    ]
+    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert result.returncode == 0, result.stdout + result.stderr
