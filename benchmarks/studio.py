@@ -22,7 +22,7 @@ from shackled.datasets import teapot
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
 from shackled.scene import fit, pack, stage
-from shackled.studio import compact, on_grid, store_mesh, store_scene
+from shackled.studio import compact, quantize, store_mesh, store_scene
 
 from .snapshot import changes
 
@@ -74,7 +74,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
         ("icons/heart", load("icons/heart"), None, 10),
     ):
         if bits is not None:
-            scene = evolve(scene, objects=[on_grid(o, bits) for o in scene.objects])
+            scene = evolve(scene, objects=[quantize(o, bits) for o in scene.objects])
         (o,) = fit(scene).objects
         size, storing, reading = keeper.kept_mesh(o, normal_bits)
         figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}

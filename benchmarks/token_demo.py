@@ -2,7 +2,7 @@
 
     python -m benchmarks.token_demo
 
-starts an anvil, plays the demo, and writes token-demo.md. The pictures of Genesis, and with them the gas of their
+starts an anvil, runs the demo, and writes token-demo.md. The pictures of Genesis, and with them the gas of their
 `tokenURI`, are others each time, as the chain draws them; benchmarks/tokens.py has exact figures of fixed seeds.
 """
 
@@ -15,8 +15,9 @@ from pathlib import Path
 
 from tools.anvil import Anvil, find_anvil
 
+from shackled.bench import table
 from shackled.chain import VARIABLE
-from shackled.tokens import markdown, run
+from shackled.tokens import comparison, run_demo
 
 FILE = Path(__file__).with_name("token-demo.md")
 
@@ -37,10 +38,11 @@ def main() -> int:
         return 1
     with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node:
         os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
-        demo = run(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
-    table = markdown(demo.costs)
-    print(table, end="")
-    FILE.write_text(HEAD + table, "utf-8")
+        demo = run_demo(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
+    head, *rows = comparison(demo.costs)
+    text = table(head, rows) + "\n"
+    print(text, end="")
+    FILE.write_text(HEAD + text, "utf-8")
     return 0
 
 

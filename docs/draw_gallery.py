@@ -19,7 +19,7 @@ from tools.anvil import Anvil, find_anvil
 from tools.page_server import ARGUMENTS, browser_path
 
 from shackled.chain import VARIABLE
-from shackled.tokens import run
+from shackled.tokens import run_demo
 
 FOLDER = Path(__file__).parent
 
@@ -34,7 +34,7 @@ def main() -> None:
         raise SystemExit("anvil is not installed: npm ci in contracts/")
     with tempfile.TemporaryDirectory() as folder, Anvil(binary) as node, sync_playwright() as driver:
         os.environ[VARIABLE] = str(Path(folder) / "addresses.json")
-        demo = run(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
+        demo = run_demo(node.connection, Path(folder) / "demo", lambda text: print(text, file=sys.stderr))
         browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
         page = browser.new_page(viewport={"width": 1280, "height": 1060}, color_scheme="light")
         page.goto(demo.gallery.resolve().as_uri())

@@ -14,6 +14,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -21,33 +22,16 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 import float64
-from pictures import chain, shared_folder
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
+from original_scenes import OBJECTS, documents, genesis_document, object_document
+from pictures import chain
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene import vertex_normals
+from shackled.scene import original_scene, vertex_normals
 
 MEAN_BOUND = 0.6
 LEVELS = 4
 SHARE_WITHIN = 0.999
-
-OBJECTS = [
-    "armadillo",
-    "beast",
-    "beetle",
-    "benchy",
-    "cow",
-    "fandisk",
-    "fertility",
-    "horse",
-    "max-planck",
-    "nefertiti",
-    "rocker-arm",
-    "spot",
-    "stanford-bunny",
-    "suzanne",
-    "teapot",
-]
 
 
 @dataclass(frozen=True)
@@ -110,21 +94,21 @@ def interior(picture: float64.Picture) -> NDArray[np.bool_]:
 # ---- scenes ----
 
 
-def shared_scenes() -> dict[str, Callable[[], Scene]]:
-    """Those that are made of files beside the repository; none where there are no such files."""
+def scenes_of_the_original() -> dict[str, Callable[[], Scene]]:
+    """Those of the kinds that the original was measured with, and objects, each in three materials."""
+
     found: dict[str, Callable[[], Scene]] = {}
     for name in OBJECTS:
-        path = shared_folder() / f"obj_{name}_cull.json"
-        found[f"{name}, as it is"] = lambda path=path: load(path)  # type: ignore[misc]
-        found[f"{name}, smooth, point light"] = lambda path=path: smooth(load(path))  # type: ignore[misc]
-        found[f"{name}, unlit"] = lambda path=path: unlit(load(path))  # type: ignore[misc]
-    names = [f"genesis_{i:03}" for i in range(24)]
-    names += ["cube_persp_128", "cube_orth_128", "cornell_cull", "cornell_nocull", "fullquad_128", "icosphere_320"]
-    for name in names:
-        path = shared_folder() / f"{name}.json"
-        found[name] = lambda path=path: solid(load(path))  # type: ignore[misc]
-    found["fullquad_128, frontal point light"] = frontal_quad
-    return {name: make for name, make in found.items() if shared_folder().is_dir()}
+        made = partial(original_scene, object_document(name))
+        found[f"{name}, as it is"] = made
+        found[f"{name}, smooth, point light"] = lambda made=made: smooth(made())  # type: ignore[misc]
+        found[f"{name}, unlit"] = lambda made=made: unlit(made())  # type: ignore[misc]
+    for number in range(24):
+        found[f"genesis {number}"] = lambda n=number: solid(original_scene(genesis_document(n)))  # type: ignore[misc]
+    for name in ("cube perspective 128", "cube orthographic 128", "quad", "unlit ball", "highlight from left"):
+        found[name] = lambda name=name: solid(original_scene(documents()[name]))  # type: ignore[misc]
+    found["quad, frontal point light"] = lambda: frontal(original_scene(documents()["quad"]))
+    return found
 
 
 def smooth(scene: Scene) -> Scene:
@@ -147,9 +131,8 @@ def unlit(scene: Scene) -> Scene:
     return evolve(scene, objects=[evolve(o, material=Material("unlit")) for o in scene.objects], lights=[])
 
 
-def frontal_quad() -> Scene:
-    """A quad across the whole canvas with the highlight of a point light in its middle."""
-    scene = load(shared_folder() / "fullquad_128.json")
+def frontal(scene: Scene) -> Scene:
+    """The scene with the highlight of a point light in its middle."""
     material = Material("flat", ambient=0.3, diffuse=0.7, specular=0.5, shininess=20)
     objects = [evolve(o, material=material) for o in scene.objects]
     return evolve(scene, objects=objects, lights=[Light("point", (0, 0, -1500))])
@@ -341,7 +324,7 @@ def orthographic(scene: Scene) -> Scene:
 
 def main() -> int:
     """The command."""
-    scenes = shared_scenes() | made_scenes()
+    scenes = scenes_of_the_original() | made_scenes()
     chosen = [name for name in scenes if not sys.argv[1:] or any(part in name for part in sys.argv[1:])]
     print(f"{'scene':44} {'pixels':>6} {'mean':>7} {'worst':>5} {'within 4':>9} {'of all':>9}")
     bad = 0

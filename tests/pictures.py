@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,19 +19,6 @@ Pixels = NDArray[np.uint8]
 
 UNLIT = Material("unlit")
 WHITE = (255, 255, 255)
-
-
-def shared_folder() -> Path:
-    """Where files of scenes may be that do not come with the repository."""
-    return Path(os.environ.get("SHACKLED_SHARED", Path(__file__).parents[2] / "shared")) / "scenes"
-
-
-def shared_scene(name: str) -> Path:
-    """The file of a scene; skips the test where there is none."""
-    path = shared_folder() / f"{name}.json"
-    if not path.is_file():
-        pytest.skip(f"there is no {path}: set SHACKLED_SHARED")
-    return path
 
 
 @cache

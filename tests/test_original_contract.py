@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import xml.etree.ElementTree as ElementTree
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import eth_abi
@@ -16,40 +14,12 @@ import pytest
 from PIL import Image as PillowImage
 
 from float64 import type_of
-from pictures import Pixels, chain, dynamic, shared_scene
-from shackled import RenderError, Scene, load
+from original_scenes import documents
+from pictures import Pixels, chain, dynamic
+from shackled import RenderError, Scene
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
 from shackled.scene import original_scene
-
-SHARED = [
-    "obj_spot_cull",
-    "obj_teapot_cull",
-    "genesis_000",
-    "genesis_003",
-    "genesis_007",
-    "genesis_014",
-    "cube_persp_128",
-    "cube_orth_128",
-    "cornell_cull",
-    "cornell_nocull",
-    "fullquad_128",
-    "probe_invert",
-    "probe_cw_culled",
-    "probe_offscreen_huge",
-    "probe_crossing_eye_plane",
-    "probe_depth_orth_farfirst",
-    "probe_depth_persp_farfirst",
-    "probe_canvas_100",
-    "probe_shininess_32",
-    "probe_behind_camera",
-    "probe_overdraw_4_layers",
-    "probe_scale0",
-    "diff_xz",
-    "spec_xz",
-    "first_orth",
-    "first_persp",
-]
 
 LIGHTING_KEYS = [
     "applyLighting",
@@ -171,13 +141,10 @@ def test_scenes_made_by_hand(name: str) -> None:
     assert picture_of(original_call(document)).std() > 10
 
 
-@pytest.mark.parametrize("name", SHARED)
-def test_shared_scenes(name: str) -> None:
-    path: Path = shared_scene(name)
-    document = json.loads(path.read_text("utf-8"))
-    if "rotation" in document:
-        pytest.skip("the contract knows no rotation")
-    assert_like_loaded(document, load(path))
+@pytest.mark.parametrize("name", documents())
+def test_scenes_as_the_original_was_measured_with(name: str) -> None:
+    document = documents()[name]
+    assert_like_loaded(document, original_scene(document))
 
 
 @pytest.mark.parametrize("name", ["cube", "an odd canvas", "wireframe"])

@@ -8,6 +8,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from importlib.metadata import packages_distributions
 from pathlib import Path
@@ -67,8 +68,13 @@ def test_what_is_imported_is_declared() -> None:
     assert {canonicalize_name(each.name) for each in everything} <= found
 
 
-def of_the_package(path: Path) -> Iterator[str]:
+@cache
+def of_the_package(path: Path) -> list[str]:
     """Return the modules of the package that a file imports, and the names that it takes from them, all absolute."""
+    return list(_of_the_package(path))
+
+
+def _of_the_package(path: Path) -> Iterator[str]:
     here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
     for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):

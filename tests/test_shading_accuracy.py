@@ -7,12 +7,12 @@ import pytest
 from attrs import evolve
 
 import float64
-from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, shared_scenes
-from pictures import call_data, draw, shared_scene
+from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, scenes_of_the_original
+from pictures import call_data, draw
 from random_scenes import Kind, random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
 
-SHARED, MADE = shared_scenes(), made_scenes()
+ORIGINAL, MADE = scenes_of_the_original(), made_scenes()
 
 
 def check(accuracy: Accuracy) -> None:
@@ -26,9 +26,9 @@ def test_scenes_made_by_hand(name: str) -> None:
     check(measure(MADE[name]()))
 
 
-@pytest.mark.parametrize("name", SHARED)
-def test_shared_scenes(name: str) -> None:
-    check(measure(SHARED[name]()))
+@pytest.mark.parametrize("name", ORIGINAL)
+def test_scenes_of_the_original(name: str) -> None:
+    check(measure(ORIGINAL[name]()))
 
 
 def test_faces_that_a_lamp_and_the_eye_meet_at_small_angles() -> None:
@@ -36,11 +36,6 @@ def test_faces_that_a_lamp_and_the_eye_meet_at_small_angles() -> None:
     accuracy = measure(load("cornell-box"))
     check(accuracy)
     assert accuracy.worst <= LEVELS
-
-
-def test_that_there_are_shared_scenes() -> None:
-    shared_scene("cube_persp_128")
-    assert len(SHARED) > 70
 
 
 @pytest.mark.parametrize(("kind", "seeds"), [("tame", range(300)), ("close", range(150))])

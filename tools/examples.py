@@ -5,7 +5,9 @@ from __future__ import annotations
 import base64
 import io
 import json
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from eth_abi.abi import decode
@@ -19,14 +21,23 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def compile_example(name: str) -> tuple[bytes, dict[str, bytes]]:
-    """Compile a source: the creation code of its contract, and the selectors by signature."""
-    sources = build_contracts.follow_imports([name], ROOT)
-    request = build_contracts.request(
-        sources, build_contracts.settings(200, True), {name: {"*": build_contracts.OUTPUTS}}
-    )
-    output = build_contracts.run_compiler(build_contracts._text(request))["contracts"][name][Path(name).stem]["evm"]
+    """Compile a source: the creation code of its contract, and the selectors by signature.
+
+    The examples are compiled together, once: what they import is what takes the time.
+    """
+    examples = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "examples").rglob("*.sol"))
+    output = _compiled(tuple(examples if name in examples else [name]))[name][Path(name).stem]["evm"]
     selectors = {signature: bytes.fromhex(value) for signature, value in output["methodIdentifiers"].items()}
     return bytes.fromhex(output["bytecode"]["object"]), selectors
+
+
+@cache
+def _compiled(names: tuple[str, ...]) -> dict[str, Any]:
+    sources = build_contracts.follow_imports(names, ROOT)
+    selection = {name: {"*": build_contracts.OUTPUTS} for name in names}
+    request = build_contracts.request(sources, build_contracts.settings(200, True), selection)
+    found: dict[str, Any] = build_contracts.run_compiler(build_contracts._text(request))["contracts"]
+    return found
 
 
 def token_uri(world: World, token: bytes, number: int, minted: int) -> str:

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 
 from shackled import load
 from shackled.errors import ShackledError
 from shackled.gas import Frame, blocks, functions, render_call, trace
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """The command."""
     text = __doc__ or ""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -26,7 +27,7 @@ def main() -> int:
     parser.add_argument("function", nargs="?", help="such as Rasterizer.rows; none: a list of all")
     parser.add_argument("--call", nargs=2, metavar=("CONTRACT", "DATA"), help="call this contract with these bytes")
     parser.add_argument("--contract", help="whose functions; else Engine, or the one that is called")
-    options = parser.parse_args()
+    options = parser.parse_args(arguments)
     # with --call there is no scene, and what comes first is the function
     function = options.input if options.call else options.function
     if not options.call and options.input is None:

@@ -8,12 +8,12 @@ import os
 import shackled
 from shackled.chain import Connection
 from shackled.deploy import Transactor, environment_account
-from shackled.tokens import Wanted, plan_storage, read_back, store
+from shackled.tokens import SceneToStore, plan_storage, read_back, store
 
 connection = Connection(os.environ["SHACKLED_RPC"])
 points = [(-1, 0, 1), (1, 0, 1), (0, 0, -1), (0, 2, 0)]
 pyramid = shackled.Mesh(points, [(0, 1, 3), (1, 2, 3), (2, 0, 3)], "gold")
-wanted = Wanted("pyramid", shackled.load(pyramid, size=32))
+wanted = SceneToStore("pyramid", shackled.load(pyramid, size=32))
 storage = plan_storage(connection, [wanted])
 print(f"{storage.gas:,} gas to store it, {storage.parts.gas:,} gas for missing contracts")
 store(storage, Transactor(connection, environment_account("KEY")))

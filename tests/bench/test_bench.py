@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import json
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +12,8 @@ import pytest
 from PIL import Image as PillowImage
 from tools.anvil import AnvilChain, find_anvil
 
-from shackled import InputError, bench, load
+from original_scenes import document, mesh_keys
+from shackled import InputError, Scene, bench, load
 from shackled.artifacts import artifact
 from shackled.bench import (
     CODE_SIZES,
@@ -34,8 +37,8 @@ from shackled.cli.app import run
 from shackled.deploy import STANDARD
 from shackled.image import decode_bmp
 from shackled.reference import render as reference_render
+from shackled.scene import original_scene
 
-SHARED = Path(__file__).resolve().parents[3] / "shared" / "scenes"
 SLOW = ("engines",)
 
 Rows = list[dict[str, str]]
@@ -114,21 +117,26 @@ def test_without_a_name_all_are_made(
 # ---- scenes ----
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="needs the scenes of the original, in `shared` beside the repository")
 @pytest.mark.parametrize(
-    ("name", "scene"),
+    ("scene", "digest"),
     [
-        ("cube_persp_8", scenes.cube(8)),
-        ("cube_persp_128", scenes.cube(128)),
-        ("cube_orth_16", scenes.cube(16, "orthographic")),
-        ("tris_01", scenes.equal_triangles(1)),
-        ("tris_16", scenes.equal_triangles(16)),
+        (scenes.cube(8), "ed17698dbf9ebaea"),
+        (scenes.cube(128), "470a05b97436ab6f"),
+        (scenes.cube(16, "orthographic"), "e90cfc2be96d3f64"),
+        (scenes.equal_triangles(1), "4806fa266a6ebc57"),
+        (scenes.equal_triangles(16), "446fd72f8a9d7598"),
     ],
 )
-def test_scenes_are_those_that_the_original_was_measured_with(name: str, scene: object) -> None:
-    theirs, ours = load(SHARED / f"{name}.json"), scene
-    assert reference_render(ours) == reference_render(theirs)  # type: ignore[arg-type]
-    assert call_renderer(ours) == call_renderer(theirs)  # type: ignore[arg-type]
+def test_scenes_are_those_that_the_original_was_measured_with(scene: Scene, digest: str) -> None:
+    """By a hash of the numbers that stood in its JSON; the look is that which such a file is given."""
+    (thing,) = scene.objects
+    keys = mesh_keys(thing.mesh) | {"objPosition": thing.position.astype(int).tolist()}
+    numbers = [scene.width, *(keys[key] for key in ("verts", "faces", "cols", "objPosition"))]
+    assert hashlib.sha256(json.dumps(numbers).encode()).hexdigest()[:16] == digest
+    perspective = scene.camera.projection == "perspective"
+    theirs = original_scene(document(scene.width, {}, **keys, perspCamera=perspective))
+    assert reference_render(scene) == reference_render(theirs)
+    assert call_renderer(scene) == call_renderer(theirs)
 
 
 def test_the_figures_of_the_original() -> None:

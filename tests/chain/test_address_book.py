@@ -63,9 +63,9 @@ def test_where_it_is(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 def test_a_broken_book(tmp_path: Path, text: str) -> None:
     path = tmp_path / "addresses.json"
     path.write_text(text)
-    with pytest.raises(InputError, match=r"the address book .* is broken.*: repair or remove it, or name another"):
+    with pytest.raises(InputError, match=r"the address book .* is damaged.*: repair or remove it, or name another"):
         AddressBook(path).find(1, "Engine")
-    with pytest.raises(InputError, match="is broken"):
+    with pytest.raises(InputError, match="is damaged"):
         AddressBook(path).write(1, {"Engine": ONE})
     assert path.read_text() == text
 
@@ -102,5 +102,5 @@ def test_capitals_are_the_checksum() -> None:
     assert checksum_address(TWO) == "0x5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed"
     for text in (checksum_address(TWO), checksum_address(TWO).lower(), "0x" + TWO.hex().upper()):
         assert parse_address(text, "it") == TWO
-    with pytest.raises(InputError, match="it is mistyped"):
+    with pytest.raises(InputError, match="it has an invalid checksum"):
         parse_address("0x5aaeb6053F3E94C9b9A09f33669435E7Ef1BeAed", "it")

@@ -7,9 +7,10 @@ import pickle
 import re
 import socket
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime, timedelta, timezone
 from email.utils import format_datetime
 from typing import Any
 
@@ -57,33 +58,57 @@ def test_an_answer() -> None:
 @pytest.mark.parametrize(
     ("reply", "kind", "words"),
     [
-        (Reply(b"<html>hello</html>"), NodeUnreachableError, "what is not JSON"),
-        (Reply(b""), NodeUnreachableError, "answered with nothing"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "what is not JSON"),
-        (Reply(b"[" * 100_000), NodeUnreachableError, "what is not JSON"),
+        (Reply(b"<html>hello</html>"), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b""), NodeUnreachableError, "an empty answer"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 0, "resu'), NodeUnreachableError, "an answer that is not JSON"),
+        (Reply(b"[" * 100_000), NodeUnreachableError, "an answer that is not JSON"),
         (Reply(b"[]"), NodeUnreachableError, "JSON that is not JSON-RPC"),
         (Reply(b'{"jsonrpc": "2.0", "id": 0}'), NodeUnreachableError, "JSON that is not JSON-RPC"),
-        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered another request"),
-        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "broke off"),
-        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "broke off"),
+        (Reply(b'{"jsonrpc": "2.0", "id": 999, "result": "0x"}'), NodeUnreachableError, "answered a different request"),
+        (Reply(b'{"jsonrpc": "2.0", "id": null, "result": 5}' + b" " * 99, cut=20), NodeUnreachableError, "closed the"),
+        (Reply(b"x" * 99, cut=0), NodeUnreachableError, "closed the"),
         (Reply(b"", 429, {"Retry-After": "7"}), NodeBusyError, "try again in 7 s"),
-        (Reply(b"", 429), NodeBusyError, "called less often (HTTP status 429); try again later"),
+        (
+            Reply(b"", 429),
+            NodeBusyError,
+            "(HTTP status 429); try again later, or use another node",
+        ),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
-        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): take a smaller `size`"),
+        (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
+        (Reply(b"", 413), TooLargeError, "answer of this size: use a smaller `size`"),
+        (
+            Reply(b"", 503, {"Retry-After": "2.5"}),
+            NodeBusyError,
+            "limits the rate of requests (HTTP status 503); try again in 3 s",
+        ),
         (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
+        (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is out of order"),
+        (Reply(b"", 499), NodeError, "HTTP status 499; check its address"),
         (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
-        (Reply(b"", 504), NodeTimeoutError, "HTTP status 504: it took too long"),
-        (Reply(b"", 401), NodeError, "HTTP status 401: it lets nobody in without the right key"),
+        *[
+            (Reply(b"", status), NodeTimeoutError, f"HTTP status {status}: it took too long")
+            for status in (408, 504, 522, 524)
+        ],
+        *[(Reply(b"", status), NodeError, f"HTTP status {status}: it needs a key") for status in (401, 403, 407)],
         (
             Reply(b'{"jsonrpc": "2.0", "id": 999, "error": {"code": -32600, "message": "authenticate"}}', 401),
             NodeError,
-            "HTTP status 401: it lets nobody in without the right key",
+            "HTTP status 401: it needs a key",
         ),
         (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
-        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it sends callers elsewhere"),
-        (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot)"),
-        (failure("daily limit", 429, status=429), NodeBusyError, "less often"),
+        (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
+        (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
+        (Reply(b"\xff no", 418), NodeError, "(\ufffd no)"),
+        (Reply(b"", 300), NodeError, "HTTP status 300: it redirects requests"),
+        (Reply(b"", 399), NodeError, "HTTP status 399: it redirects requests"),
+        (Reply(b"", 400), NodeError, "HTTP status 400; check its address"),
+        (Reply(b"", 301, {"Location": "https://elsewhere"}), NodeError, "it redirects requests"),
+        (Reply(b"teapot", 418), NodeError, "HTTP status 418 (teapot); check its address"),
+        (Reply(b"<p>a  <b>tea</b>\n pot" + b"!" * 99, 418), NodeError, f"(a tea pot{'!' * 91}...); check"),
+        (Reply(b"x" * 100, 418), NodeError, f"({'x' * 100}); check"),
+        (Reply(b"<i" + b" " * 1990 + b">" + b"late" * 9, 418), NodeError, "(latelat); check"),
+        (failure("daily limit", 429, status=429), NodeBusyError, "limits the rate"),
         (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
     ],
 )
@@ -140,6 +165,100 @@ WORDINGS = [
     (RevertError, -32000, "execution reverted"),
 ]
 
+#: Single words of them, each in a message where no other word tells.
+WORDS = {
+    OutOfGasError: [
+        "gas required exceeds 9",
+        "not enough gas",
+        "tx gas too low",
+        "gas limit too low",
+        "gas limit below 53000",
+        "floor data gas above the limit",
+        "gas floor more than gas limit",
+        "MemoryOOG",
+        "memory limit reached",
+        "gas limit is too high",
+        "gas limit too high",
+        "gas too high",
+        "exceeds block gas limit",
+        "exceeds the gas limit",
+        "greater than block gas limit",
+        "exceeds allowance",
+        "above the RPC gas cap",
+    ],
+    TooLargeError: [
+        "response size should not be greater than 10000",
+        "response size is larger than 150MB",
+        "response is too big",
+        "response exceeded 10 MB",
+        "response too big",
+        "oversized response",
+        "request is too big",
+        "request too large",
+        "request too big",
+        "oversized request",
+        "request entity too large",
+        "request size exceeded",
+        "request body too large",
+        "content length too large",
+        "payload too large",
+        "length limit exceeded",
+        "body limit of 5 MB",
+        "initcode limit of 49152",
+        "initcode too large",
+    ],
+    NodeBusyError: [
+        "rate limit",
+        "request rate exceeded",
+        "too many requests",
+        "request count exceeded",
+        "out of compute units",
+        "capacity exceeded",
+        "you have exceeded its compute",
+        "throttled",
+        "quota exceeded",
+        "credits exceeded",
+        "too many connections",
+        "the server is busy",
+        "server busy",
+        "overloaded",
+        "temporarily unavailable",
+        "block not found",
+        "unknown block",
+        "not synced",
+        "still syncing",
+    ],
+    NodeTimeoutError: ["timeout", "context deadline exceeded", "execution aborted"],
+    WrongChainError: ["opcode not found", "bad instruction", "undefined instruction"],
+}
+
+
+@pytest.mark.parametrize(
+    ("kind", "message"), [(kind, words) for kind, all_words in WORDS.items() for words in all_words]
+)
+def test_each_word_tells(kind: type[ChainError], message: str) -> None:
+    with pytest.raises(kind) as error:
+        ask(failure(message))
+    assert type(error.value) is kind
+
+
+@pytest.mark.parametrize(
+    ("kind", "code", "words"),
+    [
+        (TooLargeError, -32007, "answer of this size (no)"),
+        (TooLargeError, -32008, "answer of this size (no)"),
+        (NodeBusyError, -32005, "limits the rate of requests (no); try again later"),
+        (NodeBusyError, 429, "limits the rate of requests (no); try again later"),
+        (NodeError, -32601, "does not support a method that is needed (no); use another node"),
+        (RevertError, 3, "the call was reverted: no"),
+        *[(NodeError, code, "says: no") for code in (-32009, -32006, -32004, -32600, -32602, 2, 4, 428, 430, None)],
+    ],
+)
+def test_numbers_tell_where_words_do_not(kind: type[ChainError], code: int, words: str) -> None:
+    with pytest.raises(kind, match=re.escape(words)) as error:
+        ask(failure("no", code))
+    assert type(error.value) is kind
+
 
 @pytest.mark.parametrize(("kind", "code", "message"), WORDINGS)
 def test_what_nodes_say(kind: type[ChainError], code: int, message: str) -> None:
@@ -159,6 +278,58 @@ def test_what_a_contract_says_wherever_it_is(data: Any) -> None:
     assert error.value.data == bytes.fromhex("1234abcd")
     assert revert_data("Reverted 0x123") is None
     assert revert_data(None) is None
+
+
+@pytest.mark.parametrize(
+    ("data", "expected"),
+    [
+        ("0x", b""),
+        (" 0xABcd ", b"\xab\xcd"),
+        ("0x1234 56", None),
+        ("10x12", None),
+        ("0x123", None),
+        (b"0x12", None),
+        ({"message": "0x12"}, None),
+        *[({"other": "0x34", key: "0x12"}, b"\x12") for key in ("data", "result", "output", "return")],
+        ({"data": "no", "output": {"return": "0x12"}}, b"\x12"),
+        ({"data": "0x12", "result": "0x34"}, b"\x12"),
+    ],
+)
+def test_the_bytes_of_a_revert(data: Any, expected: bytes | None) -> None:
+    assert revert_data(data) == expected
+
+
+def test_reverts_whose_words_are_of_something_else() -> None:
+    """The contract may say anything: its data tells, then the number, and only then words."""
+    with pytest.raises(RevertError, match=r"^the call was reverted: out of gas$") as error:
+        ask(failure("out of gas", -32000, "0x12"))
+    assert error.value.data == b"\x12"
+    with pytest.raises(RevertError) as error:
+        ask(failure("request timed out", 3))
+    assert error.value.data == b""
+    # words in what is no data of a revert tell as well; no data is none
+    with pytest.raises(OutOfGasError):
+        ask(failure("transaction failed", -32000, "out of gas"))
+    with pytest.raises(NodeError, match=r"says: failed$"):
+        ask(failure("failed", -32000, "0x"))
+    with pytest.raises(NodeError, match=r"says: failed$"):
+        ask(failure("failed", -32000, {"message": "out of gas", "data": "0x"}))
+    with pytest.raises(RevertError):
+        ask(failure("VM Exception: revert", -32000, {"why": "later"}))
+
+
+@pytest.mark.parametrize("size", [200, 201])
+def test_long_messages_are_cut(size: int) -> None:
+    with pytest.raises(NodeError) as error:
+        ask(failure("n" * size))
+    assert str(error.value).endswith(": " + "n" * 200 + "..." * (size > 200))
+
+
+def test_an_error_that_is_no_object() -> None:
+    with pytest.raises(NodeError, match=r"says: plainly no$"):
+        ask(Reply(b'{"jsonrpc": "2.0", "id": null, "error": "plainly no"}'))
+    with pytest.raises(NodeError, match=r"says: \{'code': -1\}$"):
+        ask(Reply(b'{"jsonrpc": "2.0", "id": null, "error": {"code": -1}}'))
 
 
 def test_a_node_that_repeats_the_address() -> None:
@@ -197,7 +368,7 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"`rpc` must be the address of a node, as http://127\.0\.0\.1:8545") as error:
+    with pytest.raises(InputError, match=r"must be the address of a node, such as http://127\.0\.0\.1:8545") as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 
@@ -234,12 +405,26 @@ def test_a_busy_node_is_not_waited_for_too_long() -> None:
     assert pickle.loads(pickle.dumps(error.value)).retry_after == 3600
 
 
-def test_when_to_try_again() -> None:
+@pytest.mark.skipif(not hasattr(time, "tzset"), reason="the time zone cannot be set here")
+def test_when_to_try_again(monkeypatch: pytest.MonkeyPatch) -> None:
     soon = format_datetime(datetime.now(UTC) + timedelta(seconds=90), usegmt=True)
     assert 80 < (retry_after({"Retry-After": soon}) or 0) <= 90
     assert retry_after({"Retry-After": "Wed, 21 Oct 2015 07:28:00 GMT"}) == 0
     assert retry_after({"Retry-After": "soon"}) is None
     assert retry_after({"Retry-After": "nan"}) is None
+    assert retry_after({"Retry-After": " 1.5 "}) == 1.5
+    assert retry_after({"Retry-After": "-3"}) == 0
+    assert retry_after({"Retry-After": " "}) is None
+    east = format_datetime(datetime.now(timezone(timedelta(hours=9))) + timedelta(seconds=90))
+    assert 80 < (retry_after({"Retry-After": east}) or 0) <= 90
+    # a date without a time zone is in that of Greenwich, wherever this runs
+    monkeypatch.setenv("TZ", "Pacific/Auckland")
+    time.tzset()
+    try:
+        assert 80 < (retry_after({"Retry-After": soon.replace("GMT", "-0000")}) or 0) <= 90
+    finally:
+        monkeypatch.undo()
+        time.tzset()
     assert retry_after({}) is None
 
 
@@ -285,7 +470,7 @@ def test_the_wrong_chain() -> None:
 
 @pytest.mark.parametrize("value", [None, "0x123", "hello", 5, "0xzz"])
 def test_results_of_another_type(value: Any) -> None:
-    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="what is no string of bytes"):
+    with serving(lambda _: result(value)) as url, pytest.raises(NodeError, match="returned invalid bytes"):
         Connection(url).data("eth_call", {})
 
 
@@ -293,7 +478,7 @@ def test_results_of_another_type(value: Any) -> None:
     "number", ["0x" + 20_000 * "9", "0x" + 65 * "1", "0x", "12", "0x1_0", " 0x1", 7, None, ["0x1"]]
 )
 def test_what_is_no_number_of_256_bits(number: Any) -> None:
-    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="what is no number"):
+    with serving(lambda _: result(number)) as url, pytest.raises(NodeError, match="returned an invalid number"):
         _ = Connection(url).chain_id
     with serving(lambda _: result("0x" + 64 * "f")) as url:
         assert Connection(url).number("eth_gasPrice") == 2**256 - 1

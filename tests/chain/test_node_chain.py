@@ -249,7 +249,7 @@ def test_addresses_that_are_wrong(bare: Anvil) -> None:
         open_node(bare.url, proxy).draw(SCENES["empty"])
     with pytest.raises(InputError, match="`address` must be an address, 0x and 40 hexadecimal digits, not '0x12'"):
         open_node(bare.url, "0x12")
-    with pytest.raises(InputError, match="`address` is mistyped"):
+    with pytest.raises(InputError, match="`address` has an invalid checksum"):
         open_node(bare.url, proxy.replace("cA78F", "Ca78F"))
 
 
@@ -285,7 +285,7 @@ def test_a_node_that_keeps_back_what_is_reverted(bare: Anvil) -> None:
                 return failure("execution reverted", 3)
         return forward(bare.url, request)
 
-    with serving(answer) as url, pytest.raises(NodeError, match="keeps back what a creation call says"):
+    with serving(answer) as url, pytest.raises(NodeError, match="does not return the data of a reverted creation call"):
         open_node(url).draw(SCENES["empty"])
 
 
@@ -342,7 +342,7 @@ def geth(request: dict[str, object], url: str, cap: int) -> Reply:
 
 def test_too_little_gas_on_a_node(bare: Anvil) -> None:
     with serving(lambda request: geth(request, bare.url, 300_000)) as url:
-        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: take a smaller `size`"):
+        with pytest.raises(OutOfGasError, match="allows a call too little gas for this: use a smaller `size`"):
             open_node(url).draw(SCENES["smooth"])
         with without_overrides(url) as other:
             assert open_node(other).gas_limit == 0
@@ -354,7 +354,7 @@ def test_too_little_gas_on_a_node(bare: Anvil) -> None:
 def test_too_little_gas_to_bring_the_contracts_along(bare: Anvil, cap: int) -> None:
     """That is what is told, and no smaller picture is advised, since none would do."""
     scene = large_scene(1500)
-    words = r"allows a call too little gas for this: [\d,]+, and it knows no state overrides: to bring the"
+    words = r"allows a call too little gas for this: [\d,]+, and it has no state overrides: creating the"
     with serving(lambda request: geth(request, bare.url, cap)) as url, without_overrides(url) as other:
         for draw in (open_node(other).draw, lambda scene: render(scene, on=Nodes(other))):
             with pytest.raises(OutOfGasError, match=words) as error:
@@ -375,10 +375,10 @@ def test_a_node_without_overrides_and_creation_calls(bare: Anvil) -> None:
 
     with (
         serving(answer) as url,
-        pytest.raises(NodeError, match="missing to address: it takes neither state overrides nor creation") as error,
+        pytest.raises(NodeError, match="missing to address: it supports neither state overrides nor creation") as error,
     ):
         open_node(url).draw(SCENES["smooth"])
-    assert "run shackled deploy, or take another node" in str(error.value)
+    assert "run shackled deploy, or use another node" in str(error.value)
 
 
 #: Code that returns the data of a call, and what creates it.

@@ -80,11 +80,11 @@ def test_deploying_twice(node: Anvil, book: Path, deploy: Command, capsys: pytes
         # in the table before, and when it was done
         assert told.out.count(address) == 2
         assert told.out.count(f"{each.gas:,}") == 2
-    assert f"on chain 31337, by the {node.connection.name}, at " in told.out
+    assert f"on chain 31337, through the {node.connection.name}, at " in told.out
     blocks = node.rpc("eth_blockNumber")
     told = deploy("--rpc", node.url)
     assert told.code == 0
-    assert "everything is there already: nothing was sent" in told.out
+    assert "all contracts are deployed already: nothing was sent" in told.out
     assert node.rpc("eth_blockNumber") == blocks
     # and a render finds it
     assert run(["render", "shape.obj", "--size", "8", "--rpc", node.url, "--json"]) == 0
@@ -161,7 +161,7 @@ def test_a_keystore(node: Anvil, folder: Path, deploy: Command, monkeypatch: pyt
     arguments = ["--rpc", node.url, "--account", "keystore", "--contracts", "Engine", "--yes"]
     told = deploy(*arguments)
     assert told.code == 2
-    assert "the password of keystore cannot be asked here: put it into SHACKLED_PASSWORD" in told.err
+    assert "there is no terminal to ask for the password of keystore: set SHACKLED_PASSWORD" in told.err
     monkeypatch.setenv("SHACKLED_PASSWORD", PASSWORD[:-1])
     told = deploy(*arguments)
     assert told.code == 2
@@ -185,7 +185,7 @@ def test_a_book_that_cannot_be_written(
 def test_nobody_to_ask_and_nobody_to_pay(node: Anvil, deploy: Command) -> None:
     told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY")
     assert told.code == 2
-    assert "nothing was sent, since nobody can be asked here: --yes" in told.err
+    assert "nothing was sent: there is no terminal to ask for consent; --yes" in told.err
     # what it would cost is told all the same
     assert all(f"{each.gas:,}" in told.out for each in deployments())
     told = deploy("--rpc", node.url, "--yes")
@@ -230,11 +230,11 @@ def test_the_wrong_chain(node: Anvil, deploy: Command) -> None:
         ([], "--rpc is missing"),
         (["--rpc", "nowhere"], "--rpc must be the address of a node"),
         (["--rpc", "URL", "--contracts", "Nothing"], "there is no contract 'Nothing' to deploy"),
-        (["--rpc", "URL", "--contracts", ","], "--contracts names none"),
+        (["--rpc", "URL", "--contracts", ","], "--contracts is empty"),
         (["--rpc", "URL", "--account", "none", "--yes"], "there is no keystore file none"),
-        (["--rpc", "URL", "--account", "shape.obj", "--yes"], "shape.obj is no keystore file"),
+        (["--rpc", "URL", "--account", "shape.obj", "--yes"], "shape.obj is not a keystore file"),
         (["--rpc", "URL", "--private-key-env", "NO_SUCH", "--yes"], "environment variable NO_SUCH"),
-        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "the name of a variable is wanted, not the key"),
+        (["--rpc", "URL", "--private-key-env", KEY, "--yes"], "give the name of a variable, not the key"),
         (["--rpc", "URL", "--account", "x", "--private-key-env", "TEST_KEY"], "give one of them"),
         (["--rpc", "URL", "--rpc-timeout", "0"], "--rpc-timeout must be more than 0 seconds"),
     ],
@@ -251,7 +251,7 @@ def test_a_broken_book_is_told_first(node: Anvil, book: Path, deploy: Command) -
     book.write_text("{")
     told = deploy("--rpc", node.url, "--private-key-env", "TEST_KEY", "--yes")
     assert told.code == 2
-    assert f"the address book {book} is broken" in told.err
+    assert f"the address book {book} is damaged" in told.err
     assert int(node.rpc("eth_blockNumber"), 16) == 0
 
 

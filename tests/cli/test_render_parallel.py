@@ -111,6 +111,7 @@ def test_nodes_as_they_are(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
         (["--rpc", "localhost:8545"], "--rpc must be the address of a node"),
         (["--rpc", "http://127.0.0.1:1", "--chain", "pyrevm"], "--rpc and --chain exclude each other"),
         (["--rpc", "http://127.0.0.1:1", "--cluster", "local"], "--rpc and --cluster exclude each other"),
+        (["--cluster", "teapot"], "--cluster must be local or an address such as tcp://host:8786, not 'teapot'"),
         (["--rpc-timeout", "5"], "--rpc-timeout needs --rpc"),
         (["--verify", "all"], "--verify needs --rpc or --cluster"),
         (["--rpc", "http://127.0.0.1:1", "--verify", "most"], "--verify must be all, some or none, not 'most'"),

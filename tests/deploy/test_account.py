@@ -36,7 +36,7 @@ def test_a_wrong_password(keystore: Path) -> None:
 def test_files_that_are_no_keystores(tmp_path: Path, text: str) -> None:
     path = tmp_path / "file"
     path.write_text(text)
-    with pytest.raises(InputError, match="is no keystore file") as error:
+    with pytest.raises(InputError, match="is not a keystore file") as error:
         keystore_account(path, "right")
     assert KEY[2:10] not in str(error.value)
 
@@ -73,7 +73,7 @@ def test_keys_that_are_none(monkeypatch: pytest.MonkeyPatch, value: str) -> None
 
 def test_a_variable_that_is_not_set(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("SOME_KEY", raising=False)
-    with pytest.raises(InputError, match="no private key in the environment variable SOME_KEY: set it"):
+    with pytest.raises(InputError, match="the environment variable SOME_KEY is not set"):
         environment_account("SOME_KEY")
 
 
@@ -94,12 +94,12 @@ SLIPS = [
 
 @pytest.mark.parametrize("slip", SLIPS)
 def test_a_key_in_place_of_a_name(slip: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(InputError, match="the name of a variable is wanted, not the key") as error:
+    with pytest.raises(InputError, match="give the name of a variable, not the key") as error:
         environment_account(slip)
     assert slip[4:12] not in str(error.value)
     if len(slip) > 41:
         monkeypatch.chdir(tmp_path)
-        with pytest.raises(InputError, match="the name of a file is wanted, not a key") as wrong:
+        with pytest.raises(InputError, match="give the name of a file, not a key") as wrong:
             keystore_account(Path(slip), "")
         assert slip[4:12] not in str(wrong.value)
 

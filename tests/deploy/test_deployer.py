@@ -115,7 +115,7 @@ def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> 
     assert plan.steps[0].name == "deployment proxy"
     assert all(code(node, each.address) == b"" for each in wanted)
     told: list[tuple[str, int]] = []
-    receipts = deployer.carry_out(
+    receipts = deployer.execute(
         plan, transactor, lambda step, done: told.append((step.name, sum(each.gas for each in done)))
     )
     assert [code(node, each.address) for each in wanted] == [each.code for each in wanted]
@@ -127,7 +127,7 @@ def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> 
     nonce = node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest")
     again = deployer.plan(wanted)
     assert (again.missing, again.gas, again.cost) == ([], 0, 0)
-    assert deployer.carry_out(again, transactor) == []
+    assert deployer.execute(again, transactor) == []
     assert node.rpc("eth_getTransactionCount", "0x" + transactor.address.hex(), "latest") == nonce
 
 
@@ -135,7 +135,7 @@ def test_deploying(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> 
 def test_the_price_that_was_told_is_kept(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, transactor = parts(node, book)
     plan = deployer.plan(wanted)
-    receipts = deployer.carry_out(plan, transactor)
+    receipts = deployer.execute(plan, transactor)
     # the base fee of an empty chain falls meanwhile
     assert 0 < sum(receipt.fee for receipt in receipts) <= plan.cost
 
@@ -148,7 +148,7 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
         plan = deployer.plan(wanted[:3])
         assert missing(plan) == ["deployment proxy", *RENDERER]
         before = transactor.balance()
-        deployer.carry_out(plan, transactor)
+        deployer.execute(plan, transactor)
         assert before - transactor.balance() <= plan.cost
         assert code(node, PROXY) == PROXY_CODE
         assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
@@ -162,7 +162,7 @@ def test_a_proxy_whose_signer_has_something_already(book: AddressBook, wanted: l
         deployer, transactor = parts(node, book)
         plan = deployer.plan(wanted[:1])
         assert COST * 3 // 4 < plan.steps[0].cost < COST
-        deployer.carry_out(plan, transactor)
+        deployer.execute(plan, transactor)
         assert code(node, PROXY) == PROXY_CODE
         assert code(node, wanted[0].address) == wanted[0].code
 
@@ -179,11 +179,11 @@ def test_a_node_that_refuses_the_published_transaction(book: AddressBook, wanted
     with anvil(*NO_PROXY) as bare, serving(answer) as url:
         transactor = Transactor(Connection(url), Account.from_key(KEY))
         deployer, before = Deployer(transactor.connection, book), transactor.balance()
-        with pytest.raises(TransactionError, match=r"refuses transactions that are not bound to a chain.*another node"):
-            deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+        with pytest.raises(TransactionError, match=r"refuses transactions without a chain id.*another node"):
+            deployer.execute(deployer.plan(wanted[:1]), transactor)
         assert transactor.balance() == before
         # another node of the same chain does it
-        parts(bare, book)[0].carry_out(deployer.plan(wanted[:1]), parts(bare, book)[1])
+        parts(bare, book)[0].execute(deployer.plan(wanted[:1]), parts(bare, book)[1])
         assert code(bare, PROXY) == PROXY_CODE
 
 
@@ -209,10 +209,10 @@ def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[
         raise StopError
 
     with pytest.raises(StopError):
-        deployer.carry_out(plan, transactor, stop)
+        deployer.execute(plan, transactor, stop)
     rest = deployer.plan(wanted)
     assert missing(rest) == list(STANDARD[1:])
-    deployer.carry_out(rest, transactor)
+    deployer.execute(rest, transactor)
     assert deployer.plan(wanted).missing == []
 
 
@@ -224,7 +224,7 @@ def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list
         deployer.plan(wanted)
     node.rpc("anvil_setCode", "0x" + wanted[2].address.hex(), "0x")
     node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x00")
-    with pytest.raises(TransactionError, match="something else where the deployment proxy belongs"):
+    with pytest.raises(TransactionError, match="other code at the address of the deployment proxy"):
         deployer.plan(wanted)
 
 
@@ -233,7 +233,7 @@ def test_an_account_with_too_little(node: Anvil, book: AddressBook, wanted: list
     deployer = Deployer(node.connection, book)
     poor = Transactor(node.connection, Account.create())
     with pytest.raises(TransactionError, match=r"^the account 0x\w+ has 0 ether on chain 31337, and .* are needed"):
-        deployer.carry_out(deployer.plan(wanted), poor)
+        deployer.execute(deployer.plan(wanted), poor)
     assert not book.path.exists()
 
 
@@ -248,7 +248,7 @@ def test_any_creation_code(node: Anvil, book: AddressBook) -> None:
     receipt = deployer.deploy(own, quote, transactor)
     assert receipt is not None
     assert receipt.gas == own.gas
-    assert deployer.stands(own)
+    assert deployer.is_deployed(own)
 
 
 @needs_anvil
@@ -269,7 +269,7 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
         with serving(answer) as url:
             connection = Connection(url)
             deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
-            deployer.carry_out(deployer.plan(wanted[:3]), transactor)
+            deployer.execute(deployer.plan(wanted[:3]), transactor)
         assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
 
 
@@ -280,11 +280,9 @@ def test_limits_follow_the_estimates_of_the_node(book: AddressBook, wanted: list
     with anvil("--gas-limit", "60000000") as node, Liar(lies).before(node.url) as url:
         deployer = Deployer(Connection(url), book)
         plan = deployer.plan(wanted)
-        assert all(
-            each.estimate is not None and each.gas >= each.estimate >= 7 * each.call.ours for each in plan.quotes
-        )
+        assert all(each.estimate is not None and each.gas >= each.estimate >= 7 * each.call.gas for each in plan.quotes)
         before = Transactor(node.connection, Account.from_key(KEY)).balance()
-        receipts = deployer.carry_out(plan, Transactor(Connection(url), Account.from_key(KEY)))
+        receipts = deployer.execute(plan, Transactor(Connection(url), Account.from_key(KEY)))
         sent = [int(node.rpc("eth_getTransactionByHash", each.hash)["gas"], 16) for each in receipts]
         assert sent == [each.gas for each in plan.quotes]
         assert before - Transactor(node.connection, Account.from_key(KEY)).balance() <= plan.ceiling
@@ -309,8 +307,8 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
         engine, _, renderer = deployer.plan(wanted[:3]).quotes
         assert engine.estimate is not None
         assert renderer.estimate is None
-        assert 5 * renderer.call.ours <= renderer.gas <= 6 * renderer.call.ours
-        deployer.carry_out(deployer.plan(wanted[:3]), Transactor(Connection(url), Account.from_key(KEY)))
+        assert 5 * renderer.call.gas <= renderer.gas <= 6 * renderer.call.gas
+        deployer.execute(deployer.plan(wanted[:3]), Transactor(Connection(url), Account.from_key(KEY)))
     assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
 
 
@@ -333,8 +331,8 @@ def test_a_chain_on_which_the_published_transaction_has_too_little_gas(
         with serving(answer) as other:
             transactor = Transactor(Connection(other), Account.from_key(KEY))
             deployer, before = Deployer(transactor.connection, book), transactor.balance()
-            with pytest.raises(TransactionError, match="has 100,000 gas, which the node finds too little"):
-                deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+            with pytest.raises(TransactionError, match="has 100,000 gas, which is too little for the node"):
+                deployer.execute(deployer.plan(wanted[:1]), transactor)
             assert transactor.balance() == before
 
 
@@ -343,6 +341,6 @@ def test_a_proxy_that_is_too_dear_now(book: AddressBook, wanted: list[Deployment
     with anvil(*NO_PROXY, "--base-fee", str(300 * 10**9)) as node:
         deployer, transactor = parts(node, book)
         with pytest.raises(TransactionError, match=r"^gas costs \d+ gwei now, and the published .* offers 100: wait"):
-            deployer.carry_out(deployer.plan(wanted[:1]), transactor)
+            deployer.execute(deployer.plan(wanted[:1]), transactor)
         # the ether for it was not sent in vain
         assert node.connection.number("eth_getBalance", "0x" + SIGNER.hex(), "latest") == 0

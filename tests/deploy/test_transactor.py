@@ -106,7 +106,7 @@ def test_headroom_for_a_base_fee_that_rises(own_node: Anvil) -> None:
     quote, owned = quoted(payer, value=1), payer.balance()
     node.rpc("anvil_setNextBlockBaseFeePerGas", hex(10 * base))
     node.rpc("evm_mine")
-    with pytest.raises(TransactionError, match=r"^gas has become more expensive .*, 1,000 gwei, .* was not sent"):
+    with pytest.raises(TransactionError, match=r"^the price of gas has risen to 1,000 gwei, .* was not sent"):
         payer.send(quote)
     assert payer.balance() == owned
 
@@ -124,12 +124,12 @@ def test_what_is_signed_is_what_was_quoted(node: Anvil) -> None:
 @pytest.mark.parametrize(
     ("lies", "words"),
     [
-        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "zz"}}, "what is no block"),
-        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": 5}}, "what is no block"),
-        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "0x" + 65 * "f"}}, "what is no block"),
-        ({"eth_getBlockByNumber": lambda block, _: ["no"]}, "what is no block"),
-        ({"eth_getTransactionCount": lambda count, _: "0x" + 64 * "f"}, "has made 115,79"),
-        ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "what is no number"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "zz"}}, "an invalid block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": 5}}, "an invalid block"),
+        ({"eth_getBlockByNumber": lambda block, _: block | {"baseFeePerGas": "0x" + 65 * "f"}}, "an invalid block"),
+        ({"eth_getBlockByNumber": lambda block, _: ["no"]}, "an invalid block"),
+        ({"eth_getTransactionCount": lambda count, _: "0x" + 64 * "f"}, "an impossible nonce of .* 115,79"),
+        ({"eth_estimateGas": lambda gas, _: "0x" + 20_000 * "9"}, "an invalid number"),
     ],
 )
 def test_odd_answers_are_told_before_anything_is_sent(node: Anvil, lies: Any, words: str) -> None:
@@ -143,7 +143,7 @@ def test_odd_answers_are_told_before_anything_is_sent(node: Anvil, lies: Any, wo
 def test_odd_events_of_a_transaction_that_succeeded(node: Anvil, logs: Any) -> None:
     lies = {"eth_getTransactionReceipt": lambda receipt, _: receipt | {"logs": logs}}
     before = balance(node, SOMEONE)
-    words = r"^the transaction 0x\w{64} succeeded, so do not send it again; but the node .* events that are none"
+    words = r"^the transaction 0x\w{64} succeeded, so do not send it again; but the node .* invalid events"
     with Liar(lies).before(node.url) as url:
         if logs:
             with pytest.raises(TransactionError, match=words):
@@ -157,7 +157,7 @@ def test_odd_events_of_a_transaction_that_succeeded(node: Anvil, logs: Any) -> N
 def test_what_is_no_receipt(node: Anvil, receipt: Any) -> None:
     """The transaction was sent all the same, which is told."""
     lies = {"eth_getTransactionReceipt": lambda right, _: receipt}
-    words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .*what is no receipt"
+    words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .*an invalid receipt"
     with Liar(lies).before(node.url) as url, pytest.raises(NodeError, match=words):
         transactor(url).send(quoted(transactor(url)))
 
@@ -173,9 +173,7 @@ def test_no_suggestion_of_a_tip(node: Anvil) -> None:
 
 
 def test_a_refusal_without_a_reason(node: Anvil) -> None:
-    with pytest.raises(
-        TransactionError, match=r"^the transaction would fail: the contract refused, and gave no reason$"
-    ):
+    with pytest.raises(TransactionError, match=r"^the transaction would fail: the contract gave no reason$"):
         quoted(transactor(node.url), PROXY, bytes(32) + bytes.fromhex("5f5ffd"))
 
 
@@ -187,14 +185,14 @@ def test_what_is_waited_for_is_told(node: Anvil, monkeypatch: pytest.MonkeyPatch
                 return result(None)
         return forward(node.url, request)
 
-    monkeypatch.setattr("shackled.deploy._transactor.LATE", 0.0)
+    monkeypatch.setattr("shackled.deploy._transactor.DELAY", 0.0)
     asked: list[str] = []
     told: list[str] = []
     with serving(answer) as url:
         payer = transactor(url)
-        payer.late = told.append
+        payer.on_delay = told.append
         receipt = payer.send(quoted(payer, value=1))
-    assert told == [f"waiting for a block that takes the transaction {receipt.hash}"]
+    assert told == [f"waiting for the transaction {receipt.hash} to be mined"]
 
 
 def test_too_little_ether(node: Anvil) -> None:
@@ -239,9 +237,9 @@ def test_a_contract_without_gas(node: Anvil) -> None:
     ("said", "words"),
     [
         ("nonce too low: next nonce 5, tx nonce 4", "was used by another program meanwhile"),
-        ("replacement transaction underpriced", "gas has become more expensive meanwhile"),
-        ("max fee per gas less than block base fee: address 0x, maxFeePerGas: 1", "gas has become more expensive"),
-        ("only replay-protected (EIP-155) transactions allowed over RPC", "not bound to a chain"),
+        ("replacement transaction underpriced", "the price of gas has risen meanwhile"),
+        ("max fee per gas less than block base fee: address 0x, maxFeePerGas: 1", "the price of gas has risen"),
+        ("only replay-protected (EIP-155) transactions allowed over RPC", "without a chain id"),
         ("insufficient funds for gas * price + value", "ether, a transaction may cost"),
         ("the moon is full", "the transaction was refused: .*the moon is full"),
     ],
@@ -281,12 +279,12 @@ def test_an_answer_that_was_lost(node: Anvil) -> None:
 def test_a_transaction_that_is_in_no_block() -> None:
     with anvil("--no-mining") as node:
         payer = transactor(node.url, patience=0.3)
-        with pytest.raises(TransactionError, match=r"^the transaction 0x\w{64} is in no block after 0.3 s.*do not"):
+        with pytest.raises(TransactionError, match=r"0x\w{64} was sent, and is not mined after 0.3 s.*check"):
             payer.send(quoted(payer))
-        with pytest.raises(TransactionError, match="has 1 transactions that are in no block"):
-            payer.settle()
+        with pytest.raises(TransactionError, match="still has 1 pending transactions"):
+            payer.wait_for_pending()
         node.rpc("evm_mine")
-        payer.settle()
+        payer.wait_for_pending()
 
 
 def test_a_node_that_dies_meanwhile() -> None:
@@ -301,6 +299,6 @@ def test_a_node_that_dies_meanwhile() -> None:
         def dead(request: dict[str, Any]) -> Reply:
             return answer(request) if node.process.poll() is None else Reply(b"", 502)
 
-        words = r"^the transaction 0x\w{64} was sent, do not send it again before you know .*: .* out of order"
+        words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .* out of order"
         with serving(dead) as url, pytest.raises(NodeUnreachableError, match=words):
             transactor(url, patience=0.5).send(quoted(transactor(node.url)))

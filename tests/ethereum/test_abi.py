@@ -41,7 +41,7 @@ def test_one_value_is_itself_and_several_are_a_tuple() -> None:
 def test_an_answer_of_another_kind_is_refused() -> None:
     for answer in (b"", word(5), word(2)):
         function = "sam" if answer == word(5) else "baz"
-        with pytest.raises(ValueError, match=rf"^{len(answer)} bytes are no answer of {function}: "):
+        with pytest.raises(ValueError, match=rf"^{len(answer)} bytes are not an output of {function}: "):
             FOO.decode(function, answer)
 
 

@@ -37,7 +37,7 @@ def test_what_is_no_address_is_refused() -> None:
     for text in ("", "5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed", ADDRESSES[0][:-1], ADDRESSES[0] + "0"):
         with pytest.raises(InputError, match=r"^owner must be an address, 0x and 40 hexadecimal digits, not "):
             parse_address(text, "owner")
-    with pytest.raises(InputError, match=r"^owner is mistyped, its capitals do not fit its digits: "):
+    with pytest.raises(InputError, match=r"^owner has an invalid checksum, its capitals do not match its digits: "):
         parse_address(ADDRESSES[0].replace("aA", "Aa"), "owner")
 
 

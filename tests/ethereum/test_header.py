@@ -42,7 +42,7 @@ def test_a_field_that_is_missing_is_named() -> None:
     for name in ("mixHash", "nonce", "parentHash"):
         block = {key: value for key, value in GENESIS.items() if key != name}
         with pytest.raises(
-            InputError, match=f"^the node does not tell the {name} of block 0: its header cannot be made$"
+            InputError, match=f"^the node returned no {name} of block 0, so its header cannot be encoded$"
         ):
             encode_header(block)
 

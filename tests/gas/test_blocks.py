@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
+from tools import gas_blocks
 
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
 from shackled.gas import blocks, functions, render_call, trace
 
-TOOL = Path(__file__).resolve().parents[2] / "tools" / "gas_blocks.py"
+ROOT = Path(__file__).resolve().parents[2]
 
 pytest.importorskip("eth")
 
@@ -34,14 +36,17 @@ def test_blocks_have_the_gas_of_their_function() -> None:
     assert total == result.gas
 
 
-def test_the_tool() -> None:
-    data = (artifact("Genesis").selectors["traits"] + seed_of(0)).hex()
-    command = [sys.executable, str(TOOL), "--call", "Genesis", data]
-    listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+def test_the_tool(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    call = ["--call", "Genesis", (artifact("Genesis").selectors["traits"] + seed_of(0)).hex()]
+    command = [sys.executable, "tools/gas_blocks.py", *call]
+    listed = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout.splitlines()
+    # the call is the same each time
+    monkeypatch.setattr(gas_blocks, "trace", cache(trace))
     name = listed[1].split()[1]
-    told = subprocess.run([*command, name], check=True, capture_output=True, text=True).stdout.splitlines()
+    assert gas_blocks.main([*call, name]) == 0
+    told = capsys.readouterr().out.splitlines()
     assert told[0] == listed[0]
     assert told[-1] == f"{listed[1].split()[0]} gas in {name}"
     assert all(" x " in line and " gas  " in line for line in told[1:-1])
-    wrong = subprocess.run([*command, "Nothing.such"], capture_output=True, text=True)
-    assert (wrong.returncode, wrong.stderr) == (1, "Nothing.such was not called in Genesis\n")
+    assert gas_blocks.main([*call, "Nothing.such"]) == 1
+    assert capsys.readouterr().err == "Nothing.such was not called in Genesis\n"

@@ -105,11 +105,11 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
 @pytest.mark.parametrize(
     ("manner", "message"),
     [
-        ("kill", "broke off its answer"),
-        ("429", "called less often|asked later|too many|busy"),
+        ("kill", "closed the connection"),
+        ("429", "limits the rate|asked later|too many|busy"),
         ("500", "500"),
         ("html", "not JSON"),
-        ("half", "broke off its answer"),
+        ("half", "closed the connection"),
         (
             "wrong",
             "for the tile of 64 x 5 pixels at .*: its picture is not what the contracts draw",

@@ -13,7 +13,7 @@ from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError
 from shackled.scene import is_closed, pack
-from shackled.studio import scene_struct, take_apart
+from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
 ROOT = Path(__file__).resolve().parents[2]
@@ -73,7 +73,7 @@ def test_any_mesh(world: World, probe: bytes, room: tuple[int, int], count: tupl
     faces = random.integers(0, max(count[0], 1), (count[1], 3))
     vertices = [(*position, color) for position, color in zip(positions.tolist(), colors.tolist(), strict=True)]
     packed = made(world, probe, room, vertices, faces.tolist())
-    parts = take_apart(packed)
+    parts = split_mesh(packed)
     assert [tuple(c - 32768 for c in position) for position in parts.positions] == [
         tuple(p) for p in positions.tolist()
     ]
@@ -127,7 +127,7 @@ def test_nothing_is_added_to_what_is_packed(world: World, probe: bytes) -> None:
 
 def test_a_box_is_closed(world: World, probe: bytes) -> None:
     (packed,) = ask(world, probe, ["bytes"], "box()")
-    parts = take_apart(packed)
+    parts = split_mesh(packed)
     mesh = Mesh(np.array(parts.positions) - 32768, parts.faces)
     assert is_closed(mesh)
     assert mesh.positions.min(axis=0).tolist() == [-10, -20, -30]

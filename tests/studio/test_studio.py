@@ -17,7 +17,7 @@ from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, render
-from shackled.chain import refusal
+from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
 from shackled.scene import from_euler
@@ -436,4 +436,4 @@ def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
 def test_errors_are_named() -> None:
     from tools.ledger import call_data as data
 
-    assert "NotAScene" in str(refusal(data("NotAScene(address)", NOBODY), 1))
+    assert "NotAScene" in str(revert_error(data("NotAScene(address)", NOBODY), 1))

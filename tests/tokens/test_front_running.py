@@ -13,7 +13,7 @@ from shackled.chain import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.deploy import Transactor
 from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, Offer, development_accounts, icons_of, launch, plan_launch
+from shackled.tokens import KINDS, Collection, CollectionTerms, development_accounts, icons_of, launch, plan_launch
 
 pytestmark = needs_anvil
 KIND = KINDS["icons"]
@@ -27,14 +27,14 @@ def node(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Anvil]:
         yield started
 
 
-def transactors(node: Anvil) -> tuple[Transactor, Transactor, Offer]:
+def transactors(node: Anvil) -> tuple[Transactor, Transactor, CollectionTerms]:
     owner, other = (Transactor(node.connection, account) for account in development_accounts()[:2])
-    return owner, other, Offer(checksum_address(owner.address), checksum_address(owner.address))
+    return owner, other, CollectionTerms(checksum_address(owner.address), checksum_address(owner.address))
 
 
 def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> None:
-    _, other, offer = transactors(node)
-    plan = plan_launch(node.connection, KIND, offer)
+    _, other, terms = transactors(node)
+    plan = plan_launch(node.connection, KIND, terms)
     launch(plan, other)
     AddressBook().path.unlink()
     collection = Collection(node.connection, KIND, plan.address)
@@ -42,10 +42,10 @@ def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> N
     arguments += ["--signer", str(development_accounts()[5].address)]
     assert run([*arguments, "--yes"]) == 0
     said = capsys.readouterr()
-    assert f"this very collection stands at {plan.address} on chain 31337 already" in said.err
+    assert f"this collection is deployed at {plan.address} on chain 31337 already" in said.err
     assert f"Shackled Icons: {plan.address}\n" in said.out
     assert [icon.name for icon in icons_of(collection)] == ["Tetrahedron"]
-    assert collection.terms().allow_list_signer == development_accounts()[5].address
+    assert collection.state().allow_list_signer == development_accounts()[5].address
     assert AddressBook().find(31337, KIND.contract) == bytes.fromhex(plan.address[2:])
     # and again where it stopped
     blocks = node.rpc("eth_blockNumber")
@@ -55,11 +55,11 @@ def test_the_owner_goes_on(node: Anvil, capsys: pytest.CaptureFixture[str]) -> N
 
 
 def test_between_the_price_and_the_transaction(node: Anvil) -> None:
-    owner, other, offer = transactors(node)
-    plan = plan_launch(node.connection, KIND, offer)
-    launch(plan_launch(node.connection, KIND, offer), other)
+    owner, other, terms = transactors(node)
+    plan = plan_launch(node.connection, KIND, terms)
+    launch(plan_launch(node.connection, KIND, terms), other)
     before = owner.balance()
     collection, receipt = launch(plan, owner)
     assert (collection.address, receipt) == (plan.address, None)
     assert owner.balance() == before
-    assert collection.terms().owner == offer.owner
+    assert collection.state().owner == terms.owner

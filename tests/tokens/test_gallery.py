@@ -7,16 +7,16 @@ from html.parser import HTMLParser
 import numpy as np
 from PIL import Image as PillowImage
 
-from shackled.tokens import Cost, Metadata, Shown, Trait, comparison, markdown, page, tokens_json
+from shackled.tokens import ActionCost, Metadata, TokenView, Trait, comparison, page, tokens_json
 
 
-def shown(number: int, **changes: str) -> Shown:
+def shown(number: int, **changes: str) -> TokenView:
     stream = io.BytesIO()
     PillowImage.fromarray(np.full((4, 4, 3), number, np.uint8)).save(stream, "png")
     traits: dict[str, Trait] = {"Kind": changes.get("kind", "plain"), "Size": number}
     name = changes.get("name", f"Token #{number}")
     picture = Metadata(name, "<b>", traits, "image/png", stream.getvalue(), {}, 1234)
-    return Shown(
+    return TokenView(
         changes.get("collection", "Things"), "0x" + "ab" * 20, number, "0x" + "cd" * 20, True, picture, 5_000_000
     )
 
@@ -50,7 +50,9 @@ def test_each_token_has_a_card_in_its_collection() -> None:
 
 def test_nothing_that_a_token_says_becomes_part_of_the_page() -> None:
     evil = '"><script>alert(1)</script><img src=x onerror="'
-    parsed = Page(page(evil, evil, [shown(1, name=evil, kind=evil, collection=evil)], [(evil, evil)], [Cost(evil, 1)]))
+    parsed = Page(
+        page(evil, evil, [shown(1, name=evil, kind=evil, collection=evil)], [(evil, evil)], [ActionCost(evil, 1)])
+    )
     assert len(parsed.of("script")) == 1
     assert all("onerror" not in image for image in parsed.of("img"))
     assert all("onerror" not in article for article in parsed.of("article"))
@@ -66,9 +68,9 @@ def test_json_has_an_object_for_each_token() -> None:
 
 def test_costs_stand_beside_those_of_the_original() -> None:
     costs = [
-        Cost("own", 12_345),
-        Cost("mint 5", 89_000, (712_000, 712_000)),
-        Cost("uri", 5 * 10**6, (57 * 10**8, 144 * 10**8)),
+        ActionCost("own", 12_345),
+        ActionCost("mint 5", 89_000, (712_000, 712_000)),
+        ActionCost("uri", 5 * 10**6, (57 * 10**8, 144 * 10**8)),
     ]
     assert comparison(costs) == [
         ("action", "gas", "original", "times less"),
@@ -76,4 +78,3 @@ def test_costs_stand_beside_those_of_the_original() -> None:
         ("mint 5", "89,000", "712 k", "8.0"),
         ("uri", "5,000,000", "5,700 M to 14,400 M", "1,140 to 2,880"),
     ]
-    assert markdown(costs).splitlines()[3] == "| mint 5 | 89,000 | 712 k | 8.0 |"

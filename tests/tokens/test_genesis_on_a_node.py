@@ -41,23 +41,23 @@ def test_the_whole_way_of_tokens(
     said = shackled("token", "mint", "--yes", user=CAROL, expect=1)
     assert said.error == "shackled: the sale is closed; for this it must be open for all"
 
-    # the allow-list
-    assert "open for the allow-list" in shackled("token", "phase", "allow-list", "--yes", user=OWNER).out
+    # the allow list
+    assert "open for the allow list" in shackled("token", "phase", "allow-list", "--yes", user=OWNER).out
     assert "only the owner may do this" in shackled("token", "phase", "public", "--yes", user=BOB, expect=1).error
     said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=BOB, expect=2)
-    assert f"the account {node.accounts[BOB]} is not among the 2 of the allow-list" in said.error
+    assert f"the account {node.accounts[BOB]} is not among the 2 accounts of the allow list" in said.error
     said = shackled("token", "mint", 2, "--allow-list", allow_list, "--yes", user=ALICE)
     assert "it costs 0.4 ether and about" in said.err
     assert "minted #0, #1" in said.out
     said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=ALICE, expect=1)
-    assert said.error == "shackled: the allow-list allows the account 2 in all: 2 minted, 1 more wanted"
+    assert said.error == "shackled: the allow list allows the account 2 in all: 2 minted, 1 more wanted"
 
     # a permission
     file = tmp_path / "bob.json"
     shackled("token", "permit", node.accounts[BOB], 1, "-o", file, user=OWNER)
     assert "signed by" in shackled("token", "permit", node.accounts[BOB], 1, user=BOB, expect=2).error
     said = shackled("token", "mint", 1, "--permission", file, "--yes", user=CAROL, expect=2)
-    assert "the permission is one for" in said.error
+    assert "the permission is for" in said.error
     assert "minted #2" in shackled("token", "mint", 1, "--permission", file, "--yes", user=BOB).out
     assert "1 minted, 1 more" in shackled("token", "mint", 1, "--permission", file, "--yes", user=BOB, expect=1).error
 
@@ -79,13 +79,13 @@ def test_the_whole_way_of_tokens(
         contract.functions.seedOf(0).call()
     assert "not revealed yet" in shackled("token", "show", 0).out
     said = shackled("token", "reveal", "--yes", user=BOB, expect=2)
-    assert "draws the next seeds, and the chain is at" in said.error
+    assert "determines the next seeds, and the chain is at" in said.error
     assert "--wait" in said.error
 
     # anyone reveals
     node.mine(200)
     assert "revealed; " in shackled("token", "reveal", "--yes", user=9).out
-    assert shackled("token", "reveal", "--yes", user=9).out == "nothing is to be revealed\n"
+    assert shackled("token", "reveal", "--yes", user=9).out == "there is nothing to reveal\n"
 
     # what is shown is the picture of the seed, as others compute it too
     picture = tmp_path / "4.png"

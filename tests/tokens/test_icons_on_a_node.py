@@ -47,12 +47,12 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
 
     # nothing is sold before the set is fixed
     said = shackled("token", "phase", "public", *icons, user=OWNER, expect=1)
-    assert "the owner must seal the collection first" in said.error
+    assert "the owner has to seal the collection first" in said.error
     said = shackled("token", "add", "heart", "--yes", user=OWNER, expect=2)
     assert "icons/heart is not on the chain yet; run: shackled mint icons/heart" in said.error
     # nor is anything added that cannot be drawn
     said = shackled("token", "add", "Ghost", contract.functions.studio().call(), "--yes", user=OWNER, expect=1)
-    assert "are not those that belong there" in said.error
+    assert "do not belong to that address" in said.error
     assert contract.functions.iconCount().call() == 2
     shackled("mint", "icons/heart", "--yes", user=ALICE)
     said = shackled("token", "add", "heart", "--price", "0.01", "--supply", 3, "--yes", user=ALICE, expect=1)
@@ -67,7 +67,7 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     said = shackled("token", "mint", 1, *icons, user=ALICE, expect=2)
     assert "--icon is missing" in said.error
     said = shackled("token", "mint", 1, "--icon", "rocket", *icons, user=ALICE, expect=2)
-    assert "there is no icon 'rocket' in Shackled Icons; there are 0 Diamond, 1 Tetrahedron, 2 Heart" in said.error
+    assert "there is no icon 'rocket' in Shackled Icons; its icons are 0 Diamond, 1 Tetrahedron, 2 Heart" in said.error
     said = shackled("token", "mint", 2, "--icon", "diamond", *icons, user=ALICE)
     assert "it costs 0.02 ether and about" in said.err
     assert "minted #0, #1" in said.out
@@ -89,7 +89,7 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     listed = json.loads(shackled("token", "list", "-c", "icons", "--json").out)
     assert [each["traits"]["Icon"] for each in listed["tokens"]] == ["Diamond", "Diamond", "Heart", "Diamond"]
     assert [each["left"] for each in listed["icons"]] == [0, 2, 1]
-    assert "nothing is to be revealed" in shackled("token", "reveal", "-c", "icons", user=BOB, expect=2).error
+    assert "there is nothing to reveal" in shackled("token", "reveal", "-c", "icons", user=BOB, expect=2).error
     said = shackled("token", "verify", "-c", "icons")
     assert said.out.count("ok ") == 6 + 4
     assert "WRONG" not in said.out

@@ -14,13 +14,13 @@ from shackled.tokens import (
     HEADERS_AT_ONCE,
     KINDS,
     KNOWN_BLOCKS_BEFORE,
-    Offer,
+    CollectionTerms,
     development_accounts,
     hidden_rounds,
     launch,
     perform,
     plan_launch,
-    steps,
+    reveal_calls,
 )
 
 
@@ -31,7 +31,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(tmp_path: Path, monkeypa
     with anvil("--hardfork", "cancun") as node:
         user = Transactor(node.connection, development_accounts(1)[0])
         name = checksum_address(user.address)
-        collection, _ = launch(plan_launch(user.connection, KINDS["genesis"], Offer(name, name)), user)
+        collection, _ = launch(plan_launch(user.connection, KINDS["genesis"], CollectionTerms(name, name)), user)
         contract = collection.contract
         perform(user, contract, "setPhase", 2)
         for _ in range(2):
@@ -42,8 +42,8 @@ def test_an_old_block_is_proven_by_the_headers_after_it(tmp_path: Path, monkeypa
         assert len(rounds) == 2
         assert not any(any(contract.call("hashOf", each.block)) for each in rounds)
         receipts: dict[str, list[Receipt]] = {}
-        for step in steps(collection, rounds):
-            receipt = perform(user, contract, step.function, *step.arguments, ours=step.gas)
+        for step in reveal_calls(collection, rounds):
+            receipt = perform(user, contract, step.function, *step.arguments, gas=step.gas)
             assert receipt.gas <= step.gas
             receipts.setdefault(step.function, []).append(receipt)
         # one transaction does not take all headers, and the older round begins where the younger one ended

@@ -17,7 +17,16 @@ from proxies import Liar
 from shackled.chain import VARIABLE, Connection
 from shackled.cli.app import run
 from shackled.deploy import Transactor
-from shackled.tokens import KINDS, Offer, development_accounts, launch, perform, plan_launch, plan_storage, store
+from shackled.tokens import (
+    KINDS,
+    CollectionTerms,
+    development_accounts,
+    launch,
+    perform,
+    plan_launch,
+    plan_storage,
+    store,
+)
 
 ETHER, GWEI = 10**18, 10**9
 USER = 3
@@ -59,8 +68,8 @@ def node(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Anvil]:
         patch.setenv(VARIABLE, str(tmp_path_factory.mktemp("book") / "addresses.json"))
         patch.setenv("KEY", development_accounts()[USER].key.hex())
         owner = Transactor(started.connection, development_accounts()[0])
-        offer = Offer("0x" + owner.address.hex(), "0x" + owner.address.hex())
-        collection, _ = launch(plan_launch(started.connection, KINDS["genesis"], offer), owner)
+        terms = CollectionTerms("0x" + owner.address.hex(), "0x" + owner.address.hex())
+        collection, _ = launch(plan_launch(started.connection, KINDS["genesis"], terms), owner)
         perform(owner, collection.contract, "setPhase", 2)
         perform(owner, collection.contract, "mint", 1, value=collection.contract.call("price"))
         started.rpc("anvil_mine", hex(200))
@@ -86,7 +95,7 @@ def balance(node: Anvil) -> int:
 
 def ceiling(said: str) -> int:
     """The most that was told, in wei."""
-    found = re.findall(r"at most ([\d.]+) ether in all", said) or re.findall(r"together.* ([\d.]+)\s*$", said, re.M)
+    found = re.findall(r"at most ([\d.]+) ether in all", said) or re.findall(r"total.* ([\d.]+)\s*$", said, re.M)
     (told,) = found
     return int(Decimal(told) * ETHER)
 
@@ -137,7 +146,7 @@ def test_later_fees_change_nothing(
 
 @pytest.mark.parametrize(
     ("lies", "words"),
-    [(GAS, "estimates .* gas for a transaction whose price was told for"), (JUMP, "gas has become more expensive")],
+    [(GAS, "estimates .* gas for a transaction that was quoted with"), (JUMP, "the price of gas has risen")],
     ids=["gas", "base"],
 )
 @pytest.mark.parametrize("what", COMMANDS)
@@ -146,14 +155,14 @@ def test_whoever_wants_more_than_was_told_gets_nothing(
 ) -> None:
     code, paid, said, error = pay(node, Liar(lies), COMMANDS[what], capsys, monkeypatch)
     assert (code, paid) == (1, 0), said
-    assert re.search(rf"^shackled: .*{words}.*run the same again", error)
+    assert re.search(rf"^shackled: .*{words}.*run the command again", error)
 
 
 @pytest.mark.parametrize(
     ("lies", "words"),
     [
-        (TIP, "suggests a tip of 2,000,000 gwei for a gas, and 3 at most are paid unasked"),
-        (NO_BASE, "tells no base fee, and asks 2,000,000 gwei for a gas"),
+        (TIP, "suggests a tip of 2,000,000 gwei per unit of gas, more than 3"),
+        (NO_BASE, "reports no base fee, and asks for 2,000,000 gwei per unit of gas"),
         (GAS, "more than 10 times as much"),
     ],
     ids=["tip", "no base", "gas"],
@@ -184,7 +193,7 @@ def test_a_price_above_the_one_that_is_named_is_not_paid(
         arguments = (*COMMANDS["mint"], "--max-fee", "50")
         code, paid, _, error = pay(node, Liar(lies), arguments, capsys, monkeypatch, yes=True)
         assert (code, paid) == (1, 0)
-        assert "a gas costs 2,000,000 gwei now, above the 50 of --max-fee" in error
+        assert "a unit of gas costs 2,000,000 gwei now, more than the 50 of --max-fee" in error
 
 
 @pytest.mark.parametrize("odd", ["zz", {}, {"number": "0x1"}, None])
@@ -194,7 +203,7 @@ def test_blocks_that_are_none_reveal_nothing(
     lies = {"eth_getBlockByNumber": lambda block, parameters: block if parameters[0] == "latest" else odd}
     code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
     assert (code, paid) in ((1, 0), (2, 0)), said
-    assert re.search("does not have block|what is no block|does not tell the parentHash of block", error)
+    assert re.search("does not have block|an invalid block|returned no parentHash of block", error)
 
 
 def test_fields_that_are_none_reveal_nothing(
@@ -208,4 +217,4 @@ def test_fields_that_are_none_reveal_nothing(
         }
         code, paid, said, error = pay(node, Liar(lies), COMMANDS["reveal"], capsys, monkeypatch, yes=True)
         assert (code, paid) in ((1, 0), (2, 0)), said
-        assert re.search("with fields that are none|has the hash", error)
+        assert re.search("invalid fields|has the hash", error)

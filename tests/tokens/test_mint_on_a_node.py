@@ -50,7 +50,7 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     assert "bytes" in shackled("token", "picture", minted["pointer"], "-o", large, "--scale", 2).out
     assert pixels(large.read_bytes()).shape == (256, 256, 3)
     said = shackled("token", "picture", "0x" + "12" * 20, "-o", large, expect=1)
-    assert "no scene is kept at 0x1212" in said.error
+    assert "no scene is stored at 0x1212" in said.error
 
 
 def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shackled) -> None:
@@ -82,7 +82,7 @@ def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled
 def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
     def price(*options: object) -> int:
         said = shackled("mint", "icons/trophy", *options, user=ALICE, expect=2)
-        assert "nobody can be asked here" in said.error
+        assert "there is no terminal to ask" in said.error
         return int(said.err.partition("storing it: ")[2].partition(" gas")[0].replace(",", ""))
 
     assert price("--position-bits", 8) < price("--position-bits", 11) < price()
@@ -94,7 +94,7 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
         (("mint", "bunny", "--yes"), 2, "bunny must not be minted: its licence (Stanford 3D Scanning Repository"),
         (("mint", "suzanne", "--yes"), 2, "suzanne must not be minted"),
         (("mint", "icons/heart", "--licence", "MIT"), 2, "--licence is for files"),
-        (("mint", "icons/rocket"), 2, "nothing was sent; say whose account it is"),
+        (("mint", "icons/rocket"), 2, "nothing was sent: name an account"),
         (("mint", "icons/none"), 2, "there is no piece 'icons/none'"),
         (("mint", "icons/rocket", "--chain-id", 5), 1, "belongs to chain 31337, not to chain 5"),
         (("mint", "icons/rocket", "--position-bits", 3), 2, "4 to 16 bits"),
@@ -104,7 +104,7 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
         (("token", "deploy", "icons", "--icons", "heart,heart"), 2, "icons/heart is named twice"),
         (("token", "deploy", "icons", "--icons", "bunny"), 2, "bunny must not be minted"),
         (("token", "deploy", "icons", "--supply", "1", "--reserve", "2"), 2, "no more in the reserve"),
-        (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for icons"),
+        (("token", "deploy", "genesis", "--icons", "heart"), 2, "--icons and --supply are for collections of icons"),
         (("token", "mint", "--icon", "heart", "-c", "genesis"), 2, "the address book has no genesis collection"),
     ],
 )

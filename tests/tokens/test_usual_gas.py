@@ -17,7 +17,7 @@ from shackled.deploy import local_chain
 from shackled.ethereum import checksum_address, intrinsic_gas
 from shackled.studio import STUDIO
 from shackled.studio import store_scene as keep
-from shackled.tokens import USUAL, add_call
+from shackled.tokens import USUAL_GAS, add_call
 
 
 def test_the_usual_gas_of_each_function() -> None:
@@ -47,7 +47,7 @@ def test_the_usual_gas_of_each_function() -> None:
     ]
     for contract, function, arguments, sender, value in calls:
         used = contract.send(function, *arguments, sender=sender, value=value).gas
-        usual = USUAL[function] + intrinsic_gas(contract.encode(function, arguments)[1])
+        usual = USUAL_GAS[function] + intrinsic_gas(contract.encode(function, arguments)[1])
         if function != "add":
             assert usual / 2 < used < 2 * usual, function
             continue
@@ -56,7 +56,7 @@ def test_the_usual_gas_of_each_function() -> None:
         storings = keep(icon_scene("icons/lightning"), studio)
         icon = (arguments[0], checksum_address(storings[-1].pointer), *arguments[2:])
         codes = {each.pointer: each.code for each in storings}
-        ours = add_call(artifact("IconsCollection").interface, checksum_address(studio), icon, codes).ours
+        ours = add_call(artifact("IconsCollection").interface, checksum_address(studio), icon, codes).gas
         assert ours / 4 < used < 2 * ours
     # a signature is looked at where it is needed, on a node
-    assert USUAL.keys() - {each[1] for each in calls} == {"mintWithSignature"}
+    assert USUAL_GAS.keys() - {each[1] for each in calls} == {"mintWithSignature"}

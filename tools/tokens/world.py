@@ -99,6 +99,8 @@ class World:
         self.accounts: dict[str, Account] = {HISTORY: Account(nonce=1, code=HISTORY_CODE)}
         self.number, self.time = 20_000_000, 1_800_000_000
         self._headers: dict[int, bytes] = {}
+        #: The EVM that was set up last, and the state that is in it.
+        self._ready: tuple[Any, Any] = (None, None)
         self.mine(1)
 
     # ---- blocks ----
@@ -182,15 +184,30 @@ class World:
         self, sender: str, to: str, data: bytes, value: int, gas: int, keep: bool, abi: list[dict[str, Any]]
     ) -> Receipt:
         """Execute a transaction, or a call if nothing is to be kept. Raises Refused where it is reverted."""
-        evm, intrinsic = self._evm(), intrinsic_gas(data)
+        evm, intrinsic = self._evm() if keep else self._kept_evm(), intrinsic_gas(data)
+        before = evm.snapshot()
         try:
             output = bytes(evm.message_call(sender, to, data, value, gas + intrinsic))
+            used, logs = evm.result.gas_used, evm.result.logs
         except RuntimeError as error:
             raise _refusal(str(error), abi) from None
+        finally:
+            if not keep:
+                evm.revert(before)
         if keep:
             self._keep(evm)
-        used = evm.result.gas_used
-        return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(evm.result.logs, abi))
+        return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(logs, abi))
+
+    def _kept_evm(self) -> Any:
+        """Return an EVM for a call, which must be undone in it: that of the last call, if nothing has changed since."""
+        accounts = [
+            (address, each.balance, each.nonce, each.code, *each.storage.items())
+            for address, each in self.accounts.items()
+        ]
+        state = (self.number, self.time, accounts)
+        if self._ready[1] != state:
+            self._ready = (self._evm(), state)
+        return self._ready[0]
 
     def _evm(self) -> Any:
         evm = pyrevm.EVM(spec_id="Cancun", env=pyrevm.Env(cfg=pyrevm.CfgEnv(chain_id=self.chain_id)))
@@ -220,7 +237,8 @@ class World:
             if code.strip(b"\0") and not here.code:
                 # pyrevm adds 33 bytes of zeros to what was created
                 here.code = code[:-33]
-            for slot, value in re.findall(r"(\d+): StorageSlot \{[^}]*present_value: (\d+) \}", part):
+            storage = part.partition("storage: {")[2]
+            for slot, value in re.findall(r"(\d+): StorageSlot \{[^}]*present_value: (\d+) \}", storage):
                 here.storage[int(slot)] = int(value)
 
 
@@ -230,6 +248,7 @@ class Contract:
     def __init__(self, world: World, address: str, abi: list[dict[str, Any]], gas: int = 0) -> None:
         """`gas`: what its deployment took."""
         self.world, self.address, self.abi, self.gas = world, address, abi, gas
+        self._functions: dict[tuple[str, int], tuple[dict[str, Any], list[str], bytes]] = {}
 
     def call(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Any:
         """What a function answers; nothing is kept."""
@@ -250,13 +269,20 @@ class Contract:
 
     def encode(self, function: str, arguments: tuple[Any, ...]) -> tuple[dict[str, Any], bytes]:
         """A function by its name, or by its signature if there are several of that name, and the data of a call."""
+        found = self._functions.get((function, len(arguments)))
+        if found is None:
+            found = self._functions[function, len(arguments)] = self._find(function, len(arguments))
+        entry, kinds, selector = found
+        return entry, selector + encode(kinds, _plain(arguments))
+
+    def _find(self, function: str, count: int) -> tuple[dict[str, Any], list[str], bytes]:
         for entry in self.abi:
             if entry["type"] == "function":
                 kinds = [collapse_if_tuple(each) for each in entry["inputs"]]
                 signature = f"{entry['name']}({','.join(kinds)})"
-                if function in (entry["name"], signature) and len(kinds) == len(arguments):
-                    return entry, keccak(signature.encode())[:4] + encode(kinds, _plain(arguments))
-        raise AssertionError(f"there is no {function} of {len(arguments)} arguments")
+                if function in (entry["name"], signature) and len(kinds) == count:
+                    return entry, kinds, keccak(signature.encode())[:4]
+        raise AssertionError(f"there is no {function} of {count} arguments")
 
 
 def _plain(value: Any) -> Any:
@@ -266,12 +292,20 @@ def _plain(value: Any) -> Any:
     return type(value)(map(_plain, value)) if isinstance(value, list | tuple) else value
 
 
+#: By the number of an ABI and the kind, with the ABI, so that its number stays its own.
+_KNOWN: dict[tuple[int, str], tuple[list[dict[str, Any]], dict[bytes, dict[str, Any]]]] = {}
+
+
 def _entries(abi: list[dict[str, Any]], kind: str) -> dict[bytes, dict[str, Any]]:
+    """Return the events or errors of an ABI, by the hash of their signature."""
+    if (id(abi), kind) in _KNOWN:
+        return _KNOWN[id(abi), kind][1]
     found = {}
     for entry in abi:
         if entry["type"] == kind:
             signature = f"{entry['name']}({','.join(collapse_if_tuple(each) for each in entry['inputs'])})"
             found[keccak(signature.encode())] = entry
+    _KNOWN[id(abi), kind] = (abi, found)
     return found
 
 

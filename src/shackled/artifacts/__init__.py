@@ -1,4 +1,4 @@
-"""The compiled contracts; tools/build_contracts.py writes the JSON files beside this one."""
+"""The compiled contracts, from the JSON files in this folder, which tools/build_contracts.py writes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from ..ethereum import SOLIDITY_ERRORS, Errors, Interface, error_table
 
-#: The contracts that draw.
+#: The contracts that render.
 RENDERER = ("Engine", "FragmentEngine", "Renderer")
 
 
@@ -18,11 +18,9 @@ RENDERER = ("Engine", "FragmentEngine", "Renderer")
 class Artifact:
     """A compiled contract.
 
-    group: of contracts that are compiled together, such as "core".
-    creation: what deploys it, to be followed by the arguments of the constructor.
-    runtime: what stands on the chain then, but for immutable values.
-    parts: the contracts whose addresses the constructor asks for.
-    selectors: of each function, by its name.
+    group: contracts that are compiled together, such as "core". creation: creation code, without constructor arguments.
+    runtime: code after deployment, with zeros for immutable values. parts: contracts whose addresses the constructor
+    takes. selectors: selectors of the functions, by name.
     """
 
     name: str
@@ -35,18 +33,18 @@ class Artifact:
 
     @cached_property
     def interface(self) -> Interface:
-        """The functions of the contract, to encode calls and decode answers."""
+        """Interface that encodes calls and decodes results."""
         return Interface(self.abi)
 
     @cached_property
     def errors(self) -> Errors:
-        """Name and parameters (name, type) of each error, by its selector."""
+        """Name and parameters (name, type) of each error, by selector."""
         return error_table(self.abi)
 
 
 @cache
 def artifact(name: str) -> Artifact:
-    """Return the compiled contract of that name."""
+    """Return the compiled contract of a name."""
     data = json.loads(files(__package__).joinpath(f"{name}.json").read_text("utf-8"))
     return Artifact(
         name=name,
@@ -68,7 +66,7 @@ def artifact(name: str) -> Artifact:
 
 
 def contracts(group: str | None = None) -> list[str]:
-    """Return the names of all compiled contracts, or of those of a group."""
+    """Return the names of all compiled contracts, or of a group."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
     found = sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
     return [name for name in found if group is None or artifact(name).group == group]
@@ -76,7 +74,7 @@ def contracts(group: str | None = None) -> list[str]:
 
 @cache
 def known_errors() -> Errors:
-    """Return the errors of all contracts, since each passes on those of the contracts that it calls."""
+    """Return the errors of all contracts, since a contract passes on those of contracts that it calls."""
     errors = dict(SOLIDITY_ERRORS)
     for name in contracts():
         errors |= artifact(name).errors

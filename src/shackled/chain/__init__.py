@@ -1,4 +1,4 @@
-"""Where the contracts run."""
+"""Chains on which the contracts run: an EVM in this process, or a node."""
 
 import lazy_loader
 

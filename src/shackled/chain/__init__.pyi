@@ -2,10 +2,9 @@ from ._address_book import VARIABLE, AddressBook, book_path
 from ._chain import CallResult, Chain, ContractChain, Drawing, count_call, returned_bytes, returned_counts
 from ._connection import PATIENCE, Connection, quantity
 from ._embedded import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, PyEvmChain, PyrevmChain, pyrevm_error
-from ._failures import retry_after, revert_data
+from ._failures import describe_revert, out_of_gas, retry_after, revert_data, revert_error
 from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
 from ._opening import CHAINS, open_chain, open_node
-from ._refusal import describe, out_of_gas, refusal
 
 __all__ = [
     "CHAINS",
@@ -27,16 +26,16 @@ __all__ = [
     "PyrevmChain",
     "book_path",
     "count_call",
-    "describe",
+    "describe_revert",
     "metered",
     "open_chain",
     "open_node",
     "out_of_gas",
     "pyrevm_error",
     "quantity",
-    "refusal",
     "retry_after",
     "returned_bytes",
     "returned_counts",
     "revert_data",
+    "revert_error",
 ]

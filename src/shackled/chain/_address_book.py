@@ -1,4 +1,4 @@
-"""The address book: which contract stands where on which chain, a JSON file that `shackled deploy` keeps."""
+"""The address book: a JSON file, written by `shackled deploy`, with the addresses of contracts on each chain."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..errors import InputError, OutputError
 from ..ethereum import checksum_address, parse_address
 from ..whole_file import write_whole
 
-#: Names the file, where it is set.
+#: The environment variable with the path of the file.
 VARIABLE = "SHACKLED_ADDRESS_BOOK"
 
 
 def book_path() -> Path:
-    """Return the path in the variable SHACKLED_ADDRESS_BOOK, or one in the system's folder for data of users."""
+    """Return the path in the variable SHACKLED_ADDRESS_BOOK, or the default in the user's data folder."""
     chosen = os.environ.get(VARIABLE)
     if chosen:
         return Path(chosen)
@@ -28,40 +28,40 @@ def book_path() -> Path:
 
 
 class AddressBook:
-    """Addresses by chain and name of the contract. The file is read each time, so that it is never out of date."""
+    """Addresses by chain id and contract name. The file is read for each query."""
 
     def __init__(self, path: Path | None = None) -> None:
-        """`path`: of the file; None takes `book_path`."""
+        """Take the path of the file; None uses `book_path`."""
         self.path = book_path() if path is None else path
 
     def find(self, chain_id: int, contract: str) -> bytes | None:
-        """Return the address of a contract on a chain; None if none is known. InputError if the file cannot be read."""
+        """Return the address of a contract; None if it is unknown. Raises InputError if the file cannot be read."""
         return self.entries(chain_id).get(contract)
 
     def entries(self, chain_id: int) -> dict[str, bytes]:
-        """Return all that is known of a chain. InputError if the file cannot be read."""
+        """Return the addresses of a chain, by contract. Raises InputError if the file cannot be read."""
         chain = self._read().get(str(chain_id), {})
         return {name: parse_address(text, f"{name} on chain {chain_id} in {self.path}") for name, text in chain.items()}
 
     def places(self, contract: str) -> dict[int, bytes]:
-        """Return the addresses of a contract by chain, wherever it is known. InputError if the file cannot be read."""
+        """Return the addresses of a contract, by chain id. Raises InputError if the file cannot be read."""
         found = {int(chain): self.find(int(chain), contract) for chain in self._read()}
         return {chain: address for chain, address in found.items() if address is not None}
 
     def check(self) -> None:
-        """Make the folder. Raises InputError if the book is broken, OutputError if it could not be written."""
+        """Check that the file can be written. Raises InputError if its content is damaged, OutputError if it cannot."""
         self._read()
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise self._unwritable(error) from None
         if not os.access(self.path.parent, os.W_OK):
-            raise self._unwritable(PermissionError(errno.EACCES, "nothing can be written to its folder"))
+            raise self._unwritable(PermissionError(errno.EACCES, "its folder is not writable"))
 
     def write(self, chain_id: int, addresses: Mapping[str, bytes]) -> None:
-        """Adds addresses of a chain to the file, or puts them in place of those that are there.
+        """Add or replace addresses of a chain.
 
-        Raises InputError if the file cannot be read, OutputError if it cannot be written; then nothing has changed.
+        Raises InputError if the file cannot be read, OutputError if it cannot be written; then it has not changed.
         """
         chains = self._read()
         known = chains.setdefault(str(chain_id), {})
@@ -89,9 +89,7 @@ class AddressBook:
         except OSError as error:
             raise InputError(f"the address book {self.path} cannot be read: {error.strerror}") from None
         except (ValueError, LookupError, TypeError):
-            raise InputError(
-                f"the address book {self.path} is broken, it is not the JSON that it was: {hint}"
-            ) from None
+            raise InputError(f"the address book {self.path} is damaged, it is not valid JSON: {hint}") from None
         valid = isinstance(chains, dict) and all(
             re.fullmatch("[0-9]{1,78}", key)
             and isinstance(chain, dict)
@@ -99,5 +97,5 @@ class AddressBook:
             for key, chain in chains.items()
         )
         if not valid:
-            raise InputError(f"the address book {self.path} is broken, its chains are not numbers with names: {hint}")
+            raise InputError(f"the address book {self.path} is damaged, it does not map chain ids to addresses: {hint}")
         return dict(chains)

@@ -1,4 +1,4 @@
-"""What a chain does for a picture."""
+"""Interfaces of the places where pictures are made, and the contract calls that they share."""
 
 from __future__ import annotations
 
@@ -8,19 +8,28 @@ from typing import Any, Protocol
 
 from ..artifacts import artifact
 from ..errors import RenderError
+from ..ethereum import intrinsic_gas
 from ..scene import Rectangle, Scene, encode
 
 
 @dataclass(frozen=True)
 class CallResult:
-    """What a contract returned.
+    """The result of a contract call.
 
-    gas: of the execution alone. intrinsic_gas: what a transaction costs before it, 21,000 and 4 or 16 per byte.
+    gas: of the execution alone. intrinsic_gas: cost of the transaction before it, 21,000 and 4 or 16 per byte.
     """
 
     output: bytes
     gas: int
     intrinsic_gas: int
+
+
+@dataclass(frozen=True)
+class NodeResult:
+    """The result of a contract call on a node. gas: of the execution alone; None if it could not be measured."""
+
+    output: bytes
+    gas: int | None
 
 
 @dataclass(frozen=True)
@@ -37,58 +46,72 @@ class Chain(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is, for people."""
+        """Description for reports."""
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """Return the picture of a scene, or of a part of its canvas."""
+        """Render a scene, or a tile of its canvas."""
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
         """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
 
 
-class ContractChain(ABC):
-    """A chain that runs the contracts; a kind of chain says how to make a call."""
-
-    name: str
+class ContractCaller(ABC):
+    """A chain that calls the contracts; subclasses implement the call."""
 
     @abstractmethod
-    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult | NodeResult:
+        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
+        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
         """
 
     def ask(self, contract: str, function: str, *arguments: Any) -> Any:
-        """Call a function of a contract by its ABI, and return its value, or a tuple of them if there are several."""
+        """Call a function of a contract by its ABI, and return its value, or a tuple of several."""
         interface = artifact(contract).interface
         return interface.decode(function, self.call(contract, interface.encode(function, *arguments)).output)
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """Return the picture of a scene, or of a part of its canvas."""
-        selector = artifact("Renderer").selectors["render" if tile is None else "renderTile"]
-        result = self.call("Renderer", encode(selector, scene, tile))
-        return Drawing(returned_bytes(result.output, 0), result.gas, result.intrinsic_gas)
+        """Render a scene, or a tile of its canvas."""
+        data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
+        result = self.call("Renderer", data)
+        return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
 
     def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
         """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
         return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
 
 
+class ContractChain(ContractCaller):
+    """A chain that counts the gas of every call."""
+
+    name: str
+
+    @abstractmethod
+    def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
+        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+
+        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
+        """
+
+
 def count_call(scene: Scene, tile: Rectangle | None = None) -> bytes:
-    """Return the data of the call of the Renderer that draws a scene, or a part of its canvas, and counts."""
+    """Encode the call of the Renderer that draws a scene, or a tile of its canvas, and counts."""
     selector = artifact("Renderer").selectors["renderCounted" if tile is None else "renderTileCounted"]
     return encode(selector, scene, tile)
 
 
 def returned_counts(output: bytes) -> tuple[int, int]:
-    """Triangles and pixels from what the call of `count_call` returned, which begins with an offset."""
+    """Return triangles and pixels from the output of a `count_call`, which begins with an offset."""
     if len(output) < 96:
         raise RenderError(f"the contract returned {len(output)} bytes instead of two counts")
     return int.from_bytes(output[32:64], "big"), int.from_bytes(output[64:96], "big")
 
 
 def returned_bytes(output: bytes, field: int) -> bytes:
-    """Return the ABI field `field`, of type bytes, of what a function returned."""
+    """Return the ABI field `field`, of type bytes, of a function's output.
+
+    Unlike `Interface.decode`, it does not import eth_abi, which would take a good part of the time of a render.
+    """
     start = int.from_bytes(output[32 * field : 32 * field + 32], "big")
     length = int.from_bytes(output[start : start + 32], "big") if start + 32 <= len(output) else len(output)
     if start + 32 + length > len(output):

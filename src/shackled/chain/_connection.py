@@ -1,4 +1,4 @@
-"""A connection to a node: every question that is asked of one goes through here."""
+"""A connection to a node, through which all requests go."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from ..errors import ChainError, InputError, NodeBusyError, NodeError, WrongChai
 from ..ethereum import to_hex
 from ._failures import rpc_failure
 
-#: Seconds that a node may take for an answer, and that it may be given at most.
+#: Default and maximum timeout of an answer, in seconds.
 PATIENCE, MOST_PATIENCE = 120.0, 86_400.0
-#: A part of the name of a host that is rather a key: some nodes are given one as a name of their own.
+#: A label of a host name that looks like a key: some hosts put one there.
 _KEY = re.compile("(?=[a-z]*[0-9])[0-9a-z]{20,}", re.IGNORECASE)
-#: The longest pause before a busy node is asked again, in seconds.
+#: The longest pause before a retry, in seconds.
 LONGEST_PAUSE = 20.0
 
 
 class Connection:
-    """Asks a node by JSON-RPC; several threads may at once. No message shows a key that the address holds."""
+    """A JSON-RPC client, safe for several threads. No message shows a key that is part of the URL."""
 
     def __init__(self, url: str, timeout: float = PATIENCE, attempts: int = 1) -> None:
         """Prepare requests; nothing is sent yet.
 
-        timeout: seconds for a whole answer. attempts: how often a node that is busy is asked, after pauses.
-        InputError if the address is none.
+        timeout: seconds for a whole answer. attempts: how often a request to a busy node is tried.
+        Raises InputError if the URL is invalid.
         """
         from ._transport import Transport, is_address
 
@@ -38,7 +38,7 @@ class Connection:
             parts, host, port = urlsplit(""), None, None
         if parts.scheme not in ("http", "https") or not host or not is_address(self.url):
             shown = _without_key(url)
-            raise InputError(f"`rpc` must be the address of a node, as http://127.0.0.1:8545, not {shown!r}")
+            raise InputError(f"`rpc` must be the address of a node, such as http://127.0.0.1:8545, not {shown!r}")
         if not 0 < timeout <= MOST_PATIENCE:
             raise InputError(f"`timeout` must be more than 0 seconds and at most {MOST_PATIENCE:,.0f}, not {timeout:g}")
         shown = ".".join("***" if _KEY.fullmatch(label) else label for label in host.split("."))
@@ -54,7 +54,7 @@ class Connection:
     def request(self, method: str, *parameters: Any) -> Any:
         """Return the result of a method.
 
-        NodeError or its kinds if the node fails, RevertError or OutOfGasError if the call does that was asked for.
+        Raises NodeError or a subclass if the node fails, RevertError or OutOfGasError if the requested call does.
         """
         pause = 0.5
         for attempt in range(self.attempts):
@@ -68,25 +68,25 @@ class Connection:
         raise ValueError(f"attempts must be 1 or more, not {self.attempts}")
 
     def number(self, method: str, *parameters: Any) -> int:
-        """Return the result of a method that answers with a number, of at most 256 bits."""
+        """Return the result of a method as a number of at most 256 bits."""
         result = self.request(method, *parameters)
         try:
             return quantity(result)
         except ValueError:
-            raise NodeError(f"the {self.name} answered {method} with what is no number: {result!r:.60}") from None
+            raise NodeError(f"the {self.name} returned an invalid number for {method}: {result!r:.60}") from None
 
     def data(self, method: str, *parameters: Any) -> bytes:
-        """Return the result of a method that answers with bytes."""
+        """Return the result of a method as bytes."""
         result = self.request(method, *parameters)
         try:
             if isinstance(result, str) and result.startswith("0x"):
                 return bytes.fromhex(result[2:])
         except ValueError:
             pass
-        raise NodeError(f"the {self.name} answered {method} with what is no string of bytes: {result!r:.60}")
+        raise NodeError(f"the {self.name} returned invalid bytes for {method}: {result!r:.60}")
 
     def code(self, address: bytes) -> bytes:
-        """Return the code at an address, empty if there is none."""
+        """Return the code at an address; empty if there is none."""
         return self.data("eth_getCode", to_hex(address), "latest")
 
     def balance(self, address: bytes) -> int:
@@ -94,13 +94,13 @@ class Connection:
         return self.number("eth_getBalance", to_hex(address), "latest")
 
     def block(self, number: int | None = None) -> dict[str, Any]:
-        """Return a block, by default the latest, without its transactions. Raises NodeError if the node has it not."""
+        """Return a block, by default the latest, without transactions. Raises NodeError if the node lacks it."""
         which = "latest" if number is None else hex(number)
         block = self.request("eth_getBlockByNumber", which, False)
         if block is None and number is not None:
-            raise NodeError(f"the {self.name} does not have block {number:,}; take one that keeps them all")
+            raise NodeError(f"the {self.name} does not have block {number:,}; use one that keeps all blocks")
         if not isinstance(block, dict):
-            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}")
+            raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}")
         return block
 
     def block_gas_limit(self) -> int:
@@ -109,17 +109,17 @@ class Connection:
         try:
             return quantity(block.get("gasLimit"))
         except ValueError:
-            raise NodeError(f"the {self.name} answered with what is no block: {block!r:.60}") from None
+            raise NodeError(f"the {self.name} returned an invalid block: {block!r:.60}") from None
 
     @property
     def chain_id(self) -> int:
-        """The number of the chain, asked once."""
+        """The id of the chain, requested once."""
         if self._chain_id is None:
             self._chain_id = self.number("eth_chainId")
         return self._chain_id
 
     def expect_chain(self, chain_id: int | None) -> None:
-        """Raise WrongChainError if the node belongs to another chain; None expects none."""
+        """Raise WrongChainError if the node belongs to another chain. None accepts any."""
         if chain_id is not None and self.chain_id != chain_id:
             raise WrongChainError(f"the {self.name} belongs to chain {self.chain_id}, not to chain {chain_id}")
 
@@ -130,7 +130,7 @@ class Connection:
                 raise rpc_failure(self.name, answer["error"])
             return answer["result"]
         except ChainError as error:
-            # some nodes repeat the address of a request in what they say of it
+            # some nodes repeat the URL of the request in their messages
             error.args = tuple(self._clean(str(each)) for each in error.args)
             raise
 
@@ -141,14 +141,14 @@ class Connection:
 
 
 def quantity(value: Any) -> int:
-    """Return the number that JSON-RPC writes as "0x2a", of at most 256 bits. ValueError if it is none."""
+    """Parse a number of JSON-RPC, such as "0x2a", of at most 256 bits. Raises ValueError if it is invalid."""
     if isinstance(value, str) and re.fullmatch("0x[0-9a-fA-F]{1,64}", value):
         return int(value, 16)
     raise ValueError("it must be 0x and 1 to 64 hexadecimal digits")
 
 
 def _without_key(url: str) -> str:
-    """Return the address up to where a key may stand."""
+    """Return the part of a URL that holds no key."""
     scheme, mark, rest = url.partition("://")
     if not mark:
         scheme, rest = "", url

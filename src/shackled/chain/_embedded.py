@@ -1,6 +1,6 @@
-"""Chains inside this process: an EVM with nothing in it but the contracts, at the rules of Cancun.
+"""EVMs in this process that hold only the contracts, with the rules of Cancun.
 
-Every call finds the same fresh state, so the same call always costs the same gas.
+Every call starts from the same state, so that the same call always costs the same gas.
 """
 
 from __future__ import annotations
@@ -13,35 +13,35 @@ from ..artifacts import artifact
 from ..errors import ChainError, RenderError
 from ..ethereum import create2_address, intrinsic_gas, to_hex, word
 from ._chain import CallResult, ContractChain
-from ._refusal import out_of_gas, refusal
+from ._failures import out_of_gas, revert_error
 
-#: Enough for pictures of 2048 x 2048 pixels; little enough that a call ends and that its memory stays below 130 MB.
+#: Enough for pictures of 2048 x 2048 pixels; bounds the time of a call, and its memory to 130 MB.
 DEFAULT_GAS_LIMIT = 30_000_000_000
 
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
 
-#: Zeros that pyrevm appends to the code of a contract when it is created, for itself.
+#: Zeros that pyrevm appends to the code of a contract that it creates.
 PADDING = 33
 
 
 class EmbeddedChain(ContractChain):
-    """Sets up each contract when it is first called, after those whose addresses its constructor asks for."""
+    """A chain in this process. Contracts are created at their first call, after those that their constructors need."""
 
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
-        """`gas_limit` is for calls that name none."""
+        """Take the default gas limit of calls."""
         self.gas_limit = gas_limit
         self._codes: dict[bytes, bytes] = {}
         self._addresses: dict[str, bytes] = {}
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        RenderError if the contract refuses, OutOfGasError if the gas does not suffice.
+        Raises RenderError if the contract reverts, OutOfGasError if the gas does not suffice.
         """
         return self._run(self.address(contract), data, self.gas_limit if gas_limit is None else gas_limit)
 
     def address(self, contract: str) -> bytes:
-        """Return where a contract stands: here as on every chain on which `shackled deploy` has put it."""
+        """Return the address of a contract, the same as `shackled deploy` gives it on every chain."""
         if contract not in self._addresses:
             creation = self.creation(contract)
             code = self.create(contract, creation) if artifact(contract).parts else artifact(contract).runtime
@@ -51,54 +51,54 @@ class EmbeddedChain(ContractChain):
         return self._addresses[contract]
 
     def creation(self, contract: str) -> bytes:
-        """Return what deploys a contract, with the arguments of its constructor."""
+        """Return the creation code of a contract, followed by the arguments of its constructor."""
         built = artifact(contract)
         return built.creation + b"".join(word(self.address(part)) for part in built.parts)
 
     def code(self, contract: str) -> bytes:
-        """Return what stands at the address of a contract."""
+        """Return the runtime code of a contract."""
         return self._codes[self.address(contract)]
 
     def put(self, address: bytes, code: bytes) -> None:
-        """Places code that is none of the package's contracts."""
+        """Place any code at an address."""
         self._codes[address] = code
 
     def run(self, address: bytes, data: bytes, gas_limit: int | None = None) -> CallResult:
-        """Calls whatever stands at an address."""
+        """Call the code at an address."""
         return self._run(address, data, self.gas_limit if gas_limit is None else gas_limit)
 
     def codes(self) -> dict[bytes, bytes]:
-        """Return the code of every contract that was set up, by its address."""
+        """Return the code of all contracts created so far, by address."""
         return dict(self._codes)
 
     @abstractmethod
     def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the code that it leaves.
+        """Run creation code, with its arguments, and return the runtime code.
 
-        name: for the message of the ChainError that is raised if the constructor refuses.
+        name: for the message of the ChainError that is raised if the constructor reverts.
         """
 
     @abstractmethod
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
-        """Calls the code at an address."""
+        """Call the code at an address."""
 
 
 class PyrevmChain(EmbeddedChain):
-    """The EVM of pyrevm, compiled Rust."""
+    """The EVM of pyrevm, written in Rust."""
 
     name = "embedded EVM (pyrevm)"
 
     def _evm(self) -> Any:
         import pyrevm
 
-        # a new one each time: it keeps addresses warm from call to call, and takes no more calls after one that failed
+        # a new one for each call: it keeps addresses warm between calls, and fails all calls after one that failed
         evm = pyrevm.EVM(spec_id="Cancun")
         for address, code in self._codes.items():
             evm.insert_account_info(to_hex(address), pyrevm.AccountInfo(code=code))
         return evm
 
     def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the code that it leaves."""
+        """Run creation code, with its arguments, and return the runtime code."""
         evm = self._evm()
         try:
             address = evm.deploy(to_hex(SENDER), creation, None, DEFAULT_GAS_LIMIT)
@@ -116,20 +116,21 @@ class PyrevmChain(EmbeddedChain):
 
 
 def pyrevm_error(message: str, gas_limit: int) -> ChainError:
+    """Return the error for a failure of pyrevm, by its message."""
     if message.startswith("Revert"):
-        return refusal(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
+        return revert_error(bytes.fromhex(message.partition("output: 0x")[2].rstrip(" }")), gas_limit)
     if "OutOfGas" in message:
         return out_of_gas(gas_limit)
     return RenderError(f"the call failed: {message}")
 
 
 class PyEvmChain(EmbeddedChain):
-    """The EVM of py-evm, pure Python: some hundred times slower, and runs everywhere."""
+    """The EVM of py-evm, in pure Python: several hundred times slower, but runs everywhere."""
 
     name = "embedded EVM (py-evm)"
 
     def create(self, name: str, creation: bytes) -> bytes:
-        """Run creation code, with its arguments, and return the code that it leaves."""
+        """Run creation code, with its arguments, and return the runtime code."""
         from eth.constants import CREATE_CONTRACT_ADDRESS
 
         address = bytes.fromhex("c0de") + bytes(18)
@@ -150,7 +151,7 @@ class PyEvmChain(EmbeddedChain):
         computation = state.computation_class.apply_message(state, message, self._transaction)
         if computation.is_error:
             if isinstance(computation.error, Revert):
-                raise refusal(bytes(computation.output), gas_limit)
+                raise revert_error(bytes(computation.output), gas_limit)
             if isinstance(computation.error, OutOfGas):
                 raise out_of_gas(gas_limit)
             raise RenderError(f"the call failed: {computation.error!r}")

@@ -1,4 +1,4 @@
-"""What a node says when it fails, in its many wordings, as errors."""
+"""Failures of nodes and contracts as errors: HTTP status, messages of JSON-RPC in their many wordings, reverts."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
 from typing import Any
 
+from ..artifacts import known_errors
 from ..errors import (
     ChainError,
     NodeBusyError,
@@ -16,20 +17,22 @@ from ..errors import (
     NodeTimeoutError,
     NodeUnreachableError,
     OutOfGasError,
+    RenderError,
     RevertError,
     TooLargeError,
     WrongChainError,
 )
+from ..ethereum import decode_error, to_hex
 from ..untrusted import plain
 
-#: How nodes word it, in small letters and without anything but letters. The first group with a word that fits is taken.
+#: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
 TOO_LITTLE_GAS = (
     # geth, erigon, besu, hardhat; anvil and nethermind as one word
     "outofgas",
     "gasrequiredexceeds",
     "insufficientgas",
     "notenoughgas",
-    # what is paid before the execution does not fit
+    # the intrinsic gas exceeds the limit
     "intrinsicgas",
     "gastoolow",
     "gaslimittoolow",
@@ -41,7 +44,7 @@ TOO_LITTLE_GAS = (
     # reth and anvil, for memory
     "memoryoog",
     "memorylimit",
-    # more was asked for than the node gives to one call
+    # the limit exceeds the node's own
     "gaslimitistoohigh",
     "gaslimittoohigh",
     "gastoohigh",
@@ -98,34 +101,34 @@ NOT_READY = ("headernotfound", "missingtrienode", "blocknotfound", "unknownblock
 TOO_SLOW = ("timeout", "timedout", "deadlineexceeded", "executionaborted")
 OLD_CHAIN = ("invalidopcode", "opcodenotfound", "notactivated", "badinstruction", "undefinedinstruction")
 
-#: What JSON-RPC servers mean by their numbers, where the words say nothing.
+#: Codes of JSON-RPC errors, for messages without a known phrase.
 REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -32005, -32601
 
 
 def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes) -> NodeError:
-    """Return the error of an answer with an HTTP status that is not 200."""
+    """Return the error for an HTTP status other than 200."""
     said = f"the {name} answered with HTTP status {status}"
     if status == 429 or (status == 503 and retry_after(headers) is not None):
         return too_often(name, retry_after(headers), f" (HTTP status {status})")
     if status == 413:
         return too_large(name, len(body) and _words(body))
     if status in (408, 504, 522, 524):
-        return NodeTimeoutError(f"{said}: it took too long; take a smaller `size`, or another node")
+        return NodeTimeoutError(f"{said}: it took too long; use a smaller `size`, or another node")
     if status in (401, 403, 407):
-        return NodeError(f"{said}: it lets nobody in without the right key; check its address")
+        return NodeError(f"{said}: it needs a key; check its address")
     if status in (404, 405):
         return NodeError(f"{said}: there is no node at this path; check its address")
     if status == 503:
-        return NodeBusyError(f"{said}: it is not available now; try again later, or take another node")
+        return NodeBusyError(f"{said}: it is not available now; try again later, or use another node")
     if status >= 500:
-        return NodeUnreachableError(f"{said}: it is out of order; try again later, or take another node")
+        return NodeUnreachableError(f"{said}: it is out of order; try again later, or use another node")
     if 300 <= status < 400:
-        return NodeError(f"{said}: it sends callers elsewhere; give the address where it really is")
+        return NodeError(f"{said}: it redirects requests; give the address to which it redirects")
     return NodeError(f"{said}{_quote(_words(body))}; check its address")
 
 
 def rpc_failure(name: str, error: Any) -> ChainError:
-    """Return the error that a node gave in place of a result, by its words, its number and its data."""
+    """Return the error for a JSON-RPC error, by its message, its code and its data."""
     fields = error if isinstance(error, dict) else {"message": error}
     message, code, data = str(fields.get("message", error)), fields.get("code"), fields.get("data")
     reverted = revert_data(data)
@@ -142,48 +145,48 @@ def rpc_failure(name: str, error: Any) -> ChainError:
         return too_often(name, None, _quote(message))
     if says(TOO_LITTLE_GAS):
         return OutOfGasError(
-            f"the {name} allows a call too little gas for this: take a smaller `size`, or raise its limit"
+            f"the {name} allows a call too little gas for this: use a smaller `size`, or raise its limit"
         )
     if says(OLD_CHAIN):
         return WrongChainError(
             f"the chain of the {name} does not know an instruction of the contracts: they need the rules of Cancun"
         )
     if says(NOT_READY):
-        return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or take another node")
+        return NodeBusyError(f"the {name} is not ready{_quote(message)}; try again later, or use another node")
     if says(TOO_SLOW):
         return NodeTimeoutError(
-            f"the {name} gave up a call that took too long{_quote(message)}; take a smaller `size`, or another node"
+            f"the {name} aborted a call that took too long{_quote(message)}; use a smaller `size`, or another node"
         )
     if "revert" in letters:
         return RevertError(f"the call was reverted: {_shorten(message)}")
-    # numbers of which each host has its own understanding
+    # codes that hosts use in different ways
     if code in (REQUEST_TOO_BIG, RESPONSE_TOO_BIG):
         return too_large(name, message)
     if code == LIMIT_EXCEEDED:
         return too_often(name, None, _quote(message))
     if code == NO_METHOD:
-        return NodeError(f"the {name} does not offer what is needed{_quote(message)}; take another node")
+        return NodeError(f"the {name} does not support a method that is needed{_quote(message)}; use another node")
     return NodeError(f"the {name} says: {_shorten(message)}")
 
 
 def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError:
-    """Return the error of a node that wants to be asked less often."""
+    """Return the error for a node that limits the rate of requests."""
     when = "later" if seconds is None else f"in {math.ceil(seconds)} s"
     return NodeBusyError(
-        f"the {name} asks to be called less often{said}; try again {when}, or take another node", seconds
+        f"the {name} limits the rate of requests{said}; try again {when}, or use another node", seconds
     )
 
 
 def too_large(name: str, said: object = "") -> TooLargeError:
-    """Return the error of a node that takes no request, or gives no answer, of this size."""
+    """Return the error for a request or an answer that is too large for a node."""
     return TooLargeError(
-        f"the {name} does not take a request or give an answer of this size{_quote(str(said or ''))}: "
-        "take a smaller `size` or `max_triangles`, or raise its limit"
+        f"the {name} refuses a request or an answer of this size{_quote(str(said or ''))}: "
+        "use a smaller `size` or `max_triangles`, or raise its limit"
     )
 
 
 def retry_after(headers: Mapping[str, str]) -> float | None:
-    """Return the seconds that the header Retry-After asks for, given as such or as a date."""
+    """Return the seconds of the header Retry-After, which may be a date; None if there is none."""
     value = headers.get("Retry-After", "").strip()
     if not value:
         return None
@@ -201,7 +204,7 @@ def retry_after(headers: Mapping[str, str]) -> float | None:
 
 
 def revert_data(data: Any) -> bytes | None:
-    """Find the bytes of a revert: nodes put them bare, behind a word, or in an object. None if there are none."""
+    """Return the data of a revert, which nodes send bare, after a word, or in an object; None if there is none."""
     if isinstance(data, dict):
         for key in ("data", "result", "output", "return"):
             found = revert_data(data.get(key))
@@ -210,6 +213,36 @@ def revert_data(data: Any) -> bytes | None:
         return None
     match = re.search(r"(?:^|\s)0x((?:[0-9a-fA-F]{2})*)$", data.strip()) if isinstance(data, str) else None
     return bytes.fromhex(match[1]) if match else None
+
+
+def revert_error(data: bytes, gas_limit: int) -> ChainError:
+    """Return the error for a call that a contract reverted.
+
+    data: of the revert. gas_limit: of the call, for the message of an OutOfGasError.
+    """
+    description = describe_revert(data)
+    return out_of_gas(gas_limit) if description == "OutOfGas()" else RenderError(f"the contract refused: {description}")
+
+
+def describe_revert(data: bytes) -> str:
+    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)"."""
+    if not data:
+        return "the data of the call is not a scene that is encoded correctly"
+    found = decode_error(data, known_errors())
+    if found is None:
+        return f"error {to_hex(data[:68])}"
+    name, values = found
+    if name == "Error":
+        return str(values["message"])
+    if name == "Panic":
+        return f"Panic({values['code']:#x})"
+    shown = (f"{key}={to_hex(value) if isinstance(value, bytes) else value}" for key, value in values.items())
+    return f"{name}({', '.join(shown)})"
+
+
+def out_of_gas(limit: int) -> OutOfGasError:
+    """Return the error for a call that ran out of gas."""
+    return OutOfGasError(f"the call ran out of gas: {limit:,} did not suffice")
 
 
 def _quote(said: str) -> str:
@@ -222,5 +255,5 @@ def _shorten(said: str, most: int = 200) -> str:
 
 
 def _words(body: bytes) -> str:
-    """Return the text of a page, without its tags."""
+    """Return the text of an HTML page, shortened."""
     return _shorten(re.sub(r"<[^>]*>", " ", body[:2000].decode(errors="replace")), 100)

@@ -1,4 +1,4 @@
-"""A node that is asked over JSON-RPC. Contracts need not be deployed there: a call can bring them along."""
+"""Contract calls on a node, over JSON-RPC, with or without contracts that are deployed there."""
 
 from __future__ import annotations
 
@@ -21,45 +21,36 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
-from ..scene import Rectangle, Scene, encode
 from ._address_book import AddressBook
-from ._chain import Drawing, count_call, returned_bytes, returned_counts
+from ._chain import ContractCaller, NodeResult
 from ._connection import Connection
 from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain
-from ._refusal import out_of_gas, refusal
+from ._failures import out_of_gas, revert_error
 
-#: EIP-3860: the longest data of a call that creates a contract.
+#: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152
 
-#: Where a call places the contract that counts gas.
+#: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 
-#: Says how much gas is left, in the words of the EVM: GAS PUSH0 MSTORE, an MCOPY of nothing, PUSH1 32 PUSH0 RETURN.
-#: Like the contracts it needs the rules of Cancun.
+#: A program that returns the remaining gas: GAS PUSH0 MSTORE, an empty MCOPY, PUSH1 32 PUSH0 RETURN.
+#: Like the contracts, it needs the rules of Cancun.
 GAS_LEFT = bytes.fromhex("5a5f525f5f5f5e60205ff3")
 
 
-class Way(Enum):
-    """How a node gets the contracts that it is to run."""
+class Method(Enum):
+    """How a node gets the contracts that it runs."""
 
     DEPLOYED = "deployed"
     OVERRIDE = "state override"
     CREATION = "creation call"
 
 
-@dataclass(frozen=True)
-class NodeResult:
-    """What a contract returned. gas: of its execution alone, as embedded EVMs count it; None where nothing tells."""
+class NodeChain(ContractCaller):
+    """A chain that is accessed through a node, with `eth_call`.
 
-    output: bytes
-    gas: int | None
-
-
-class NodeChain:
-    """Makes calls by `eth_call`: of contracts that are deployed, or else with their code in a state override, or else,
-    where a node refuses those, by a call that creates them first. Which it is, is found out once and kept.
-
-    Several threads may use it at once.
+    It calls deployed contracts if there are any; otherwise code in a state override; otherwise, if the node does not
+    support overrides, contracts that are created within the call. Safe for several threads.
     """
 
     def __init__(
@@ -69,42 +60,31 @@ class NodeChain:
         address: bytes | None = None,
         book: AddressBook | None = None,
     ) -> None:
-        """Prepare calls; nothing is asked yet.
+        """Prepare calls; nothing is sent yet.
 
-        local: sets up the contracts whose code is sent or compared. address: of a deployed renderer that is to be
-        called. book: where addresses are looked up; None takes the user's.
+        local: an EVM with the code of the contracts. address: of the deployed renderer to call. book: addresses of
+        deployed contracts; None uses the user's.
         """
         self.connection = connection
         self._local = local
         self._address = address
         self._book = AddressBook() if book is None else book
         self._places: dict[str, bytes | None] = {}
-        self._ways: set[Way] = set()
+        self._methods: set[Method] = set()
         self._lock = threading.RLock()
         self._answers_creations = True
-        local.address("Renderer")  # set up here, before several threads ask for it
+        local.address("Renderer")  # created now, before several threads need it
 
     @property
     def name(self) -> str:
-        """What it is, for people, and how it got the contracts, as soon as it was called."""
-        ways = ", ".join(way.value for way in Way if way in self._ways)
-        return self.connection.name + (f" ({ways})" if ways else "")
-
-    def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """Return the picture of a scene, or of a part of its canvas."""
-        data = encode(artifact("Renderer").selectors["render" if tile is None else "renderTile"], scene, tile)
-        result = self.call("Renderer", data)
-        return Drawing(returned_bytes(result.output, 0), result.gas, intrinsic_gas(data))
-
-    def count(self, scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
-        """Count the triangles left after culling and clipping, and the pixels of the canvas or tile that they cover."""
-        return returned_counts(self.call("Renderer", count_call(scene, tile)).output)
+        """Description for reports; after the first call, with how the node got the contracts."""
+        methods = ", ".join(method.value for method in Method if method in self._methods)
+        return self.connection.name + (f" ({methods})" if methods else "")
 
     def call(self, contract: str, data: bytes, gas_limit: int | None = None) -> NodeResult:
-        """Calls a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
+        """Call a contract, by the name of its artifact, with at most `gas_limit` gas for the execution.
 
-        None leaves the limit to the node.
-        ChainError of the kind that says what failed: the contract, the gas, or the node.
+        None uses the node's limit. Raises a ChainError whose class says what failed: contract, gas, or node.
         """
         try:
             place = self.place(contract)
@@ -118,31 +98,34 @@ class NodeChain:
             raise self._refused(error.data, gas_limit) from None
         except OutOfGasError:
             raise (self._refused(None, gas_limit) if self.gas_limit else self.too_little()) from None
-        self._ways.add(Way.DEPLOYED if place is not None else Way.OVERRIDE if self._probed.overrides else Way.CREATION)
+        self._methods.add(
+            Method.DEPLOYED if place is not None else Method.OVERRIDE if self._probed.overrides else Method.CREATION
+        )
         return result
 
     @property
     def gas_limit(self) -> int:
-        """The gas that a render may use, asked once: for its execution and what is paid before that, `Drawing.gas` and
-        `Drawing.intrinsic_gas`. 0 if a call has too little even for what comes along.
+        """Gas that a render may use, `Drawing.gas` and `Drawing.intrinsic_gas` together, requested once.
+
+        0 if a call has too little gas even for the contracts that it brings.
         """
-        # a call hands on all but a 64th
+        # a call passes on all but a 64th
         return max(0, self._probed.gas * 63 // 64 - 30_000 - self._carried_gas)
 
     def too_little(self) -> OutOfGasError:
-        """Return the error of a node whose calls have too little gas for any render."""
-        said = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
+        """Return the error for a node whose calls have too little gas for any render."""
+        text = f"the {self.connection.name} allows a call too little gas for this: {self._probed.gas:,}"
         if not self._carried_gas:
-            return OutOfGasError(f"{said}; raise its limit, or take another node")
+            return OutOfGasError(f"{text}; raise its limit, or use another node")
         return OutOfGasError(
-            f"{said}, and it knows no state overrides: to bring the contracts along takes up to {self._carried_gas:,}; "
-            "run shackled deploy, raise its limit, or take another node"
+            f"{text}, and it has no state overrides: creating the contracts takes up to {self._carried_gas:,}; "
+            "run shackled deploy, raise its limit, or use another node"
         )
 
     def place(self, contract: str) -> bytes | None:
-        """Return where a contract is deployed on the node's chain, as it is here; None if it is not.
+        """Return the address at which a contract of this version is deployed; None if it is not deployed.
 
-        RenderError if a renderer was named and what is there is none.
+        Raises RenderError if `address` was given and is not that of a renderer.
         """
         with self._lock:
             if contract not in self._places:
@@ -150,7 +133,7 @@ class NodeChain:
             return self._places[contract]
 
     def _named(self, contract: str) -> bytes | None:
-        """Return the renderer that was named, or one of its engines."""
+        """Return the address of the given renderer, or of one of its engines."""
         assert self._address is not None
         if contract not in RENDERER:
             return None
@@ -158,13 +141,13 @@ class NodeChain:
         code = self._code(self._address)
         if not code:
             raise RenderError(
-                f"there is no contract at {where}: put one there with shackled deploy, or leave out `address`"
+                f"there is no contract at {where}: deploy it with shackled deploy, or leave out `address`"
             )
         parts = self._parts("Renderer", code)
         if parts is None or any(self._code(place) != self._local.code(part) for part, place in parts.items()):
             raise RenderError(
                 f"the contract at {where} is not the renderer of this version of shackled: "
-                "name another one, or leave out `address`"
+                "give another address, or leave out `address`"
             )
         return parts.get(contract, self._address)
 
@@ -176,12 +159,12 @@ class NodeChain:
         return None
 
     def _stands(self, contract: str, address: bytes) -> bool:
-        """Return whether the contract, and those that it calls, are there."""
+        """Return whether a contract, and those that it calls, are deployed."""
         parts = self._parts(contract, self._code(address))
         return parts is not None and all(self._stands(part, place) for part, place in parts.items())
 
     def _parts(self, contract: str, code: bytes) -> dict[str, bytes] | None:
-        """Return the addresses of those that it calls, from the code of a contract; None if the code is not its own."""
+        """Return the addresses of the contracts that a contract calls, from its code; None if the code differs."""
         expected, parts = self._local.code(contract), {}
         for part in artifact(contract).parts:
             here = word(self._local.address(part))
@@ -205,7 +188,7 @@ class NodeChain:
         return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
     def _plain(self, place: bytes, data: bytes, gas_limit: int | None) -> NodeResult:
-        """Call what is deployed, by a creation that counts its gas if that is possible."""
+        """Call a deployed contract, through a creation call that counts its gas if the node supports that."""
         init = artifact("DeployedCall").creation + word(place) + _limit(gas_limit) + _bytes(data, 96)
         if len(init) <= MAX_INIT_CODE and self._answers_creations:
             try:
@@ -219,25 +202,25 @@ class NodeChain:
         return NodeResult(self.connection.data("eth_call", request, "latest"), None)
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
-        """Call a contract by a creation that makes the contracts first."""
+        """Call a contract through a creation call that creates the contracts first."""
         names = [*reversed(self._below(contract)), contract]
         codes = [artifact(name).creation for name in names]
         packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
         head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
-        # as it is if there is room, since what is packed has to be unpacked, for gas
+        # uncompressed if it fits, since decompression costs gas
         for level in (0, 9):
             deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
             init = head + _bytes(deflate.compress(packed) + deflate.flush(), 96)
             if len(init) <= MAX_INIT_CODE:
                 return self._carried(init)
         raise NodeError(
-            f"the {self.connection.name} knows no state overrides, and the scene of {len(data):,} bytes is too large "
-            f"for a creation call with the contracts: {len(init):,} bytes packed, of {MAX_INIT_CODE:,} allowed; "
-            "run shackled deploy, take a smaller `max_triangles`, or another node"
+            f"the {self.connection.name} has no state overrides, and the scene of {len(data):,} bytes is too large for "
+            f"a creation call with the contracts: {len(init):,} bytes compressed, of {MAX_INIT_CODE:,} allowed; "
+            "run shackled deploy, use a smaller `max_triangles`, or another node"
         )
 
     def _carried(self, init: bytes) -> NodeResult:
-        """Make a creation call that brings the contracts along, and return what it says."""
+        """Make a creation call that brings the contracts, and return its result."""
         try:
             return self._answer_of(init)
         except (NoAnswerError, TooLargeError, WrongChainError):
@@ -245,16 +228,16 @@ class NodeChain:
         except NodeError as error:
             if not self._probed.creations:
                 raise NodeError(
-                    f"{error}: it takes neither state overrides nor creation calls, and the contracts are not deployed "
-                    "on its chain; run shackled deploy, or take another node"
+                    f"{error}: it supports neither state overrides nor creation calls, and the contracts are not "
+                    "deployed on its chain; run shackled deploy, or use another node"
                 ) from None
             if not self.gas_limit:
-                # a creation that runs out of gas may say nothing
+                # a creation that runs out of gas may return nothing
                 raise self.too_little() from None
             raise
 
     def _answer_of(self, init: bytes) -> NodeResult:
-        """Make a creation call that ends by a revert, and return what it says of the call that it made."""
+        """Make a creation call, which ends with a revert, and return the result in the data of that."""
         try:
             self.connection.request("eth_call", {"data": to_hex(init)} | self._probed.field, "latest")
         except RevertError as error:
@@ -267,20 +250,20 @@ class NodeChain:
                 # NotCreated: one of the contracts ran out of gas
                 raise self.too_little() from None
         raise NodeError(
-            f"the {self.connection.name} knows no state overrides, and keeps back what a creation call says: "
-            "take another node, or one where the contracts are deployed"
+            f"the {self.connection.name} has no state overrides, and does not return the data of a reverted creation "
+            "call: use another node, or one where the contracts are deployed"
         )
 
     def _below(self, contract: str) -> list[str]:
-        """Return the contracts that a contract needs, the nearest first."""
+        """Return the contracts that a contract needs, each before those that it needs itself."""
         parts = artifact(contract).parts
         return parts + [each for part in parts for each in self._below(part)]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
-        """Return the error of a call whose contract said this, or, with None, that had too little gas."""
-        failure = out_of_gas(gas_limit or 0) if data is None else refusal(data, gas_limit or 0)
+        """Return the error for a call that reverted with `data`, or, with None, ran out of gas."""
+        failure = out_of_gas(gas_limit or 0) if data is None else revert_error(data, gas_limit or 0)
         if isinstance(failure, OutOfGasError) and gas_limit is None:
-            hint = "take a smaller `size`, or raise its limit"
+            hint = "use a smaller `size`, or raise its limit"
             return OutOfGasError(f"the {self.connection.name} allows a call too little gas for this: {hint}")
         return failure
 
@@ -291,7 +274,7 @@ class NodeChain:
 
     @property
     def _carried_gas(self) -> int:
-        """Above what it costs to bring the contracts along beside the render: unpacking, and each byte of code."""
+        """An upper bound of the gas that a creation call uses to decompress and create the contracts."""
         if self._probed.overrides or self.place("Renderer") is not None:
             return 0
         sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in RENDERER]
@@ -300,8 +283,10 @@ class NodeChain:
 
 @dataclass(frozen=True)
 class _Probed:
-    """What a node allows. gas: of a call, and whether a call has to name it to get as much. creations: whether it was
-    seen to answer a call that creates a contract, where it knows no overrides.
+    """What a node supports.
+
+    overrides: state overrides. gas: the maximum of a call. named: whether a call gets that only if it asks for it.
+    creations: whether it answers creation calls; only tested without overrides.
     """
 
     overrides: bool
@@ -322,9 +307,9 @@ def metered(
     codes: Mapping[bytes, bytes] | None = None,
     fields: Mapping[str, str] | None = None,
 ) -> NodeResult:
-    """Call a contract through the Meter, which counts gas and which a state override puts on the chain for that long.
+    """Call a contract through the contract Meter, in a state override, which counts the gas of the execution.
 
-    codes: more code for the override, by its address. fields: more fields of the request, such as its gas.
+    codes: more code for the override, by address. fields: more fields of the request, such as its gas.
     """
     codes = {METER: artifact("Meter").runtime, **(codes or {})}
     overrides = {to_hex(address): {"code": to_hex(code)} for address, code in codes.items()}
@@ -334,7 +319,7 @@ def metered(
 
 
 def _probe(connection: Connection) -> _Probed:
-    """Find out whether a node knows state overrides, and how much gas a call gets that asks for much or for none."""
+    """Test whether a node supports state overrides, and how much gas a call gets that asks for much or for none."""
     override = {to_hex(METER): {"code": to_hex(GAS_LEFT)}}
     for overrides in (True, False):
         found = []
@@ -352,17 +337,17 @@ def _probe(connection: Connection) -> _Probed:
                 left = int.from_bytes(output, "big")
                 found.append(_Probed(overrides, left + intrinsic_gas(b"" if overrides else GAS_LEFT), named))
         if found:
-            # what need not be named is better not named
+            # prefer calls that do not ask for an amount
             return max(found, key=lambda each: (each.gas, not each.named))
-    # it makes no creation calls, and what is deployed has to do
+    # without creation calls, only deployed contracts can be called
     return _Probed(False, connection.block_gas_limit(), False, creations=False)
 
 
 def _limit(gas: int | None) -> bytes:
-    """Encode a limit as the contracts take it: 0 is none."""
+    """Encode a gas limit for the contracts: 0 for none."""
     return word(0 if gas is None else max(1, gas))
 
 
 def _bytes(data: bytes, offset: int) -> bytes:
-    """Return the last argument, of type bytes, which begins so many bytes behind the first."""
+    """Encode the last argument, of type bytes, at an offset."""
     return word(offset) + word(len(data)) + data + bytes(-len(data) % 32)

@@ -1,4 +1,4 @@
-"""Choosing where contracts run, or the NumPy renderer in their place."""
+"""Selection of a chain by name, a node by URL, or the NumPy reference renderer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class ReferenceChain:
     name = "NumPy reference"
 
     def draw(self, scene: Scene, tile: Rectangle | None = None) -> Drawing:
-        """Return the picture of a scene, or of a part of its canvas."""
+        """Render a scene, or a tile of its canvas."""
         from .. import reference
 
         return Drawing(reference.render(scene, tile), None, None)
@@ -32,16 +32,16 @@ class ReferenceChain:
         return reference.count(scene, tile)
 
 
-#: The names of chains, and the module that each needs.
+#: Names of chains, and the module that each needs.
 CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
 _KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
 
 
 def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
-    """Return the node at an address.
+    """Return the chain of the node at a URL.
 
-    address: of a renderer that is deployed there; None takes the one that is known, or brings it along. timeout:
-    seconds for an answer. InputError for what is none.
+    address: of a deployed renderer; None uses the known one, or sends the contracts with each call. timeout: seconds
+    for an answer. Raises InputError if a value is invalid.
     """
     local = open_chain(None)
     assert isinstance(local, EmbeddedChain)
@@ -51,7 +51,7 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
 
 @cache
 def open_chain(name: str | None = None) -> Chain:
-    """Return the chain of that name; None takes the fastest EVM that is installed."""
+    """Return the chain of a name; None selects the fastest installed EVM. Raises InputError if it is unknown."""
     if name is None:
         name = next((each for each in ("pyrevm", "pyevm") if find_spec(CHAINS[each])), None)
         if name is None:

@@ -1,4 +1,4 @@
-"""JSON-RPC over HTTP: one attempt, a bounded time, a whole answer or an error."""
+"""JSON-RPC over HTTP, with a timeout for the whole answer."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
 from ..untrusted import read_json
 from ._failures import http_failure, too_large
 
-#: Seconds within which a node must take a connection.
+#: Timeout of connecting, in seconds.
 CONNECT_PATIENCE = 10
-#: A connection that was kept open may be closed meanwhile: if one breaks within these seconds, a new one is tried.
+#: If a reused connection breaks within these seconds, the node had closed it, and a new one is opened.
 STALE = 1.0
-#: Bytes of an answer that are taken; the largest picture has 13 MB, two characters each.
+#: Maximum size of an answer, in bytes; the largest picture has 13 MB, in hexadecimal twice as much.
 MAX_ANSWER = 64 << 20
 
 HEADERS = {
@@ -31,44 +31,44 @@ HEADERS = {
     "Accept": "application/json",
     "User-Agent": f"shackled/{__version__}",
 }
-BROKEN = "broke off its answer; is it running, or was the picture too much for it?"
+BROKEN = "closed the connection before the end of its answer; is it running, or was the picture too large for it?"
 
 
 class Transport:
-    """Sends requests to a node and reads its answers. Several threads may use it at once."""
+    """Sends requests to a node and reads its answers. Safe for several threads."""
 
     def __init__(self, url: str, name: str, timeout: float, local: bool) -> None:
-        """timeout: seconds for a whole answer. local: the node is on this machine, behind no proxy."""
+        """Take the node's URL and name. timeout: seconds for a whole answer. local: it is on this machine, no proxy."""
         self.url, self.name, self.timeout, self.local = url, name, timeout, local
         self._numbers = itertools.count()
         self._sessions = threading.local()
 
     def send(self, method: str, parameters: Sequence[Any]) -> dict[str, Any]:
-        """Send a request and return the answer, with its `result` or `error`. Raises NodeError and its kinds."""
+        """Send a request and return the answer, with its `result` or `error`. Raises NodeError or a subclass."""
         number = next(self._numbers)
         request = json.dumps({"jsonrpc": "2.0", "method": method, "params": parameters, "id": number}).encode()
         body = self._post(request)
         try:
             answer = read_json(body.decode())
         except ValueError:
-            raise self._no_node("what is not JSON" if body else "nothing") from None
+            raise self._invalid("an answer that is not JSON" if body else "an empty answer") from None
         if not isinstance(answer, dict) or not ("result" in answer or answer.get("error")):
-            raise self._no_node("JSON that is not JSON-RPC")
-        # an error may come before the number of the request was read
+            raise self._invalid("JSON that is not JSON-RPC")
+        # an error may come before the node has read the id of the request
         if answer.get("id") != number and not (answer.get("id") is None and answer.get("error")):
-            raise NodeUnreachableError(f"the {self.name} answered another request than the one made; try again")
+            raise NodeUnreachableError(f"the {self.name} answered a different request; try again")
         return answer
 
     def _post(self, request: bytes) -> bytes:
-        """Return the body of the answer."""
+        """Send a request and return the body of the answer."""
         started = time.monotonic()
         while True:
-            kept = hasattr(self._sessions, "session")
+            is_reused = hasattr(self._sessions, "session")
             try:
                 return self._attempt(request, started + self.timeout)
             except (requests.RequestException, urllib3.exceptions.HTTPError, OSError) as error:
                 kind, words = _failure(error)
-                if words == BROKEN and kept and time.monotonic() - started < STALE:
+                if words == BROKEN and is_reused and time.monotonic() - started < STALE:
                     del self._sessions.session
                     continue
                 raise kind(f"the {self.name} {words.format(f'{self.timeout:g}')}") from None
@@ -84,7 +84,7 @@ class Transport:
             allow_redirects=False,
         ) as response:
             parts, size = [], 0
-            # what is there, as it comes: a drop now and then would else go on for ever
+            # whatever has arrived: otherwise a node that sends slowly could exceed the timeout
             while part := response.raw.read1(1 << 16, decode_content=True):
                 parts.append(part)
                 size += len(part)
@@ -93,7 +93,7 @@ class Transport:
                 if time.monotonic() > end:
                     raise TimeoutError
             body = b"".join(parts)
-        # hosted nodes say with a status of their own what JSON-RPC says in the body
+        # some hosts send JSON-RPC errors with another status
         if response.status_code != 200 and not _is_rpc_error(response.status_code, body, request):
             raise http_failure(self.name, response.status_code, response.headers, body)
         return body
@@ -105,12 +105,12 @@ class Transport:
             self._sessions.session.trust_env = not self.local
         return cast(requests.Session, self._sessions.session)
 
-    def _no_node(self, what: str) -> NodeError:
-        return NodeUnreachableError(f"the {self.name} answered with {what}: is this the address of a node?")
+    def _invalid(self, what: str) -> NodeError:
+        return NodeUnreachableError(f"the {self.name} sent {what}: is this the address of a node?")
 
 
 def is_address(url: str) -> bool:
-    """Return whether a request can be sent there."""
+    """Return whether requests can be sent to a URL."""
     try:
         requests.Request("POST", url).prepare()
     except (requests.RequestException, ValueError):
@@ -120,23 +120,23 @@ def is_address(url: str) -> bool:
 
 
 def _failure(error: Exception) -> tuple[type[NodeError], str]:
-    """Return the kind of what came in place of an answer, and what to say of the node."""
+    """Return the class and the message of the error for a failed request."""
     reason = getattr(error.args[0], "reason", None) if error.args else None
     if isinstance(error, requests.exceptions.ConnectTimeout):
-        return NodeUnreachableError, "takes no connection; is it running, and is its address right?"
+        return NodeUnreachableError, "does not accept connections; is it running, and is its address right?"
     if isinstance(error, requests.Timeout | urllib3.exceptions.TimeoutError | TimeoutError):
-        return NodeTimeoutError, "did not answer within {} seconds: take a smaller `size`, or a larger `timeout`"
+        return NodeTimeoutError, "did not answer within {} seconds: use a smaller `size`, or a larger `timeout`"
     if isinstance(error, requests.exceptions.SSLError):
-        return NodeUnreachableError, "cannot be reached by a safe connection; is its address right, http or https?"
+        return NodeUnreachableError, "cannot be reached by TLS; is its address right, http or https?"
     if isinstance(error, requests.exceptions.ProxyError):
-        return NodeUnreachableError, "cannot be reached through the proxy that is set for this machine"
+        return NodeUnreachableError, "cannot be reached through the configured proxy"
     if isinstance(reason, urllib3.exceptions.NewConnectionError):
         return NodeUnreachableError, "cannot be reached; is it running, and is its address right?"
     return NodeUnreachableError, BROKEN
 
 
 def _is_rpc_error(status: int, body: bytes, request: bytes) -> bool:
-    """Return whether an answer is a node's refusal of this very request, which says more than the status."""
+    """Return whether an answer is a JSON-RPC error of this request, which says more than the status."""
     if status in (413, 429):
         return False
     try:

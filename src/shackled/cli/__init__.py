@@ -8,13 +8,13 @@ from typing import NoReturn
 
 
 def main() -> NoReturn:
-    """Run the command and exit."""
+    """Run the command and exit with its code."""
     for name in ("stdout", "stderr"):
-        # it may have been closed before the start
+        # None if it was closed before the start
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
     try:
-        # imports take a moment, in which Ctrl-C must work
+        # imports take a moment, during which Ctrl-C must work
         from .app import run
 
         code = run()

@@ -1,4 +1,4 @@
-"""The command and its exit codes: 0 done, 2 wrong usage or bad input, 1 anything else."""
+"""The command `shackled` and its exit codes: 0 for success, 2 for wrong usage or bad input, 1 for other failures."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .render import render
 from .stages import stages
 from .token import token
 
-#: The exit code of typer for a keyboard interrupt.
+#: The exit code with which typer reports a keyboard interrupt.
 INTERRUPTED = 130
 
 app = typer.Typer(
@@ -51,7 +51,7 @@ def shackled(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
-    """Pictures of 3D scenes, computed by Ethereum smart contracts."""
+    """Render 3D scenes with Ethereum smart contracts."""
     if version:
         print(f"shackled {__version__}")
     elif context.invoked_subcommand is None:
@@ -59,10 +59,7 @@ def shackled(
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
-    """Run the command and return the exit code.
-
-    Errors and warnings are printed on stderr, one line each.
-    """
+    """Run the command and return its exit code. Errors and warnings are printed on stderr, one line each."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", InputWarning)
         warnings.showwarning = _note(warnings.showwarning)
@@ -71,8 +68,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> int:
     try:
-        code = app(args=None if arguments is None else list(arguments), standalone_mode=False, prog_name="shackled")
-        # errors of a later flush would not be reported
+        code = app(args=arguments, standalone_mode=False, prog_name="shackled")
+        # at the end of the interpreter, a failure to write could not be reported
         sys.stdout.flush()
         return _fail("stopped", 1) if code == INTERRUPTED else int(code or 0)
     except InputError as error:
@@ -82,7 +79,7 @@ def _run(arguments: Sequence[str] | None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return _fail("stopped", 1)
     except OSError as error:
-        # such as a full disk behind stdout
+        # for instance, the disk to which the output is redirected is full
         _drop_output()
         where = f"{error.filename}: " if error.filename else ""
         return _fail(f"{where}{error.strerror or repr(error)}", 1)
@@ -94,21 +91,21 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 
 def _note(show: Callable[..., object]) -> Callable[..., None]:
-    """Return a handler that prints each InputWarning once, on a line, and others as before."""
-    told = set[str]()
+    """Return a function that prints each InputWarning once, in one line, and shows other warnings as before."""
+    printed = set[str]()
 
     def showwarning(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if not issubclass(category, InputWarning):
             show(message, category, *place, **more)
-        elif str(message) not in told:
-            told.add(str(message))
+        elif str(message) not in printed:
+            printed.add(str(message))
             print(f"shackled: note: {plain(with_options(str(message)))}", file=sys.stderr)
 
     return showwarning
 
 
 def _drop_output() -> None:
-    """Discard output that could not be written, which the interpreter would otherwise try to write again at exit."""
+    """Discard the rest of standard output, which the interpreter would otherwise try to write again at its end."""
     try:
         sys.stdout.flush()
     except OSError:

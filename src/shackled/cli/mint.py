@@ -2,119 +2,93 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ..errors import InputError
-from ..ethereum import checksum_address
 from ..image import FORMATS, one_of
+from .chain_options import NodeOptions, PayerOptions, print_json, print_step, with_groups
 from .option import option, parse_size
-from .payer import PASSWORD, MaxFee, ask, open_signer, parse_max_fee, price
-from .telling import say, tell
-
-if TYPE_CHECKING:
-    from ..deploy import Receipt, Step
+from .output import print_line, print_note
 
 
+@with_groups
 def mint(
-    input: Annotated[
-        str, typer.Argument(help="A piece of a dataset, or a mesh or scene file of yours.", metavar="INPUT")
-    ],
-    rpc: Annotated[str | None, option("--rpc", "A node of the chain.", "URL", envvar="SHACKLED_RPC")] = None,
-    account: Annotated[
-        Path | None,
-        option("--account", f"Who pays: a keystore file; its password is asked, or in {PASSWORD}.", "FILE"),
-    ] = None,
-    private_key_env: Annotated[
-        str | None, option("--private-key-env", "Who pays: the environment variable with a private key.", "NAME")
-    ] = None,
-    max_fee: MaxFee = None,
-    licence: Annotated[str | None, option("--licence", "Of a file: what you know its licence to be.", "TEXT")] = None,
+    input: Annotated[str, typer.Argument(help="A dataset piece, or a mesh or scene file.", metavar="INPUT")],
+    node: NodeOptions,
+    payer: PayerOptions,
+    licence: Annotated[str | None, option("--licence", "Licence of a file, which you have checked.", "TEXT")] = None,
     output: Annotated[
-        str | None, option("-o --output", f"The picture as the chain draws it: {one_of(FORMATS)}.", "FILE")
+        str | None, option("-o --output", f"Write the picture that the chain draws: {one_of(FORMATS)}.", "FILE")
     ] = None,
     size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
-    max_triangles: Annotated[int | None, option("--max-triangles", "Simplify meshes of more.", "N")] = None,
+    max_triangles: Annotated[
+        int | None, option("--max-triangles", "Simplify meshes of more triangles than this.", "N")
+    ] = None,
     position_bits: Annotated[
         int | None,
-        option("--position-bits", "Cheaper: keep positions on a grid of 2^N steps, 4 to 16; else exactly.", "N"),
+        option("--position-bits", "Cheaper: round positions to a grid of 2^N steps, 4 to 16. Default: exact.", "N"),
     ] = None,
-    chain_id: Annotated[int | None, option("--chain-id", "Stop if the node belongs to another chain.", "N")] = None,
-    yes: Annotated[bool, option("--yes -y", "Do not ask.")] = False,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Put an object on a chain for ever, for every contract to draw. The price is told first."""
+    """Store an object on a chain for ever, so that every contract can draw it. The price is printed first."""
 
     from .._load import load, locate
-    from ..chain import Connection
     from ..datasets import Piece
-    from ..deploy import Transactor, current_fees
+    from ..deploy import current_fees
     from ..image import check_output
-    from ..tokens import Wanted, licence_of, plan_storage, read_back, store
+    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store
 
     path = None if output is None else check_output(output)
     pixels = None if size is None else parse_size(size)
     source = locate(input)
     terms = licence_of(source, licence)
-    if rpc is None:
-        raise InputError("--rpc is missing: the address of a node of the chain, as http://127.0.0.1:8545")
+    if node.rpc is None:
+        raise InputError("--rpc is missing: the URL of a node of the chain, such as http://127.0.0.1:8545")
     scene = load(source, pixels, max_triangles=max_triangles)
-    wanted = Wanted(input, scene, position_bits)
-    connection = Connection(rpc, attempts=4)
-    connection.expect_chain(chain_id)
-    most = parse_max_fee(max_fee)
-    storage = plan_storage(connection, [wanted], current_fees(connection, most))
+    wanted = SceneToStore(input, scene, position_bits)
+    connection = node.connect()
+    storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))
     pointer = storage.pointers[0]
     if isinstance(source, Piece) and source.notice:
-        say(source.notice)
+        print_note(source.notice)
     gas = 0
     if storage.missing or storage.parts.missing:
-        triangles = scene.triangles
-        say(
-            f"{input}, {triangles:,} triangles, {sum(each.storing.size for each in storage.missing):,} bytes on chain "
-            f"{connection.chain_id}; licence: {terms}"
+        size_in_bytes = sum(each.transaction.size for each in storage.missing)
+        print_note(
+            f"{input}: {scene.triangles:,} triangles, {size_in_bytes:,} bytes on chain {connection.chain_id}; "
+            f"licence: {terms}"
         )
         if storage.parts.missing:
-            say(f"first {', '.join(step.name for step in storage.parts.missing)}: {storage.parts.gas:,} gas")
-        say(f"storing it: {storage.gas:,} gas; nothing undoes it")
-        say(f"it costs {price([*storage.parts.quotes, *storage.quotes])}")
-        transactor = Transactor(connection, open_signer(account, private_key_env), max_fee=most)
-        if not yes:
-            ask(transactor.name)
-
-        def report(step: Step, receipts: Sequence[Receipt]) -> None:
-            gas = sum(each.gas for each in receipts)
-            say(f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}")
-
-        gas = sum(receipt.gas for receipt in store(storage, transactor, report))
+            names = ", ".join(step.name for step in storage.parts.missing)
+            print_note(f"deploying {names} first: {storage.parts.gas:,} gas")
+        print_note(f"storing it: {storage.gas:,} gas; it cannot be undone")
+        transactor = payer.transactor(connection)
+        payer.confirm(transactor, [*storage.parts.quotes, *storage.quotes])
+        gas = sum(receipt.gas for receipt in store(storage, transactor, print_step))
     else:
-        say(f"{input} is on chain {connection.chain_id} already: nothing was sent")
+        print_note(f"{input} is on chain {connection.chain_id} already: nothing was sent")
     image = read_back(connection, storage.studio, pointer, wanted)
     if path is not None:
         image.save(path)
     if as_json:
-        print(
-            json.dumps(
-                {
-                    "input": input,
-                    "chain_id": connection.chain_id,
-                    "studio": storage.studio,
-                    "pointer": pointer,
-                    "gas": gas,
-                    "render_gas": image.gas,
-                    "licence": terms,
-                    "output": None if path is None else str(path),
-                }
-            )
+        print_json(
+            {
+                "input": input,
+                "chain_id": connection.chain_id,
+                "studio": storage.studio,
+                "pointer": pointer,
+                "gas": gas,
+                "render_gas": image.gas,
+                "licence": terms,
+                "output": None if path is None else str(path),
+            }
         )
         return
-    tell(f"pointer  {pointer}")
-    tell(f"studio   {storage.studio}")
-    drawing = "not told" if image.gas is None else f"{image.gas:,} gas"
-    tell(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
-    tell(f"in Solidity: Studio({storage.studio}).renderDataURI({pointer}, 4)")
-    tell(f"from here:   shackled token picture {pointer} -o FILE.png")
+    print_line(f"pointer  {pointer}")
+    print_line(f"studio   {storage.studio}")
+    drawing = "gas unknown" if image.gas is None else f"{image.gas:,} gas"
+    print_line(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
+    print_line(f"in Solidity:  Studio({storage.studio}).renderDataURI({pointer}, 4)")
+    print_line(f"command line: shackled token picture {pointer} -o FILE.png")

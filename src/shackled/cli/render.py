@@ -29,6 +29,9 @@ from .look_options import load_with, with_look
 from .option import option, parse_size
 from .progress import JobProgress, LateBar
 
+#: The address that stands for a cluster on this machine.
+LOCAL = "local"
+
 
 @with_look
 def render(
@@ -76,10 +79,7 @@ def render(
     cluster: Annotated[
         str | None,
         option(
-            "--cluster",
-            "Dask scheduler to render with, such as tcp://host:8786; `local` starts one here.",
-            "ADDRESS",
-            "Where",
+            "--cluster", "A dask scheduler, as tcp://host:8786, or local for one on this machine.", "ADDRESS", "Where"
         ),
     ] = None,
     gas_limit: Annotated[
@@ -167,7 +167,9 @@ def _on(
         if value is not None and not rpc:
             raise InputError(f"{name} needs --rpc")
     if cluster is not None:
-        return Cluster(None if cluster == "local" else cluster, jobs, chain, verify)
+        if cluster != LOCAL and ":" not in cluster:
+            raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
+        return Cluster(None if cluster == LOCAL else cluster, jobs, chain, verify)
     if rpc:
         return Nodes(*rpc, address=address, timeout=timeout, jobs=1 if jobs is None else jobs, verify=verify)
     return chain if jobs is None else Processes(jobs, chain)

@@ -1,4 +1,4 @@
-"""Contracts put on a chain, at the same addresses everywhere, and the transactions that do it."""
+"""Deployment of contracts, at the same addresses on every chain, and transactions with quoted prices."""
 
 import lazy_loader
 

@@ -1,6 +1,6 @@
 from ._account import environment_account, keystore_account, read_keystore
 from ._contract import CONTRACTS, PROXY_CODE, STANDARD, Deployment, deployment, deployments, in_order, local_chain
-from ._deployer import Deployer, Plan, Step, create
+from ._deployer import Deployer, DeploymentStep, Plan, create
 from ._proxy import COST, SIGNED, SIGNER
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor
@@ -16,11 +16,11 @@ __all__ = [
     "Call",
     "Deployer",
     "Deployment",
+    "DeploymentStep",
     "Fees",
     "Plan",
     "Quote",
     "Receipt",
-    "Step",
     "Transactor",
     "create",
     "current_fees",

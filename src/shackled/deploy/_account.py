@@ -1,4 +1,4 @@
-"""Accounts that sign transactions. What is said of a key or a password never shows it."""
+"""Accounts that sign transactions. Error messages never show a key or a password."""
 
 from __future__ import annotations
 
@@ -15,62 +15,62 @@ if TYPE_CHECKING:
 
 
 def environment_account(name: str) -> LocalAccount:
-    """Return the account whose private key, 64 hexadecimal digits, an environment variable has.
+    """Return the account of the private key, 64 hexadecimal digits, in an environment variable.
 
-    Raises InputError if it has none.
+    Raises InputError if the variable holds none.
     """
     from eth_account import Account
 
     value = os.environ.get(name, "").strip()
     if not value:
-        # what is no name may be a key, or a mnemonic, typed wrong
+        # an invalid name may be a key or a mnemonic, given by mistake
         if not re.fullmatch("[A-Za-z_][A-Za-z0-9_]{0,39}", name) or re.fullmatch("[0-9a-fA-F]{16,}", name):
             raise InputError(
-                "there is no private key in an environment variable of that name: the name of a variable is wanted, "
-                "not the key"
+                "there is no private key in an environment variable of that name: give the name of a variable, not the "
+                "key"
             )
-        raise InputError(f"there is no private key in the environment variable {name}: set it to one")
+        raise InputError(f"the environment variable {name} is not set: it must hold a private key")
     if re.fullmatch("(0x)?[0-9a-fA-F]{64}", value):
         try:
             account: LocalAccount = Account.from_key(value)
             return account
-        except Exception:  # whatever it says could show the key
+        except Exception:  # its message could show the key
             pass
-    raise InputError(f"the environment variable {name} must hold a private key, 64 hexadecimal digits; it holds none")
+    raise InputError(f"the environment variable {name} must hold a private key, 64 hexadecimal digits")
 
 
 def read_keystore(path: Path) -> str:
-    """Return the text of a keystore file. InputError if it is none."""
+    """Return the text of a keystore file. Raises InputError if it is not one."""
     try:
         text = path.read_text("utf-8")
     except (OSError, ValueError) as error:
-        # a key, or a mnemonic, may stand where the name of a file should
+        # the name may be a key or a mnemonic, given by mistake
         if re.search("[0-9A-Za-z]{41,}", path.name) or len(path.name.split()) >= 6:
-            raise InputError(
-                "there is no keystore file of that name: the name of a file is wanted, not a key"
-            ) from None
+            raise InputError("there is no keystore file of that name: give the name of a file, not a key") from None
         if isinstance(error, FileNotFoundError):
             raise InputError(f"there is no keystore file {path}") from None
-        raise InputError(f"the keystore file {path} cannot be read: {getattr(error, 'strerror', 'no text')}") from None
+        raise InputError(
+            f"the keystore file {path} cannot be read: {getattr(error, 'strerror', 'it is not text')}"
+        ) from None
     try:
         keystore = read_json(text)
         found = isinstance(keystore, dict) and bool({"crypto", "Crypto"} & keystore.keys())
     except ValueError:
         found = False
     if not found:
-        raise InputError(f"{path} is no keystore file, as geth, foundry or a wallet writes it (JSON, version 3)")
+        raise InputError(f"{path} is not a keystore file as geth, foundry or wallets write it (JSON, version 3)")
     return text
 
 
 def keystore_account(path: Path, password: str) -> LocalAccount:
-    """Return the account of a keystore file. InputError if it is none, or the password is wrong."""
+    """Return the account of a keystore file. Raises InputError if the file or the password is wrong."""
     from eth_account import Account
 
     text = read_keystore(path)
     try:
         key = Account.decrypt(text, password)
-    except Exception as error:  # whatever it says could show a part of the file
-        what = "the password is wrong" if "MAC" in str(error) else "it is damaged, or of an unknown kind"
+    except Exception as error:  # its message could show a part of the file
+        what = "the password is wrong" if "MAC" in str(error) else "it is damaged or of an unknown kind"
         raise InputError(f"the keystore file {path} cannot be opened: {what}") from None
     account: LocalAccount = Account.from_key(key)
     return account

@@ -1,4 +1,4 @@
-"""What can be deployed: creation code, and with it everything that can be known before: address, code, gas."""
+"""Contracts that can be deployed, with what is known before the deployment: address, code, gas."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ..chain import EmbeddedChain, open_chain
 from ..errors import ChainError, InputError
 from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 
-#: The contracts that `shackled deploy` puts on a chain if none are named; those that they call come first.
+#: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
 STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")
-#: All that can be named.
+#: All contracts that `shackled deploy` can deploy.
 CONTRACTS = (*STANDARD, "PngEncoder", "Studio", "GenesisMetadata")
 
-#: The code of the proxy: it creates (CREATE2) what follows the first word of the data, with this word as salt.
+#: The runtime code of the proxy: CREATE2 of the call's data, whose first word is the salt.
 PROXY_CODE = bytes.fromhex(
     "7fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffe03601600081602082378035828234f5801515603957"
     "8182fd5b8082525050506014600cf3"
@@ -24,9 +24,9 @@ PROXY_CODE = bytes.fromhex(
 
 @dataclass(frozen=True)
 class Deployment:
-    """A contract as the proxy deploys it.
+    """A contract that the proxy can deploy.
 
-    creation: with the arguments of the constructor. code: what stands there then. gas: of the whole transaction.
+    creation: creation code followed by constructor arguments. code: runtime code. gas: of the whole transaction.
     """
 
     name: str
@@ -36,17 +36,17 @@ class Deployment:
 
     @property
     def address(self) -> bytes:
-        """The same on every chain."""
+        """Address of the contract, 20 bytes, the same on every chain."""
         return create2_address(self.creation)
 
     @property
     def data(self) -> bytes:
-        """Of the transaction to the proxy."""
+        """Data of the transaction to the proxy."""
         return SALT + self.creation
 
 
 def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
-    """Return the contracts of these names, each after those that it calls, which are added.
+    """Return contracts by their names, each after those that it calls, which are added.
 
     Raises InputError for a name that is not in `CONTRACTS`.
     """
@@ -58,7 +58,7 @@ def deployments(names: Iterable[str] = STANDARD) -> list[Deployment]:
 
 
 def in_order(names: Iterable[str]) -> list[Deployment]:
-    """Return any contracts whose constructors take nothing but other contracts, each after those that it calls."""
+    """Return contracts whose constructors take only other contracts, each after those that it calls."""
     chosen: list[str] = []
 
     def add(name: str) -> None:
@@ -74,9 +74,9 @@ def in_order(names: Iterable[str]) -> list[Deployment]:
 
 
 def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: EmbeddedChain | None = None) -> Deployment:
-    """Return a contract of any creation code. The constructor is run here, where it finds the contracts `parts`.
+    """Return a contract of any creation code, after running its constructor in a local EVM with the contracts `parts`.
 
-    name: for people, and the address book. ChainError if the constructor refuses.
+    name: for messages and the address book. Raises ChainError if the constructor fails.
     """
     local = local_chain() if local is None else local
     for part in parts:
@@ -86,13 +86,13 @@ def deployment(name: str, creation: bytes, parts: Sequence[str] = (), local: Emb
     result = local.run(PROXY, data)
     if result.output != create2_address(creation):
         raise ChainError(
-            f"the contract {name} could not be deployed: the proxy gave {result.output.hex() or 'nothing'}"
+            f"the contract {name} could not be deployed: the proxy returned {result.output.hex() or 'nothing'}"
         )
     return Deployment(name, creation, local.create(name, creation), result.gas + intrinsic_gas(data))
 
 
 def local_chain() -> EmbeddedChain:
-    """Return an EVM of its own in which contracts are tried."""
+    """Return a new embedded EVM, whose state is not shared."""
     kind = type(open_chain(None))
     assert issubclass(kind, EmbeddedChain)
     return kind()

@@ -1,7 +1,7 @@
 """The deterministic-deployment proxy, which most chains have: github.com/Arachnid/deterministic-deployment-proxy.
 
-Where it is missing, a transaction that was published for everyone deploys it. Nobody has the key of the account that
-signed it, which is used for this only; it has to be given what the transaction costs.
+On other chains, a published transaction deploys it. Nobody has the key of the account that signed it, which is used for
+nothing else; the account must be sent what the transaction costs.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from ._contract import PROXY_CODE
 from ._quote import Call, Quote, base_fee
 from ._transactor import Receipt, Transactor
 
-#: The account that signed, and what it must have: 100,000 gas at 100 gwei.
+#: The account that signed the published transaction, and its cost: 100,000 gas at 100 gwei.
 SIGNER = bytes.fromhex("3fab184622dc19b6109349b94811493bf2a45362")
 GAS = 100_000
 PRICE = 100 * GWEI
 COST = GAS * PRICE
-#: A transfer of ether.
+#: Gas of a transfer of ether.
 TRANSFER_GAS = 21_000
 SIGNED = bytes.fromhex(
     "f8a58085174876e800830186a08080b853604580600e600039806000f350fe7fffffffffffffffffffffffffffffffffffffffffffffff"
@@ -26,23 +26,23 @@ SIGNED = bytes.fromhex(
     "22222222222222222222222222222222222222222222222a02222222222222222222222222222222222222222222222222222222222222"
     "222"
 )
-#: What it creates the proxy with.
+#: The creation code of the proxy, in the published transaction.
 CREATION = bytes.fromhex("604580600e600039806000f350fe") + PROXY_CODE
 
 
-def proxy_stands(connection: Connection) -> bool:
-    """Return whether the proxy is on the chain. TransactionError if something else is at its address."""
+def is_proxy_deployed(connection: Connection) -> bool:
+    """Return whether the chain has the proxy. Raises TransactionError if other code is at its address."""
     code = connection.code(PROXY)
     if code and code != PROXY_CODE:
         raise TransactionError(
-            f"chain {connection.chain_id} has something else where the deployment proxy belongs, at 0x{PROXY.hex()}: "
+            f"chain {connection.chain_id} has other code at the address of the deployment proxy, 0x{PROXY.hex()}: "
             "contracts cannot have their usual addresses there"
         )
     return bool(code)
 
 
 def missing_funds(connection: Connection) -> int:
-    """Return the wei that the account that signed must be given."""
+    """Return the wei that the signer of the published transaction lacks."""
     return max(0, COST - connection.balance(SIGNER))
 
 
@@ -59,7 +59,7 @@ def check_gas(connection: Connection) -> None:
 
 
 def too_little_gas(connection: Connection, why: str) -> TransactionError:
-    """Return the error of a chain whose gas is too dear for the published transaction."""
+    """Return the error for a chain on which the published transaction has too little gas."""
     return TransactionError(
         f"chain {connection.chain_id} has no deployment proxy, and the published transaction that deploys it has "
         f"{GAS:,} gas, {why}: take a chain that has the proxy at {checksum_address(PROXY)}, or, on a development node, "
@@ -68,12 +68,12 @@ def too_little_gas(connection: Connection, why: str) -> TransactionError:
 
 
 def funding(missing: int) -> Call:
-    """Return the transfer of the wei that the account that signed misses."""
+    """Return the transfer of the missing wei to the signer of the published transaction."""
     return Call(SIGNER, b"", TRANSFER_GAS, missing)
 
 
 def deploy_proxy(transactor: Transactor, quote: Quote | None) -> list[Receipt]:
-    """Gives the account that signed what it needs, which was quoted, and sends the published transaction."""
+    """Send the signer of the published transaction the quoted ether, then that transaction."""
     connection = transactor.connection
     price = base_fee(connection) or 0
     if price > PRICE:
@@ -84,14 +84,14 @@ def deploy_proxy(transactor: Transactor, quote: Quote | None) -> list[Receipt]:
     receipts = []
     try:
         if quote is not None:
-            # a node that takes no such transaction shall say so before anything is paid
-            transactor.offer(SIGNED)
+            # a node that refuses such transactions must be found before anything is paid
+            transactor.probe(SIGNED)
             receipts.append(transactor.send(quote))
         receipts.append(transactor.send_signed(SIGNED, to_hex(keccak256(SIGNED)), COST))
     except OutOfGasError:
-        raise too_little_gas(connection, "which the node finds too little") from None
-    if not transactor.wait(lambda: proxy_stands(connection) or None):
+        raise too_little_gas(connection, "which is too little for the node") from None
+    if not transactor.wait(lambda: is_proxy_deployed(connection) or None):
         raise TransactionError(
-            "the deployment proxy is not there, though its transaction succeeded: is the node in step?"
+            "the deployment proxy is not there, though its transaction succeeded: is the node synchronized?"
         )
     return receipts

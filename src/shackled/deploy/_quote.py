@@ -1,4 +1,4 @@
-"""Quotes: transactions with the most that each may cost. They are told first, and nothing above them is ever signed."""
+"""Quotes: transactions with their maximum cost. No transaction that could cost more is ever signed."""
 
 from __future__ import annotations
 
@@ -10,20 +10,22 @@ from ..chain import Connection, quantity
 from ..errors import ChainError, NoAnswerError, NodeError, TransactionError
 from ..ethereum import GWEI, to_hex
 
-#: What the gas of a transaction is multiplied by for its limit, since the chain moves on: 21 / 20.
+#: Numerator and denominator of the margin of gas limits, since the chain's state changes: 5 %.
 MARGIN = (21, 20)
-#: A tip for those who make blocks, where a node suggests none, in wei.
+#: The tip for block producers if the node suggests none, in wei.
 TIP = GWEI
-#: The highest tip that is paid unless `max_fee` is given, in wei.
+#: The maximum tip unless `max_fee` is given, in wei.
 MOST_TIP = 3 * GWEI
-#: How many times the gas that is counted here a node may estimate unless `max_fee` is given.
+#: The maximum ratio of a node's estimate to the gas counted here, unless `max_fee` is given.
 MOST_TIMES = 10
 
 
 @dataclass(frozen=True)
 class Fees:
-    """Prices of gas in wei. likely: what is probably paid. most: what is paid at most. tip: None on a chain without the
-    fees of EIP-1559, where `most` is the price. named: whether `most` is what somebody named (`max_fee`).
+    """Prices of a unit of gas, in wei.
+
+    likely: the expected price. most: the maximum. tip: None on a chain without EIP-1559, where `most` is the price.
+    named: whether the user set the maximum (`max_fee`).
     """
 
     likely: int
@@ -33,7 +35,7 @@ class Fees:
 
     @property
     def fields(self) -> dict[str, int]:
-        """Of a transaction."""
+        """Fields of a transaction with these prices."""
         if self.tip is None:
             return {"gasPrice": self.most}
         return {"maxFeePerGas": self.most, "maxPriorityFeePerGas": self.tip, "type": 2}
@@ -41,13 +43,15 @@ class Fees:
 
 @dataclass(frozen=True)
 class Call:
-    """A transaction that is wanted. to: None creates a contract. ours: its gas as it is counted here. value: in wei.
-    needs: the code, by address, of contracts that are not on the chain yet and will be by then.
+    """A transaction before it is quoted.
+
+    to: receiver; None creates a contract. gas: of the whole transaction, as counted here. value: in wei.
+    needs: code, by address, of contracts that earlier transactions will have deployed.
     """
 
     to: bytes | None
     data: bytes
-    ours: int
+    gas: int
     value: int = 0
     needs: Mapping[bytes, bytes] = field(default_factory=dict)
 
@@ -59,9 +63,9 @@ class Call:
 
 @dataclass(frozen=True)
 class Quote:
-    """A transaction and its price. Gas, fees, value and type are those that are signed, whatever a node says later.
+    """A transaction and its price. It is signed with exactly this gas limit, these fees and this value.
 
-    gas: the limit. expected: the gas that it probably uses. estimate: the node's; None if it could not tell yet.
+    gas: the gas limit. expected: the gas that it probably uses. estimate: the node's; None if it gave none.
     """
 
     call: Call
@@ -72,30 +76,28 @@ class Quote:
 
     @property
     def likely(self) -> int:
-        """What is probably paid, in wei, value included."""
+        """Likely cost, in wei, value included."""
         return self.expected * self.fees.likely + self.call.value
 
     @property
     def ceiling(self) -> int:
-        """What is paid at most, in wei, value included."""
+        """Maximum cost, in wei, value included."""
         return self.gas * self.fees.most + self.call.value
 
 
 def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
-    """Return what gas costs on a chain now, with headroom for a base fee that doubles.
+    """Return the current prices of gas, with a maximum of twice the base fee plus the tip.
 
-    max_fee: the highest price of a gas that may be paid, in wei.
-
-    Raises TransactionError if it costs more than that; without a `max_fee`, if the node suggests a tip above 3 gwei, or
-    tells no base fee, so that nothing would bound the price.
+    max_fee: the maximum price of a unit of gas, in wei. Raises TransactionError if gas costs more; without `max_fee`,
+    if the node suggests a tip above 3 gwei, or reports no base fee, so that nothing would limit the price.
     """
     base = base_fee(connection)
     if base is None:
         price = connection.number("eth_gasPrice")
         if max_fee is None:
             raise TransactionError(
-                f"the {connection.name} tells no base fee, and asks {price / GWEI:,.12g} gwei for a gas, which nothing "
-                "bounds: if its chain is one without EIP-1559, say how much a gas may cost, `max_fee`"
+                f"the {connection.name} reports no base fee, and asks for {price / GWEI:,.12g} gwei per unit of gas, "
+                "which nothing limits: if its chain has no EIP-1559, set a maximum with `max_fee`"
             )
         _require(price, max_fee)
         return Fees(price, price, None, True)
@@ -108,11 +110,10 @@ def current_fees(connection: Connection, max_fee: int | None = None) -> Fees:
     if max_fee is None:
         if tip > MOST_TIP:
             raise TransactionError(
-                f"the {connection.name} suggests a tip of {tip / GWEI:,.12g} gwei for a gas, and "
-                f"{MOST_TIP // GWEI} at most are paid unasked: if so much is right, say how much a gas may cost, "
-                "`max_fee`"
+                f"the {connection.name} suggests a tip of {tip / GWEI:,.12g} gwei per unit of gas, more than "
+                f"{MOST_TIP // GWEI}: if that is right, set a maximum price with `max_fee`"
             )
-        # the base may rise by an eighth each block
+        # the base fee can rise by an eighth in each block
         return Fees(base + tip, 2 * base + tip, tip)
     _require(base, max_fee)
     return Fees(min(base + tip, max_fee), max_fee, min(tip, max_fee), True)
@@ -124,22 +125,22 @@ def base_fee(connection: Connection) -> int | None:
     try:
         return None if block.get("baseFeePerGas") is None else quantity(block["baseFeePerGas"])
     except ValueError:
-        raise NodeError(f"the {connection.name} answered with what is no block: {block!r:.60}") from None
+        raise NodeError(f"the {connection.name} returned an invalid block: {block!r:.60}") from None
 
 
 def make_quote(name: str, call: Call, fees: Fees, estimate: int | None, rate: float = 1.0) -> Quote:
-    """Return a quote. name: of the node. rate: what to multiply our count by where the node gives no estimate.
+    """Return the quote of a transaction.
 
-    TransactionError if the estimate is more than 10 times our count, and nobody named a price.
+    name: of the node. rate: factor for the gas counted here where there is no estimate. Raises TransactionError if the
+    estimate is more than 10 times the gas counted here and the user set no maximum price.
     """
-    if estimate is not None and estimate > MOST_TIMES * call.ours and not fees.named:
+    if estimate is not None and estimate > MOST_TIMES * call.gas and not fees.named:
         raise TransactionError(
-            f"the {name} estimates {estimate:,} gas for a transaction that takes about {call.ours:,} as counted here, "
-            f"more than {MOST_TIMES} times as much: if its chain counts like that, say how much a gas may cost, "
-            "`max_fee`"
+            f"the {name} estimates {estimate:,} gas for a transaction that takes about {call.gas:,} as counted here, "
+            f"more than {MOST_TIMES} times as much: if that is right on its chain, set a maximum price with `max_fee`"
         )
-    expected = int(call.ours * rate) if estimate is None else estimate
-    limit = max(call.ours, expected) * MARGIN[0] // MARGIN[1]
+    expected = int(call.gas * rate) if estimate is None else estimate
+    limit = max(call.gas, expected) * MARGIN[0] // MARGIN[1]
     return Quote(call, fees, limit, expected, estimate)
 
 
@@ -150,25 +151,25 @@ def make_quotes(
     known: Iterable[Quote] = (),
     sender: bytes | None = None,
 ) -> list[Quote]:
-    """Quotes of transactions that follow each other, with the node's estimates of those that it can tell now.
+    """Return quotes of transactions that follow each other.
 
-    The others are as dear, against our count, as the dearest of those and of the quotes in `known`.
-    TransactionError as `make_quote` has it.
+    Where the node cannot give an estimate yet, the gas counted here is multiplied by the highest ratio of estimate to
+    count among the others and the quotes in `known`. Raises TransactionError as `make_quote`.
     """
     estimates = [_estimate(connection, call, sender) for call in calls]
-    pairs = [(each.estimate, each.call.ours) for each in known]
-    pairs += [(estimate, call.ours) for estimate, call in zip(estimates, calls, strict=True)]
-    rate = max([1.0, *(estimate / ours for estimate, ours in pairs if estimate is not None)])
+    pairs = [(each.estimate, each.call.gas) for each in known]
+    pairs += [(estimate, call.gas) for estimate, call in zip(estimates, calls, strict=True)]
+    rate = max([1.0, *(estimate / counted for estimate, counted in pairs if estimate is not None)])
     return [
         make_quote(connection.name, call, fees, estimate, rate) for call, estimate in zip(calls, estimates, strict=True)
     ]
 
 
 def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int | None:
-    """Return the gas that a node estimates; None if it cannot tell, since what is called is not there yet."""
+    """Return the gas that a node estimates; None if it cannot, as for a contract that is not deployed yet."""
     plain: list[Any] = [call.request(sender)]
     overrides = {to_hex(place): {"code": to_hex(code)} for place, code in call.needs.items()}
-    # nodes that know no overrides refuse them
+    # nodes without state overrides refuse them
     for parameters in [[*plain, "latest", overrides], plain] if overrides else [plain]:
         try:
             estimate = connection.number("eth_estimateGas", *parameters)
@@ -176,14 +177,14 @@ def _estimate(connection: Connection, call: Call, sender: bytes | None) -> int |
             raise
         except ChainError:
             continue
-        # a call of what is not there does nothing, for almost nothing
-        return estimate if 2 * estimate >= call.ours else None
+        # a call of a missing contract succeeds and uses little gas
+        return estimate if 2 * estimate >= call.gas else None
     return None
 
 
 def _require(price: int, max_fee: int) -> None:
     if price > max_fee:
         raise TransactionError(
-            f"a gas costs {price / GWEI:,.12g} gwei now, above the {max_fee / GWEI:,.12g} of `max_fee`: wait until "
-            "it is cheaper, or raise it"
+            f"a unit of gas costs {price / GWEI:,.12g} gwei now, more than the {max_fee / GWEI:,.12g} of `max_fee`: "
+            "wait until it is cheaper, or raise it"
         )

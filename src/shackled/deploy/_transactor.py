@@ -1,4 +1,4 @@
-"""Transactions: signed here, sent to a node, followed until they are in a block."""
+"""Transactions: signed here, sent to a node, and followed until they are mined."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..chain import Connection, quantity, refusal
+from ..chain import Connection, quantity, revert_error
 from ..errors import (
     ChainError,
     NoAnswerError,
@@ -25,17 +25,17 @@ from ._quote import Call, Fees, Quote, base_fee, current_fees, make_quote
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-#: Seconds that a transaction may take to come into a block.
+#: Seconds that a transaction may take to be mined.
 PATIENCE = 180.0
-#: Seconds after which it is told what is waited for.
-LATE = 1.0
-#: Said of a transaction whose fate is not known.
-LOOK_FIRST = "do not send it again before you know what became of it"
+#: Seconds of waiting after which `on_delay` is called.
+DELAY = 1.0
+#: Advice about a transaction whose outcome is unknown.
+CHECK_FIRST = "check what became of it before you send it again"
 
 
 @dataclass(frozen=True)
 class Receipt:
-    """A transaction that succeeded. gas: used in all. fee: paid, in wei. logs: as the node has them."""
+    """A transaction that succeeded. gas: used. fee: paid, in wei. logs: events as JSON-RPC returns them."""
 
     hash: str
     block: int
@@ -45,7 +45,7 @@ class Receipt:
 
 
 class Transactor:
-    """Makes the transactions of one account, one after the other. TransactionError says why one failed."""
+    """Sends the transactions of one account, one after the other. Failures raise TransactionError."""
 
     def __init__(
         self,
@@ -54,18 +54,18 @@ class Transactor:
         patience: float = PATIENCE,
         max_fee: int | None = None,
     ) -> None:
-        """patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
+        """Take the account that signs. patience: seconds to wait for a receipt. max_fee: see `current_fees`."""
         self.connection, self.patience, self.max_fee = connection, patience, max_fee
         self._account = account
-        #: Told, if there is anyone, what is waited for, as soon as it takes more than a second.
-        self.late: Callable[[str], None] | None = None
-        #: Hosts have many nodes, and the next may not have heard of the last transaction yet.
+        #: Called with a message once, if waiting takes more than a second.
+        self.on_delay: Callable[[str], None] | None = None
+        # a host has many nodes, and the next one may not know the last transaction yet
         self._nonce = 0
         self.address = bytes.fromhex(str(account.address)[2:])
 
     @property
     def name(self) -> str:
-        """The account, for people."""
+        """Description of the account for messages."""
         return f"the account {checksum_address(self.address)}"
 
     def balance(self) -> int:
@@ -73,45 +73,45 @@ class Transactor:
         return self.connection.balance(self.address)
 
     def fees(self) -> Fees:
-        """Return what gas costs now; TransactionError as `current_fees` has it."""
+        """Return the current prices of gas. Raises TransactionError as `current_fees`."""
         return current_fees(self.connection, self.max_fee)
 
     def quote(self, call: Call) -> Quote:
-        """Return a quote for what can be sent now; TransactionError if it would fail, or as `make_quote` has it."""
+        """Return the quote of a transaction. Raises TransactionError if it would fail, or as `make_quote`."""
         return make_quote(self.connection.name, call, self.fees(), self.estimate(call))
 
     def estimate(self, call: Call) -> int:
-        """Return the gas that a transaction needs, as the node estimates it; TransactionError if it would fail."""
+        """Return the gas of a transaction, as the node estimates it. Raises TransactionError if it would fail."""
         try:
             return self.connection.number("eth_estimateGas", call.request(self.address))
         except RevertError as error:
             raise TransactionError(f"the transaction would fail: {_why(error.data)}") from None
         except OutOfGasError:
-            raise TransactionError("the transaction would fail: it needs more gas than the chain allows one") from None
+            raise TransactionError("the transaction would fail: it needs more gas than the chain allows") from None
         except NodeError as error:
             raise self._rejected(error, call.value) from None
 
     def send(self, quote: Quote) -> Receipt:
-        """Sends a transaction as it was quoted, and waits for its receipt.
+        """Send a transaction as it was quoted, and wait for its receipt.
 
-        TransactionError if the node wants more by now than the quote allows; then nothing is sent.
+        Raises TransactionError, and sends nothing, if the transaction would now cost more than the quote.
         """
         call = quote.call
         needed = self.estimate(call)
         if needed > quote.gas:
             raise TransactionError(
-                f"the {self.connection.name} now estimates {needed:,} gas for a transaction whose price was told for "
-                f"{quote.gas:,} at most: it was not sent; run the same again for a new price"
+                f"the {self.connection.name} now estimates {needed:,} gas for a transaction that was quoted with at "
+                f"most {quote.gas:,}: it was not sent; run the command again for a new quote"
             )
         base = base_fee(self.connection)
         if base is not None and base > quote.fees.most:
             raise TransactionError(
-                f"gas has become more expensive meanwhile, {base / GWEI:,.12g} gwei, and at most "
-                f"{quote.fees.most / GWEI:,.12g} were told: the transaction was not sent; run the same again"
+                f"the price of gas has risen to {base / GWEI:,.12g} gwei, and at most {quote.fees.most / GWEI:,.12g} "
+                "were quoted: the transaction was not sent; run the command again"
             )
         nonce = self.connection.number("eth_getTransactionCount", to_hex(self.address), "pending")
         if nonce >= 1 << 64:
-            raise NodeError(f"the {self.connection.name} says that {self.name} has made {nonce:,} transactions")
+            raise NodeError(f"the {self.connection.name} reports an impossible nonce of {self.name}: {nonce:,}")
         transaction: dict[str, Any] = {
             "chainId": self.connection.chain_id,
             "nonce": max(self._nonce, nonce),
@@ -129,81 +129,81 @@ class Transactor:
         return receipt
 
     def send_signed(self, raw: bytes, digest: str, cost: int = 0, transaction: dict[str, Any] | None = None) -> Receipt:
-        """Sends what is signed, and waits for its receipt. cost: what the account must have, in wei, for messages."""
+        """Send a signed transaction, and wait for its receipt. cost: its maximum cost in wei, for messages."""
         try:
             self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except NodeError as error:
             said = str(error).lower()
-            # it may have come through before; whether it did shows when it is asked for
+            # the node may have it nevertheless, which its receipt shows
             known = any(words in said for words in ("already known", "known transaction", "already imported"))
             if not known and not isinstance(error, NodeTimeoutError | NodeUnreachableError):
                 raise self._rejected(error, cost) from None
         except OutOfGasError:
-            raise OutOfGasError("the transaction was refused: its gas is not what the chain allows one") from None
+            raise OutOfGasError("the transaction was refused: its gas limit is out of the chain's range") from None
         try:
             return self._follow(digest, transaction)
         except TransactionError:
             raise
         except ChainError as error:
-            error.args = (f"the transaction {digest} was sent, {LOOK_FIRST}: {error}",)
+            error.args = (f"the transaction {digest} was sent, {CHECK_FIRST}: {error}",)
             raise
 
-    def offer(self, raw: bytes) -> None:
-        """Sends what somebody else signed and cannot pay yet.
+    def probe(self, raw: bytes) -> None:
+        """Send a transaction that someone else signed and cannot pay for yet, to see how the node responds.
 
-        TransactionError if the node would not take it then, OutOfGasError if its gas would not do.
+        Raises TransactionError if the node refuses transactions of its kind, OutOfGasError if its gas is too little.
         """
         try:
             self.connection.request("eth_sendRawTransaction", to_hex(raw))
         except OutOfGasError:
             raise
         except NodeError as error:
-            if _unbound(error):
+            if _lacks_chain_id(error):
                 raise self._rejected(error, 0) from None
         except ChainError:
             pass
 
-    def settle(self) -> None:
-        """Waits until all transactions of the account are in blocks."""
+    def wait_for_pending(self) -> None:
+        """Wait until all transactions of the account are mined. Raises TransactionError if it takes too long."""
 
-        def waiting() -> int:
+        def pending() -> int:
             count = [
                 self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
                 for block in ("pending", "latest")
             ]
             return count[0] - count[1]
 
-        if not self.wait(lambda: waiting() <= 0 or None, f"transactions of {self.name} that are in no block yet"):
+        if not self.wait(lambda: pending() <= 0 or None, f"pending transactions of {self.name}"):
             raise TransactionError(
-                f"{self.name} has {waiting()} transactions that are in no block after {self.patience:g} s: "
-                "wait for them, or replace them, then try again"
+                f"{self.name} still has {pending()} pending transactions after {self.patience:g} s: wait for them, or "
+                "replace them, then try again"
             )
 
     def _follow(self, digest: str, transaction: dict[str, Any] | None) -> Receipt:
-        what = f"a block that takes the transaction {digest}"
+        what = f"the transaction {digest} to be mined"
         receipt = self.wait(lambda: self.connection.request("eth_getTransactionReceipt", digest), what)
         if receipt is None:
             raise TransactionError(
-                f"the transaction {digest} is in no block after {self.patience:g} s: it was sent, and may still come; "
-                f"{LOOK_FIRST}"
+                f"the transaction {digest} was sent, and is not mined after {self.patience:g} s; it may still be: "
+                f"{CHECK_FIRST}"
             )
         try:
             status, gas, block = (quantity(receipt[key]) for key in ("status", "gasUsed", "blockNumber"))
             price = quantity(receipt.get("effectiveGasPrice") or "0x0")
         except (AttributeError, TypeError, LookupError, ValueError):
-            raise NodeError(f"the {self.connection.name} answered with what is no receipt: {receipt!r:.60}") from None
+            raise NodeError(f"the {self.connection.name} returned an invalid receipt: {receipt!r:.60}") from None
         if status != 1:
             raise TransactionError(f"the transaction {digest} failed{self._reason(transaction, block)}")
         logs = receipt.get("logs") or []
         if not _are_logs(logs):
             raise TransactionError(
-                f"the transaction {digest} succeeded, so do not send it again; but the {self.connection.name} tells "
-                f"events that are none: {logs!r:.60}"
+                f"the transaction {digest} succeeded, so do not send it again; but the {self.connection.name} returned "
+                f"invalid events: {logs!r:.60}"
             )
         return Receipt(digest, block, gas, gas * price, tuple(logs))
 
     def _reason(self, transaction: dict[str, Any] | None, block: int) -> str:
-        """Return why a transaction failed, by making it again as a call."""
+        """Return why a transaction failed, by repeating it as a call."""
         if transaction is None:
             return ""
         call = {"from": to_hex(self.address), "data": transaction["data"], "value": hex(transaction["value"])}
@@ -217,11 +217,11 @@ class Transactor:
         return ""
 
     def wait(self, ask: Callable[[], Any], what: str = "the node") -> Any:
-        """Ask until the answer is not None, and return it; None if it takes too long. A node that fails is asked again.
+        """Call `ask` until it returns something, and return that; None after `patience` seconds.
 
-        what: is waited for, for people.
+        Nodes that do not answer are asked again. what: what is waited for, for `on_delay`.
         """
-        started, pause, told = time.monotonic(), 0.05, False
+        started, pause, reported = time.monotonic(), 0.05, False
         end = started + self.patience
         while True:
             failure: NodeError | None = None
@@ -231,9 +231,9 @@ class Transactor:
                     return answer
             except NoAnswerError as error:
                 failure = error
-            if self.late is not None and not told and time.monotonic() - started > LATE:
-                told = True
-                self.late(f"waiting for {what}")
+            if self.on_delay is not None and not reported and time.monotonic() - started > DELAY:
+                reported = True
+                self.on_delay(f"waiting for {what}")
             if time.monotonic() + pause > end:
                 if failure is not None:
                     raise failure
@@ -242,34 +242,36 @@ class Transactor:
             pause = min(2.0, pause * 1.5)
 
     def _rejected(self, error: NodeError, cost: int) -> ChainError:
-        """Return what a node says against a transaction, with what to do."""
+        """Return an error with advice, for a node's refusal of a transaction."""
         said = str(error).lower()
         if "insufficient funds" in said or "not enough funds" in said or "insufficient balance" in said:
             return TransactionError(
                 f"{self.name} has {rounded(self.balance())} ether, a transaction may cost {rounded(cost)}: send it some"
             )
         if "nonce" in said:
-            return TransactionError(f"{self.name} was used by another program meanwhile ({error}): run the same again")
-        if "underpriced" in said or "less than block base fee" in said or "fee cap" in said or "gas price" in said:
-            return TransactionError(f"gas has become more expensive meanwhile ({error}): run the same again")
-        if _unbound(error):
             return TransactionError(
-                f"the {self.connection.name} refuses transactions that are not bound to a chain, as the one that "
-                "deploys the proxy: take another node of the same chain for that"
+                f"{self.name} was used by another program meanwhile ({error}): run the command again"
+            )
+        if "underpriced" in said or "less than block base fee" in said or "fee cap" in said or "gas price" in said:
+            return TransactionError(f"the price of gas has risen meanwhile ({error}): run the command again")
+        if _lacks_chain_id(error):
+            return TransactionError(
+                f"the {self.connection.name} refuses transactions without a chain id (EIP-155), such as the published "
+                "one that deploys the proxy: use another node of the same chain"
             )
         if type(error) is NodeError:
             return TransactionError(f"the transaction was refused: {error}")
         return error
 
 
-def _unbound(error: NodeError) -> bool:
-    """Return whether a node takes only transactions that are bound to a chain (EIP-155)."""
+def _lacks_chain_id(error: NodeError) -> bool:
+    """Return whether a node refused a transaction because it has no chain id (EIP-155)."""
     said = str(error).lower()
     return any(words in said for words in ("replay-protected", "replay protected", "eip-155", "eip155"))
 
 
 def _are_logs(logs: Any) -> bool:
-    """Return whether these are events as a receipt has them."""
+    """Return whether these are the events of a receipt."""
     return isinstance(logs, list) and all(
         isinstance(log, dict)
         and _is_hex(log.get("address"), 20)
@@ -284,5 +286,5 @@ def _is_hex(value: Any, size: int) -> bool:
 
 
 def _why(data: bytes, gas: int = 0) -> str:
-    """Return what a contract that reverted a transaction said."""
-    return str(refusal(data, gas)) if data else "the contract refused, and gave no reason"
+    """Return why a contract reverted a transaction."""
+    return str(revert_error(data, gas)) if data else "the contract gave no reason"

@@ -1,4 +1,4 @@
-"""What a block explorer needs to compare a contract with its sources."""
+"""Files with which a block explorer verifies the sources of contracts."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ._contract import Deployment
 SUMMARY = "contracts.json"
 
 
-def write_verification(folder: Path, chain_id: int, standing: Sequence[Deployment]) -> list[Path]:
-    """Writes the compiler's input in standard JSON, and a list of the contracts with all that is asked about them.
+def write_verification(folder: Path, chain_id: int, deployed: Sequence[Deployment]) -> list[Path]:
+    """Write the compiler's input as standard JSON, and a list of contracts with addresses and constructor arguments.
 
-    Raises OutputError if the folder cannot be written to.
+    Raises InputError or OutputError if the folder cannot be written to.
     """
     contracts, inputs = [], {}
     artifacts = files("shackled.artifacts")
-    for each in standing:
+    for each in deployed:
         built = json.loads(artifacts.joinpath(f"{each.name}.json").read_text("utf-8"))
-        # of its group, whose settings are those of the contract
+        # one input for each group of contracts that are compiled together
         name = f"standard-input-{built['group']}.json"
         inputs[name] = artifacts.joinpath(name).read_bytes()
         contracts.append(

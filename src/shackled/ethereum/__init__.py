@@ -1,4 +1,4 @@
-"""The basics of Ethereum, each once: data, addresses, the ABI, headers of blocks, amounts of ether."""
+"""Basics of Ethereum: hashes, addresses, the ABI, block headers, amounts of ether."""
 
 import lazy_loader
 

@@ -1,7 +1,16 @@
 from ._abi import SOLIDITY_ERRORS, Errors, Interface, decode_error, error_table
-from ._addresses import PROXY, SALT, checksum_address, create2_address, parse_address
 from ._amounts import ETHER, GWEI, amount, at_most, ether, parse_ether, roughly, rounded
-from ._data import intrinsic_gas, keccak256, to_hex, word
+from ._encoding import (
+    PROXY,
+    SALT,
+    checksum_address,
+    create2_address,
+    intrinsic_gas,
+    keccak256,
+    parse_address,
+    to_hex,
+    word,
+)
 from ._header import encode_header
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""The ABI: calls of the functions of a contract, their answers, and its errors."""
+"""The ABI: calls of functions, their results, and errors."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
-from ._data import keccak256
+from ._encoding import keccak256
 
 if TYPE_CHECKING:
     from eth_typing import ABIElement, ABIFunction
 
-#: Name and parameters (name, type) of errors, by their selectors.
+#: Name and parameters (name, type) of errors, by selector.
 Errors = Mapping[bytes, tuple[str, list[tuple[str, str]]]]
 
 
 class Interface:
-    """The functions and the constructor of a contract, by its ABI.
+    """The functions and the constructor of a contract.
 
-    Functions are named by their names, or by their signatures where there are several of one name.
+    A function is selected by its name, or by its signature where several have the same name.
     """
 
     def __init__(self, abi: Iterable[Mapping[str, Any]]) -> None:
@@ -26,7 +26,7 @@ class Interface:
         self._abi = list(abi)
 
     def encode(self, function: str, *arguments: Any) -> bytes:
-        """Encode a call: the selector of the function, and its arguments."""
+        """Encode a call: selector and arguments."""
         from eth_abi.abi import encode
         from eth_utils.abi import function_abi_to_4byte_selector, get_abi_input_types
 
@@ -34,9 +34,9 @@ class Interface:
         return function_abi_to_4byte_selector(entry) + encode(get_abi_input_types(entry), arguments)
 
     def decode(self, function: str, answer: bytes) -> Any:
-        """Decode what a function answered: its value, or a tuple of them if there are several.
+        """Decode the output of a function: its value, or a tuple of several.
 
-        Raises ValueError if the answer is not one of this function.
+        Raises ValueError if the output is invalid.
         """
         from eth_abi.abi import decode
         from eth_abi.exceptions import DecodingError
@@ -45,11 +45,11 @@ class Interface:
         try:
             values = decode(get_abi_output_types(self._functions[function]), answer)
         except (DecodingError, OverflowError) as error:
-            raise ValueError(f"{len(answer)} bytes are no answer of {function}: {error}") from None
+            raise ValueError(f"{len(answer)} bytes are not an output of {function}: {error}") from None
         return values[0] if len(values) == 1 else values
 
     def construct(self, *arguments: Any) -> bytes:
-        """Encode the arguments of the constructor, which follow the creation code."""
+        """Encode the arguments of the constructor, which are appended to the creation code."""
         from eth_abi.abi import encode
         from eth_utils.abi import get_abi_input_types
 
@@ -57,7 +57,7 @@ class Interface:
         return encode(get_abi_input_types(cast("ABIElement", entry)), arguments)
 
     def parameter_type(self, function: str, number: int = 0) -> str:
-        """Return the type of a parameter as eth_abi takes it, a struct as a tuple such as "(uint256,bytes)"."""
+        """Return the type of a parameter for eth_abi, where a struct is a tuple such as "(uint256,bytes)"."""
         from eth_utils.abi import get_abi_input_types
 
         return get_abi_input_types(self._functions[function])[number]
@@ -76,7 +76,7 @@ class Interface:
 
 
 def error_table(abi: Iterable[Mapping[str, Any]]) -> dict[bytes, tuple[str, list[tuple[str, str]]]]:
-    """Return the name and the parameters of each error of an ABI, by its selector. None has a struct."""
+    """Return name and parameters of the errors of an ABI, by selector. Structs are not supported."""
     table = {}
     for entry in abi:
         if entry["type"] == "error":
@@ -86,7 +86,7 @@ def error_table(abi: Iterable[Mapping[str, Any]]) -> dict[bytes, tuple[str, list
     return table
 
 
-#: The errors of Solidity itself: `require` and `revert` with a text, and checks that failed.
+#: Errors of Solidity itself: `require` and `revert` with a text, and failed checks.
 SOLIDITY_ERRORS = error_table(
     [
         {"type": "error", "name": "Error", "inputs": [{"name": "message", "type": "string"}]},
@@ -96,9 +96,9 @@ SOLIDITY_ERRORS = error_table(
 
 
 def decode_error(data: bytes, errors: Errors) -> tuple[str, dict[str, Any]] | None:
-    """Return the name of an error and its values by name, from the data of a revert; None if it is none of these.
+    """Return the name of an error and its values by name, from the data of a revert; None if it is not in `errors`.
 
-    A value without a name has that of its type.
+    A value without a name is called by its type.
     """
     from eth_abi.abi import decode
     from eth_abi.exceptions import DecodingError

@@ -1,4 +1,4 @@
-"""Amounts of ether: on chain they are whole numbers of wei, 10^18 to the ether."""
+"""Amounts of ether, which are whole numbers of wei on chain: 1 ether is 10^18 wei."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..errors import InputError
 #: In wei.
 ETHER = 10**18
 GWEI = 10**9
-#: More than there is.
+#: More than exists.
 MAX_ETHER = 10**9
 
 
@@ -44,9 +44,9 @@ def at_most(wei: int) -> str:
 
 
 def parse_ether(text: str, name: str) -> int:
-    """Return the wei of an amount such as "0.15", "20gwei" or "7 wei"; without a unit it is ether.
+    """Parse an amount such as "0.15", "20gwei" or "7 wei", by default in ether, and return wei.
 
-    Raises InputError, which says `name`, if it is none.
+    Raises InputError, which names `name`, if it is invalid.
     """
     match = re.fullmatch(r"(\d{1,30})(?:\.(\d{1,18}))?\s*(ether|eth|gwei|wei)?", text.strip())
     if match:

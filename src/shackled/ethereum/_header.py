@@ -1,4 +1,4 @@
-"""The header of a block in the form in which it is hashed: what reveals a round of tokens."""
+"""RLP encoding of block headers, whose hash is that of the block. Revealing tokens needs them."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..errors import InputError
-from ._data import keccak256, to_hex
+from ._encoding import keccak256, to_hex
 
-#: The fields in their order: as JSON-RPC names them, and how many bytes they have; 0 for a number, None for any length.
+#: Fields in order: name in JSON-RPC, and size in bytes; 0 for a number, None for any length.
 FIELDS: dict[str, int | None] = {
     "parentHash": 32,
     "sha3Uncles": 32,
@@ -26,7 +26,7 @@ FIELDS: dict[str, int | None] = {
     "mixHash": 32,
     "nonce": 8,
 }
-#: Those that forks have added since, the oldest first; a header has them up to that of its fork.
+#: Fields that forks have added, the oldest first; a header has those up to its fork.
 LATER_FIELDS: dict[str, int | None] = {
     "baseFeePerGas": 0,
     "withdrawalsRoot": 32,
@@ -41,8 +41,8 @@ LATER_FIELDS: dict[str, int | None] = {
 def encode_header(block: Mapping[str, Any]) -> bytes:
     """Encode the header of a block, as `eth_getBlockByNumber` returns it, in RLP.
 
-    Values may be hexadecimal, bytes or numbers. Raises InputError if a field is missing, or if the hash is not the
-    block's: its chain has fields that are not known here.
+    Values may be hexadecimal, bytes or numbers. Raises InputError if a field is missing, or if the hash differs from
+    the block's, because its chain has other fields.
     """
     import rlp
 
@@ -51,13 +51,13 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
         if block.get(name) is None:
             if name in LATER_FIELDS:
                 break
-            raise InputError(f"the node does not tell the {name} of block {_number(block)}: its header cannot be made")
+            raise InputError(f"the node returned no {name} of block {_number(block)}, so its header cannot be encoded")
         items.append(_field(block[name], size))
     header: bytes = rlp.encode(items)
-    found, said = keccak256(header), _field(block.get("hash") or b"", 32)
-    if found != said:
+    found, expected = keccak256(header), _field(block.get("hash") or b"", 32)
+    if found != expected:
         raise InputError(
-            f"the header of block {_number(block)} has the hash {to_hex(found)}, not {to_hex(said)}:"
+            f"the header of block {_number(block)} has the hash {to_hex(found)}, not {to_hex(expected)}:"
             " its chain has other fields than Ethereum's"
         )
     return header
@@ -68,7 +68,7 @@ def _number(block: Mapping[str, Any]) -> int:
 
 
 def _field(value: Any, size: int | None) -> bytes:
-    """Return a value as RLP takes it: a number without leading zeros, anything else in its full length."""
+    """Return the bytes of a field: a number without leading zeros, anything else in full length."""
     from eth_utils.conversions import to_bytes
 
     data = to_bytes(hexstr=value) if isinstance(value, str) else to_bytes(value)

@@ -1,4 +1,4 @@
-"""Meshes and scenes kept on chain: contracts/src/studio."""
+"""Storage of meshes and scenes on chain, in the contract Studio (contracts/src/studio)."""
 
 import lazy_loader
 

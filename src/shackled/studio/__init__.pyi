@@ -1,36 +1,33 @@
-from ._compact_mesh import COMPACT, compact, expand, take_apart
-from ._keeping import (
-    PARTS,
-    POINTED,
+from ._compact_mesh import COMPACT, compact, split_mesh
+from ._reading import expand_zeros, stored_codes, stored_meshes
+from ._storage import (
     SCENE,
     STUDIO,
-    Storing,
+    StoreTransaction,
     compress_zeros,
-    kept_at,
-    on_grid,
-    pointing,
-    read_mesh,
+    encode_with_pointers,
+    quantize,
     scene_struct,
+    storage_address,
     store_mesh,
     store_scene,
 )
 
 __all__ = [
     "COMPACT",
-    "PARTS",
-    "POINTED",
     "SCENE",
     "STUDIO",
-    "Storing",
+    "StoreTransaction",
     "compact",
     "compress_zeros",
-    "expand",
-    "kept_at",
-    "on_grid",
-    "pointing",
-    "read_mesh",
+    "encode_with_pointers",
+    "expand_zeros",
+    "quantize",
     "scene_struct",
+    "split_mesh",
+    "storage_address",
     "store_mesh",
     "store_scene",
-    "take_apart",
+    "stored_codes",
+    "stored_meshes",
 ]

@@ -1,4 +1,4 @@
-"""Collections of tokens whose pictures are computed on chain."""
+"""Collections of tokens whose pictures contracts compute on chain."""
 
 import lazy_loader
 

@@ -1,28 +1,21 @@
-from ._actions import USUAL, perform, plan
-from ._allow_list import hash_pair, leaf_of, make_allow_list, read_allow_list, verify
+from ._allow_list import hash_pair, leaf_of, make_allow_list, read_allow_list
 from ._allowance import read_allowance, sign_allowance
-from ._collection import Collection, open_collection
-from ._contract import Contract
-from ._demo import run
-from ._deploying import Offer, address_of, launch, parts_of, plan_launch
-from ._development import development_accounts
-from ._equipping import plan_equipment
-from ._gallery import Shown, page, tokens_json
+from ._collection import KINDS, Collection, CollectionKind, open_collection
+from ._contract import USUAL_GAS, Contract, perform, plan
+from ._demo import development_accounts, run_demo
+from ._gallery import ActionCost, comparison, page, tokens_json
 from ._icons import SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of
 from ._immutables import immutable_places, immutable_values
-from ._kept import expand_zeros, kept_codes, meshes_of
-from ._kinds import KINDS, Kind
+from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch, plan_setup
 from ._licence import licence_of
-from ._listing import read_all, trait_columns
 from ._metadata import MAX_LENGTH, Metadata, Trait, read_data_uri, read_token_uri, shrink
 from ._minting import mint_call
-from ._picture_file import check_picture_file, save_picture, write_picture
 from ._randomness import check_randomness
-from ._refusals import PHASES
-from ._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE, hidden_rounds, latest_block, price_steps, steps
-from ._storage import Wanted, plan_storage, read_back, store
-from ._table import Cost, comparison, markdown
+from ._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE, hidden_rounds, latest_block, price_calls, reveal_calls
+from ._reverts import PHASES
+from ._storage import SceneToStore, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
+from ._view import TokenView, read_view, read_views
 
 __all__ = [
     "HEADERS_AT_ONCE",
@@ -31,66 +24,58 @@ __all__ = [
     "MAX_LENGTH",
     "PHASES",
     "SCALE",
-    "USUAL",
+    "USUAL_GAS",
+    "ActionCost",
     "Collection",
+    "CollectionKind",
+    "CollectionTerms",
     "Contract",
-    "Cost",
-    "Kind",
     "Metadata",
-    "Offer",
-    "Shown",
+    "SceneToStore",
+    "TokenView",
     "Trait",
-    "Wanted",
     "add_call",
     "address_of",
     "check_code",
     "check_collection_code",
-    "check_picture_file",
     "check_randomness",
     "check_sale",
     "check_token",
     "chosen_pieces",
     "comparison",
     "development_accounts",
-    "expand_zeros",
     "find_icon",
     "hash_pair",
     "hidden_rounds",
     "icons_of",
     "immutable_places",
     "immutable_values",
-    "kept_codes",
     "latest_block",
     "launch",
     "leaf_of",
     "licence_of",
     "make_allow_list",
-    "markdown",
-    "meshes_of",
     "mint_call",
     "open_collection",
     "page",
     "parts_of",
     "perform",
     "plan",
-    "plan_equipment",
     "plan_launch",
+    "plan_setup",
     "plan_storage",
-    "price_steps",
-    "read_all",
+    "price_calls",
     "read_allow_list",
     "read_allowance",
     "read_back",
     "read_data_uri",
     "read_token_uri",
-    "run",
-    "save_picture",
+    "read_view",
+    "read_views",
+    "reveal_calls",
+    "run_demo",
     "shrink",
     "sign_allowance",
-    "steps",
     "store",
     "tokens_json",
-    "trait_columns",
-    "verify",
-    "write_picture",
 ]

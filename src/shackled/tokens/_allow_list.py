@@ -1,7 +1,7 @@
-"""Allow-lists: who may mint early, and how many, as one hash that a contract keeps.
+"""Allow lists: which accounts may mint before the public sale, and how many tokens, as a Merkle tree.
 
-The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"]: what its JavaScript package writes can
-be read here, and the other way round. Leaves are hashed twice, so that no inner node can be taken for one.
+The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"], whose
+files can be read and written. Leaves are hashed twice, so that no inner node can pass for one.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import re
 from bisect import bisect_left
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -26,24 +26,26 @@ MAX_QUANTITY = 2**256 - 1
 
 @dataclass(frozen=True)
 class AllowList:
-    """allowances: of each account, by its checksummed address, how many tokens it may mint in all."""
+    """An allow list. allowances: number of tokens that each account may mint in all, by checksummed address."""
 
     allowances: Mapping[str, int]
 
     @property
     def root(self) -> bytes:
-        """What the contract keeps."""
+        """The root of the tree, which the contract stores."""
         return self._tree[0]
 
     def allowance(self, account: str) -> int:
-        """Return how many tokens an account may mint in all. InputError if it is not on the list."""
+        """Return the number of tokens that an account may mint. Raises InputError if it is not on the list."""
         address = checksum_address(parse_address(account, "the account"))
         if address not in self.allowances:
-            raise InputError(f"the account {address} is not among the {len(self.allowances):,} of the allow-list")
+            raise InputError(
+                f"the account {address} is not among the {len(self.allowances):,} accounts of the allow list"
+            )
         return self.allowances[address]
 
     def proof(self, account: str) -> list[bytes]:
-        """Return the hashes that lead from an account to the root. InputError if the account is not on the list."""
+        """Return the Merkle proof of an account. Raises InputError if it is not on the list."""
         place = self._place(leaf_of(account, self.allowance(account)))
         proof = []
         while place > 0:
@@ -52,7 +54,7 @@ class AllowList:
         return proof
 
     def document(self) -> dict[str, Any]:
-        """Return the list as OpenZeppelin's package keeps it in JSON; quantities in decimal digits."""
+        """Return the list in OpenZeppelin's JSON format."""
         values = [
             {"value": [account, str(quantity)], "treeIndex": self._place(leaf_of(account, quantity))}
             for account, quantity in self.allowances.items()
@@ -69,7 +71,7 @@ class AllowList:
 
     @cached_property
     def _tree(self) -> list[bytes]:
-        """The nodes from the root on, those below node k at 2k + 1 and 2k + 2; the leaves last, in falling order."""
+        """Nodes from the root on; the children of node k are 2k + 1 and 2k + 2. Leaves come last, in falling order."""
         leaves = self._leaves
         nodes = [b""] * (len(leaves) - 1) + leaves[::-1]
         for place in reversed(range(len(leaves) - 1)):
@@ -78,25 +80,17 @@ class AllowList:
 
 
 def leaf_of(account: str, quantity: int) -> bytes:
-    """Return the hash of an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
+    """Hash an entry: keccak256(keccak256(abi.encode(account, quantity)))."""
     return keccak256(keccak256(word(bytes.fromhex(account.removeprefix("0x"))) + word(quantity)))
 
 
 def hash_pair(one: bytes, other: bytes) -> bytes:
-    """Return the node above two others, in whichever order."""
+    """Return the parent of two nodes, whose order does not matter."""
     return keccak256(min(one, other) + max(one, other))
 
 
-def verify(root: bytes, account: str, quantity: int, proof: Sequence[bytes]) -> bool:
-    """Return whether a proof leads from an entry to the root."""
-    node = leaf_of(account, quantity)
-    for sibling in proof:
-        node = hash_pair(node, sibling)
-    return node == root
-
-
-def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow-list") -> AllowList:
-    """Build the list of (account, quantity) entries. InputError if one is wrong, or an account is there twice."""
+def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the allow list") -> AllowList:
+    """Make a list from (account, quantity) entries. Raises InputError if one is invalid, or an account occurs twice."""
     allowances: dict[str, int] = {}
     for number, (account, quantity) in enumerate(entries, 1):
         address = checksum_address(parse_address(str(account), f"{where}, entry {number}: the account"))
@@ -104,7 +98,7 @@ def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the all
         if not re.fullmatch("[0-9]{1,78}", text) or not 0 < int(text) <= MAX_QUANTITY:
             raise InputError(f"{where}, entry {number}: the quantity must be a whole number from 1, not {text!r:.60}")
         if address in allowances:
-            raise InputError(f"{where}, entry {number}: the account {address} stands there twice")
+            raise InputError(f"{where}, entry {number}: the account {address} occurs twice")
         allowances[address] = int(text)
     if not allowances:
         raise InputError(f"{where} is empty: it needs lines such as 0x70997970C51812dc3A010C7d01b50e0d17dc79C8,2")
@@ -112,28 +106,28 @@ def make_allow_list(entries: Iterable[tuple[str, object]], where: str = "the all
 
 
 def read_allow_list(path: str | Path) -> AllowList:
-    """Return the list of a file: .json as OpenZeppelin's StandardMerkleTree dumps it, else lines of `account,quantity`.
+    """Read a file: a .json dump of OpenZeppelin's StandardMerkleTree, otherwise lines of `account,quantity`.
 
-    Empty lines, those that begin with #, and a first line of headings are passed over. InputError if anything is wrong.
+    Empty lines, lines that begin with #, and a heading are skipped. Raises InputError if the file is invalid.
     """
     path = Path(path)
     try:
         text = path.read_text("utf-8-sig")
     except OSError as error:
-        raise InputError(f"the allow-list {path} cannot be read: {error.strerror}") from None
+        raise InputError(f"the allow list {path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise InputError(f"the allow-list {path} is no text") from None
+        raise InputError(f"the allow list {path} is not text") from None
     if path.suffix.lower() == ".json":
-        return _from_json(text, f"the allow-list {path}")
+        return _from_json(text, f"the allow list {path}")
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     rows = [[cell.strip() for cell in row] for row in csv.reader(lines)]
     if rows and not rows[0][0].lower().startswith("0x"):
         del rows[0]
     for number, row in enumerate(rows, 1):
         if len(row) != 2:
-            shown = ",".join(row)
-            raise InputError(f"the allow-list {path}, entry {number}: it must be account,quantity, not {shown!r:.80}")
-    return make_allow_list(((row[0], row[1]) for row in rows), f"the allow-list {path}")
+            text = ",".join(row)
+            raise InputError(f"the allow list {path}, entry {number}: it must be account,quantity, not {text!r:.80}")
+    return make_allow_list(((row[0], row[1]) for row in rows), f"the allow list {path}")
 
 
 def _from_json(text: str, where: str) -> AllowList:
@@ -143,10 +137,10 @@ def _from_json(text: str, where: str) -> AllowList:
         entries = [tuple(entry["value"]) for entry in values]
         tree = document["tree"]
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise InputError(f"{where} is no dump of OpenZeppelin's StandardMerkleTree") from None
+        raise InputError(f"{where} is not a dump of OpenZeppelin's StandardMerkleTree") from None
     if kind != FORMAT or encoding != ENCODING or any(len(entry) != 2 for entry in entries):
-        raise InputError(f"{where} must be a tree of the format {FORMAT} over {ENCODING}")
+        raise InputError(f"{where} must be a tree of format {FORMAT} with leaves {ENCODING}")
     found = make_allow_list(entries, where)
     if not isinstance(tree, list) or not tree or tree[0] != to_hex(found.root):
-        raise InputError(f"{where}: the root of its tree is not that of its entries, which is 0x{found.root.hex()}")
+        raise InputError(f"{where}: the root of its tree differs from that of its entries, 0x{found.root.hex()}")
     return found

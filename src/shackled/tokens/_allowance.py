@@ -1,4 +1,4 @@
-"""Permissions of the allow-list: EIP-712 messages, signed by whom the collection trusts."""
+"""Permissions to mint before the public sale: EIP-712 messages signed by the signer of a collection."""
 
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ FIELDS = [
 
 @dataclass(frozen=True)
 class Allowance:
-    """account: who may mint. quantity: how many tokens in all. deadline: the last second, in Unix time.
-    signature: of all that, for one collection on one chain.
+    """A permission for one account, valid for one collection on one chain.
+
+    quantity: number of tokens in all. deadline: last second in which it is valid, in Unix time.
     """
 
     account: str
@@ -36,11 +37,11 @@ class Allowance:
 
     @property
     def struct(self) -> tuple[str, int, int]:
-        """As the contract takes it."""
+        """The struct Allowance of the contract."""
         return self.account, self.quantity, self.deadline
 
     def document(self) -> dict[str, Any]:
-        """Return the permission as a file keeps it."""
+        """Return the permission for a JSON file."""
         return {
             "account": self.account,
             "quantity": str(self.quantity),
@@ -52,7 +53,7 @@ class Allowance:
 def sign_allowance(
     collection: Collection, signer: LocalAccount, account: str, quantity: int, deadline: int
 ) -> Allowance:
-    """Return a permission for one account, that holds for this collection on this chain only."""
+    """Sign a permission for an account, valid for this collection on its chain only."""
     from eth_account.messages import encode_typed_data
 
     domain = {
@@ -67,7 +68,7 @@ def sign_allowance(
 
 
 def read_allowance(path: Path) -> Allowance:
-    """Return the permission of a file. InputError if it holds none."""
+    """Read a permission from a file. Raises InputError if it is invalid."""
     try:
         document = read_json(path.read_text("utf-8"))
         account, quantity, deadline, signature = (
@@ -76,13 +77,13 @@ def read_allowance(path: Path) -> Allowance:
     except OSError as error:
         raise InputError(f"the permission {path} cannot be read: {error.strerror}") from None
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise InputError(f"{path} holds no permission, as `shackled token permit` writes it") from None
+        raise InputError(f"{path} is not a permission as `shackled token permit` writes it") from None
     if not (
         re.fullmatch("[0-9]{1,78}", quantity)
         and re.fullmatch("[0-9]{1,78}", deadline)
         and max(int(quantity), int(deadline)) < 2**256
         and re.fullmatch("0x([0-9a-fA-F]{2}){1,1024}", signature)
     ):
-        raise InputError(f"{path} holds no permission: its quantity, deadline or signature is damaged")
+        raise InputError(f"{path} is not a permission: its quantity, deadline or signature is invalid")
     address = checksum_address(parse_address(account, f"the account of {path}"))
     return Allowance(address, int(quantity), int(deadline), bytes.fromhex(signature[2:]))

@@ -1,4 +1,4 @@
-"""A collection on a chain, as anyone can read it."""
+"""Collections on a chain, and what can be read from them."""
 
 from __future__ import annotations
 
@@ -8,27 +8,49 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from ..chain import GAS_LEFT, Connection, describe
+from ..chain import GAS_LEFT, Connection, describe_revert
 from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
 from ..ethereum import checksum_address, to_hex
 from ._contract import Contract
-from ._kinds import KINDS, Kind
 from ._metadata import Metadata, read_token_uri
-from ._refusals import PHASES
+from ._reverts import PHASES
 
-#: Requests under way at once.
-AT_ONCE = 6
+#: Maximum number of concurrent requests.
+MAX_REQUESTS = 6
 
 
 @dataclass(frozen=True)
-class Terms:
-    """How a collection stands.
+class CollectionKind:
+    """A kind of collection.
 
-    allow_list_root: zeros if there is none. royalty: in hundredths of a percent. balance: in wei, not withdrawn yet.
+    name: for the command line. title: name of the contract's tokens. contract: name of the artifact.
+    hidden: whether tokens are minted without a picture, and revealed later. terms: fields of CollectionTerms that its
+    constructor takes before the struct Terms.
     """
 
     name: str
-    symbol: str
+    title: str
+    contract: str
+    hidden: bool
+    terms: tuple[str, ...]
+
+
+KINDS = {
+    "genesis": CollectionKind(
+        "genesis", "Shackled Genesis", "GenesisCollection", hidden=True, terms=("price", "reserve")
+    ),
+    "icons": CollectionKind("icons", "Shackled Icons", "IconsCollection", hidden=False, terms=()),
+}
+
+
+@dataclass(frozen=True)
+class CollectionState:
+    """The state of a collection.
+
+    allow_list_root: zeros if there is none. royalty: in hundredths of a percent. balance: ether of the sale, in wei.
+    """
+
+    name: str
     owner: str
     phase: int
     minted: int
@@ -40,14 +62,14 @@ class Terms:
     balance: int
 
     @property
-    def phase_words(self) -> str:
-        """The phase, for people."""
+    def phase_name(self) -> str:
+        """Description of the phase."""
         return PHASES[self.phase]
 
 
 @dataclass(frozen=True)
 class Token:
-    """A token that was minted."""
+    """A minted token."""
 
     number: int
     owner: str
@@ -57,36 +79,36 @@ class Token:
 class Collection:
     """A collection at an address."""
 
-    def __init__(self, connection: Connection, kind: Kind, address: str) -> None:
-        """Take a collection of a known kind; `open_collection` asks what kind it is."""
+    def __init__(self, connection: Connection, kind: CollectionKind, address: str) -> None:
+        """Take a collection of a known kind; `open_collection` finds out the kind."""
         self.connection, self.kind, self.address = connection, kind, address
         self.contract = Contract(connection, kind.contract, address)
 
     @cached_property
     def name(self) -> str:
-        """As the contract says it."""
+        """Name of the collection, from the contract."""
         return str(self.contract.call("name"))
 
     def minted(self) -> int:
-        """Return how many tokens there are; they are numbered from 0."""
+        """Return the number of tokens, which are numbered from 0."""
         return int(self.contract.call("totalSupply"))
 
     def owner_of(self, token: int) -> str:
-        """Whose a token is. InputError if there is none of that number."""
+        """Return the owner of a token. Raises InputError if it does not exist."""
         return self._address(self._of_token("ownerOf", token))
 
     def token(self, number: int) -> Token:
-        """Return a token. InputError if there is none of that number."""
+        """Return a token. Raises InputError if it does not exist."""
         return Token(number, self.owner_of(number), self.is_revealed(number))
 
     def tokens(self, numbers: Iterable[int] | None = None) -> Iterator[Token]:
-        """Tokens in the order of their numbers; all of them if none are named."""
+        """Yield tokens by their numbers, in order; by default all."""
         wanted = range(self.minted()) if numbers is None else numbers
-        with ThreadPoolExecutor(AT_ONCE) as pool:
+        with ThreadPoolExecutor(MAX_REQUESTS) as pool:
             yield from pool.map(self.token, wanted)
 
     def is_revealed(self, token: int) -> bool:
-        """Return whether a token has its picture."""
+        """Return whether a token shows its picture."""
         return not self.kind.hidden or any(self.contract.call("randomnessOf", self.round_of(token)))
 
     def round_of(self, token: int) -> int:
@@ -94,20 +116,20 @@ class Collection:
         return int(self._of_token("roundOf", token))
 
     def token_uri(self, token: int) -> str:
-        """Return the whole `tokenURI`, in one call with the node's limit of gas. OutOfGasError if that is too low."""
+        """Return the `tokenURI`, from one call with the node's gas limit. Raises OutOfGasError if that is too low."""
         try:
             return str(self._of_token("tokenURI", token))
         except RevertError as error:
-            if error.data and describe(error.data) != "OutOfGas()":
+            if error.data and describe_revert(error.data) != "OutOfGas()":
                 raise
-            # a call within a call that runs out of gas says nothing, unless it is the renderer's to the engine
+            # an inner call that runs out of gas reverts without data, except that of the renderer to its engine
             raise OutOfGasError(
-                f"the {self.connection.name} gives a read call too little gas for tokenURI{self._given()}: raise its "
-                "limit, or take another node"
+                f"the {self.connection.name} allows a read call too little gas for tokenURI{self._allowed_gas()}: "
+                "raise its limit, or use another node"
             ) from None
 
-    def _given(self) -> str:
-        """Return how much gas the node gives a call, for people; nothing if it does not tell."""
+    def _allowed_gas(self) -> str:
+        """Return how much gas the node allows a call, for a message; empty if that is unknown."""
         try:
             left = int.from_bytes(self.connection.data("eth_call", {"data": to_hex(GAS_LEFT)}, "latest"), "big")
         except ChainError:
@@ -115,16 +137,15 @@ class Collection:
         return f", about {left:,}" if 0 < left < 1 << 64 else ""
 
     def metadata(self, token: int) -> Metadata:
-        """Return what a token says of itself."""
+        """Return the metadata of a token, from its `tokenURI`."""
         return read_token_uri(self.token_uri(token))
 
-    def terms(self) -> Terms:
-        """Return how the collection stands now."""
+    def state(self) -> CollectionState:
+        """Return the current state of the collection."""
         call = self.contract.call
         receiver, royalty = call("royaltyInfo", 0, 10_000)
-        return Terms(
+        return CollectionState(
             name=self.name,
-            symbol=call("symbol"),
             owner=self._address(call("owner")),
             phase=self._phase(),
             minted=self.minted(),
@@ -139,9 +160,7 @@ class Collection:
     def _phase(self) -> int:
         phase = int(self.contract.call("phase"))
         if phase >= len(PHASES):
-            raise NodeError(
-                f"the contract at {self.address} says that its sale is in phase {phase}, which there is not"
-            )
+            raise NodeError(f"the contract at {self.address} returned an unknown phase of its sale, {phase}")
         return phase
 
     def _of_token(self, function: str, token: int) -> Any:
@@ -154,8 +173,8 @@ class Collection:
 
     def _unknown(self, token: int) -> str:
         minted = self.minted()
-        there = f"they are numbered 0 to {minted - 1}" if minted else "none was minted yet"
-        return f"there is no token {token} of {self.name}: {there}"
+        known = f"they are numbered 0 to {minted - 1}" if minted else "none was minted yet"
+        return f"there is no token {token} of {self.name}: {known}"
 
     @staticmethod
     def _address(value: Any) -> str:
@@ -163,7 +182,7 @@ class Collection:
 
 
 def open_collection(connection: Connection, address: str) -> Collection:
-    """Return the collection at an address, of whichever kind it is. InputError if there is none."""
+    """Return the collection at an address, of any known kind. Raises InputError if there is none."""
     for kind in KINDS.values():
         try:
             if Contract(connection, kind.contract, address).call("name") == kind.title:
@@ -171,7 +190,7 @@ def open_collection(connection: Connection, address: str) -> Collection:
         except RevertError:
             continue
         except NodeError as error:
-            if "is no " in str(error):
+            if "is not a " in str(error):
                 continue
             raise
-    raise InputError(f"there is no collection of ours at {address} on chain {connection.chain_id}")
+    raise InputError(f"there is no Shackled collection at {address} on chain {connection.chain_id}")

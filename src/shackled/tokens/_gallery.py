@@ -1,69 +1,68 @@
-"""Tokens that were read from a chain, as a page that stands alone and as JSON."""
+"""A page and a JSON file that show tokens, with a table of gas costs."""
 
 from __future__ import annotations
 
 import base64
-import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from string import Template
-from typing import Any
 
-from ._metadata import Metadata
-from ._table import Cost, comparison
+from ._view import TokenView, shorten
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A token as its `tokenURI` shows it.
+class ActionCost:
+    """The gas of an action: of a transaction all of it, of a read the execution alone.
 
-    gas: of the whole `tokenURI`, execution only; None where none was counted.
+    original: lowest and highest gas of the same action in the Shackled contracts of 2021; None if it is unknown.
     """
 
-    collection: str
-    address: str
-    token: int
-    owner: str
-    revealed: bool
-    metadata: Metadata
-    gas: int | None = None
-
-    def document(self) -> dict[str, Any]:
-        """Return the token as JSON has it."""
-        picture = self.metadata.picture or b""
-        height, width = self.metadata.pixels.shape[:2]
-        return {
-            "collection": self.collection,
-            "address": self.address,
-            "token": self.token,
-            "name": self.metadata.name,
-            "owner": self.owner,
-            "revealed": self.revealed,
-            "traits": self.metadata.traits,
-            "gas": self.gas,
-            "bytes": self.metadata.length,
-            "picture": {
-                "type": self.metadata.media_type,
-                "width": width,
-                "height": height,
-                "bytes": len(picture),
-                "sha256": hashlib.sha256(picture).hexdigest(),
-            },
-        }
+    name: str
+    gas: int
+    original: tuple[int, int] | None = None
 
 
-def tokens_json(tokens: Sequence[Shown]) -> str:
-    """Return the tokens as a list of objects, one a line."""
+#: Gas of actions in the contracts of 2021.
+ORIGINAL_MINT_1 = (124_000, 124_000)
+ORIGINAL_MINT_5 = (712_000, 712_000)
+ORIGINAL_TOKEN_URI = (5_700_000_000, 14_400_000_000)
+
+
+def comparison(costs: Sequence[ActionCost]) -> list[tuple[str, str, str, str]]:
+    """Return the rows of a table, heading first: action, gas, gas of the original, ratio."""
+    rows = [("action", "gas", "original", "times less")]
+    for cost in costs:
+        if cost.original is None:
+            rows.append((cost.name, f"{cost.gas:,}", "-", "-"))
+            continue
+        low, high = cost.original
+        original = _rounded_gas(low) if low == high else f"{_rounded_gas(low)} to {_rounded_gas(high)}"
+        ratios = [f"{each / cost.gas:,.{1 if each < 20 * cost.gas else 0}f}" for each in (low, high)]
+        rows.append((cost.name, f"{cost.gas:,}", original, " to ".join(dict.fromkeys(ratios))))
+    return rows
+
+
+def _rounded_gas(gas: int) -> str:
+    """Write gas in thousands or millions."""
+    return f"{gas / 1e6:,.0f} M" if gas >= 10_000_000 else f"{gas / 1e3:,.0f} k"
+
+
+def tokens_json(tokens: Sequence[TokenView]) -> str:
+    """Return a JSON list of the tokens, one per line."""
     return "[\n" + ",\n".join(json.dumps(token.document(), ensure_ascii=False) for token in tokens) + "\n]\n"
 
 
 def page(
-    title: str, introduction: str, tokens: Sequence[Shown], facts: Sequence[tuple[str, str]], costs: Sequence[Cost]
+    title: str,
+    introduction: str,
+    tokens: Sequence[TokenView],
+    facts: Sequence[tuple[str, str]],
+    costs: Sequence[ActionCost],
 ) -> str:
-    """Return an HTML page with the tokens, collection by collection, and a table of what was paid."""
+    """Return an HTML page with the tokens of each collection and a table of costs."""
     collections = list(dict.fromkeys(token.collection for token in tokens))
     links = [(f"c{number}", name) for number, name in enumerate(collections)]
     sections = [_section(place, name, [token for token in tokens if token.collection == name]) for place, name in links]
@@ -79,7 +78,7 @@ def page(
     )
 
 
-def _section(place: str, name: str, tokens: Sequence[Shown]) -> str:
+def _section(place: str, name: str, tokens: Sequence[TokenView]) -> str:
     address = escape(tokens[0].address)
     cards = "\n".join(_card(token) for token in tokens)
     count = f"{len(tokens)} token" + "s" * (len(tokens) != 1)
@@ -89,7 +88,7 @@ def _section(place: str, name: str, tokens: Sequence[Shown]) -> str:
     )
 
 
-def _card(token: Shown) -> str:
+def _card(token: TokenView) -> str:
     metadata = token.metadata
     data = base64.b64encode(metadata.picture or b"").decode()
     traits = "".join(f"<dt>{escape(key)}</dt><dd>{escape(str(value))}</dd>" for key, value in metadata.traits.items())
@@ -102,12 +101,12 @@ def _card(token: Shown) -> str:
         f'<img src="data:{metadata.media_type};base64,{data}" alt="{escape(metadata.name)}"></button>'
         f'<div class="words"><div class="head"><h3>{escape(metadata.name)}</h3>{gas}</div>'
         f'<dl class="traits">{traits}</dl>'
-        f'<div class="owner"><code title="{escape(token.owner)}">{escape(short(token.owner))}</code>'
+        f'<div class="owner"><code title="{escape(token.owner)}">{escape(shorten(token.owner))}</code>'
         f'<span class="number">{metadata.length:,} bytes</span></div></div></article>'
     )
 
 
-def _table(costs: Sequence[Cost]) -> str:
+def _table(costs: Sequence[ActionCost]) -> str:
     head, *rows = comparison(costs)
     titles = "".join(f"<th>{escape(cell)}</th>" for cell in head)
     lines = "\n".join(
@@ -115,11 +114,6 @@ def _table(costs: Sequence[Cost]) -> str:
     )
     return (
         '<section id="gas"><h2>Gas</h2><p>Of transactions all that was paid, of reads the execution alone. '
-        "The original: the Shackled contracts of 2021.</p>"
+        "Original: the Shackled contracts of 2021.</p>"
         f'<div class="scroll"><table><thead><tr>{titles}</tr></thead><tbody>\n{lines}\n</tbody></table></div></section>'
     )
-
-
-def short(address: str) -> str:
-    """Return an address for people: its first and its last digits."""
-    return f"{address[:6]}…{address[-4:]}"

@@ -1,4 +1,4 @@
-"""The icons of a collection: kinds of tokens, each with a scene that is kept on chain."""
+"""The icons of a collection: each has a stored scene, a price and a supply."""
 
 from __future__ import annotations
 
@@ -12,18 +12,19 @@ from ..deploy import Call, local_chain
 from ..errors import InputError
 from ..ethereum import Interface, amount, checksum_address
 from ..studio import STUDIO
-from ._actions import call_of
 from ._collection import Collection
+from ._contract import call_of
 from ._licence import licence_of
 
-#: Pixels that each pixel becomes in the picture of a token: 128 become 512.
+#: Side of the square that each pixel becomes in the picture of a token: 128 pixels become 512.
 SCALE = 4
 
 
 @dataclass(frozen=True)
-class Icon:
-    """One of them. scene: where it is kept. price: in wei. supply: how many tokens there will ever be.
-    reserve: of those, kept for the team.
+class CollectionIcon:
+    """An icon. scene: address of its stored scene. price: in wei. supply: maximum number of tokens.
+
+    reserve: number of these that are reserved for the team. sold, reserve_minted: numbers of minted tokens.
     """
 
     number: int
@@ -38,11 +39,11 @@ class Icon:
 
     @property
     def left(self) -> int:
-        """To be sold."""
+        """Number of tokens that can still be sold."""
         return self.supply - self.reserve - self.sold
 
     def document(self) -> dict[str, Any]:
-        """Return the icon as JSON has it, with the price in ether."""
+        """Return the icon for JSON, with the price in ether."""
         return {
             "icon": self.number,
             "name": self.name,
@@ -54,19 +55,19 @@ class Icon:
         }
 
 
-def icon_at(collection: Collection, number: int) -> Icon:
-    """Return an icon of a collection. RevertError if there is none of that number."""
+def icon_at(collection: Collection, number: int) -> CollectionIcon:
+    """Return an icon by its number. Raises RevertError if there is none."""
     name, scene, *numbers = collection.contract.call("iconAt", number)
-    return Icon(number, name, checksum_address(bytes.fromhex(scene[2:])), *numbers)
+    return CollectionIcon(number, name, checksum_address(bytes.fromhex(scene[2:])), *numbers)
 
 
-def icons_of(collection: Collection) -> list[Icon]:
+def icons_of(collection: Collection) -> list[CollectionIcon]:
     """Return all icons of a collection."""
     return [icon_at(collection, number) for number in range(collection.contract.call("iconCount"))]
 
 
-def find_icon(collection: Collection, text: str) -> Icon:
-    """Return the icon of that number, or of that name, as "heart" or "icons/heart". InputError if there is none."""
+def find_icon(collection: Collection, text: str) -> CollectionIcon:
+    """Return an icon by its number or name, such as "heart" or "icons/heart". Raises InputError if there is none."""
     icons = icons_of(collection)
     if text.isdecimal() and int(text) < len(icons):
         return icons[int(text)]
@@ -75,14 +76,14 @@ def find_icon(collection: Collection, text: str) -> Icon:
     found = [icon for icon in icons if icon.name.lower() in names]
     if not found:
         known = ", ".join(f"{icon.number} {icon.name}" for icon in icons[:40])
-        raise InputError(f"there is no icon {text!r} in {collection.name}; there are {known or 'none yet'}")
+        raise InputError(f"there is no icon {text!r} in {collection.name}; its icons are {known or 'none yet'}")
     return found[0]
 
 
 def chosen_pieces(names: str | None) -> list[Piece]:
-    """Return the pieces, named with commas, that may be icons; None takes the whole dataset of icons.
+    """Return dataset pieces for icons, from names with commas; None returns the dataset of icons.
 
-    InputError for one that is unknown, or whose licence forbids it.
+    Raises InputError for an unknown piece, or one whose licence forbids minting.
     """
     if names is None:
         return list(pieces("icons"))
@@ -90,28 +91,26 @@ def chosen_pieces(names: str | None) -> list[Piece]:
     for name in filter(None, (each.strip() for each in names.split(","))):
         piece = find(f"icons/{name}") or find(name)
         if piece is None:
-            raise InputError(f"there is no piece {name!r}; `shackled datasets list` shows all")
+            raise InputError(f"there is no piece {name!r}; `shackled datasets list` lists them")
         licence_of(piece, None)
         if piece.name in [each.name for each in chosen]:
             raise InputError(f"{piece.name} is named twice")
         chosen.append(piece)
     if not chosen:
-        raise InputError("no icon is named: give names with commas, as heart,diamond")
+        raise InputError("there is no icon: give names with commas, such as heart,diamond")
     return chosen
 
 
 def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:
-    """Return the transaction that adds an icon, with the gas of writing it and of drawing one pixel of its scene.
+    """Return the transaction that adds an icon; it writes it, and draws one pixel of its scene as a check.
 
-    Raises RenderError if the scene cannot be drawn.
-
-    icon: the arguments of `add`. codes: by address, what the Studio keeps of the scene.
+    icon: arguments of `add`. codes: code of the stored scene, by address. Raises RenderError if it cannot be drawn.
     """
     call = call_of(interface, collection, "add", *icon)
-    return replace(call, ours=call.ours + _looking(codes, icon[1]))
+    return replace(call, gas=call.gas + _check_gas(codes, icon[1]))
 
 
-def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
+def _check_gas(codes: Mapping[bytes, bytes], pointer: str) -> int:
     local = local_chain()
     local.address(STUDIO)
     for place, code in codes.items():
@@ -124,10 +123,10 @@ def _looking(codes: Mapping[bytes, bytes], pointer: str) -> int:
 
 
 def check_sale(pieces: Sequence[Piece], price: int, supply: int, reserve: int) -> None:
-    """Raise InputError where the collection would not take the icons."""
+    """Raise InputError if a collection would refuse the icons."""
     if not 0 <= price < 1 << 96:
         raise InputError(f"the price of an icon must be below {1 << 96} wei, not {price}")
     if not (1 <= supply < 1 << 32 and 0 <= reserve <= supply):
-        raise InputError(f"of an icon there must be 1 token or more, and no more in the reserve: {supply}, {reserve}")
+        raise InputError(f"an icon needs 1 token or more, and no more in the reserve: {supply}, {reserve}")
     if len(pieces) >= 1 << 24:
-        raise InputError(f"{len(pieces):,} icons are more than a collection takes")
+        raise InputError(f"{len(pieces):,} icons are too many for a collection")

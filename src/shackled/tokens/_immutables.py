@@ -1,16 +1,16 @@
-"""Code on a chain against the compiled contract: equal but for immutable values, which the constructor wrote."""
+"""Comparison of deployed code with a compiled contract: only immutable values, set by the constructor, may differ."""
 
 from __future__ import annotations
 
 from ..errors import VerificationError
 
 PUSH1, PUSH32 = 0x60, 0x7F
-#: What the compiler leaves in the place of an immutable value: the only way in which it pushes 32 zeros.
+#: What the compiler pushes in place of an immutable value; it pushes 32 zeros nowhere else.
 EMPTY = bytes(32)
 
 
 def immutable_places(runtime: bytes) -> list[int]:
-    """Return where immutable values stand in the runtime code of an artifact, 32 bytes each."""
+    """Return the offsets of immutable values, of 32 bytes each, in the runtime code of an artifact."""
     places, at = [], 0
     while at < len(runtime):
         operation = runtime[at]
@@ -24,16 +24,13 @@ def immutable_places(runtime: bytes) -> list[int]:
 
 
 def immutable_values(code: bytes, runtime: bytes) -> set[bytes]:
-    """Return the values that stand in code on a chain where the runtime code of the artifact has places for them.
-
-    VerificationError if anything else differs.
-    """
+    """Return the immutable values of deployed code. Raises VerificationError if it differs elsewhere from `runtime`."""
     places = immutable_places(runtime)
     masked = bytearray(code)
     for place in places:
         masked[place : place + 32] = EMPTY
     if len(code) != len(runtime):
-        raise VerificationError(f"its code has {len(code):,} bytes, and should have {len(runtime):,}")
+        raise VerificationError(f"its code has {len(code):,} bytes, not {len(runtime):,}")
     if bytes(masked) != runtime:
         at = next(at for at, (one, other) in enumerate(zip(masked, runtime, strict=True)) if one != other)
         raise VerificationError(f"its code differs from the compiled contract at byte {at:,}")

@@ -1,4 +1,4 @@
-"""Whether a licence allows what minting does: to publish a changed copy for ever, and to sell it."""
+"""Check of licences: minting publishes a changed copy for ever, and may sell it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 from ..datasets import Piece
 from ..errors import InputError
 
-#: The licences that surely allow it, as people write them: in small letters, with single spaces between the words.
+#: Licences that allow it, in lower case, with single spaces between the words.
 ALLOWED = re.compile(
     r"my own work|own work|public domain|cc ?0( 1\.0)?( universal)?|cc by( sa)?( [1-4]\.0)?( international)?"
     r"|(the )?mit( 0)?( licen[cs]e)?|apache( licen[cs]e)?( 2(\.0)?)|0 ?bsd|bsd [0-3] clause( licen[cs]e)?"
@@ -18,17 +18,17 @@ EXAMPLES = "CC0-1.0, public domain, CC-BY-4.0, CC-BY-SA-4.0, MIT, BSD-3-Clause, 
 
 
 def licence_of(source: Path | Piece, stated: str | None) -> str:
-    """Return the licence under which an object is minted; nobody can take it back from a chain.
+    """Return the licence of an object that is to be minted: that of a dataset piece, or `stated` for a file.
 
-    Pieces of datasets bring theirs along; of a file its user states it. InputError where it may forbid minting.
+    Raises InputError if it is not known to allow minting, which cannot be undone.
     """
     if isinstance(source, Piece):
         if stated is not None:
-            raise InputError(f"`licence` is for files: that of {source.name} is known, {source.licence}")
+            raise InputError(f"`licence` is for files: {source.name} has the licence {source.licence}")
         if not (source.commercial and allows(source.licence)):
             raise InputError(
                 f"{source.name} must not be minted: its licence ({source.licence}) is not known to allow commercial "
-                "use of changed copies, and what is on a chain can never be taken back"
+                "use of changed copies, and nothing can be removed from a chain"
             )
         return source.licence
     if stated is None:
@@ -42,11 +42,11 @@ def licence_of(source: Path | Piece, stated: str | None) -> str:
     if not allows(words):
         raise InputError(
             f"{source} must not be minted under the licence {words!r}: it is not known to allow commercial use of "
-            f"changed copies, as {EXAMPLES} do; of what you made yourself, state 'my own work'"
+            f"changed copies, as {EXAMPLES} do; if you made it yourself, state 'my own work'"
         )
     return words
 
 
 def allows(licence: str) -> bool:
-    """Return whether a licence is one of those that surely allow it."""
+    """Return whether a licence is known to allow minting."""
     return ALLOWED.fullmatch(re.sub(r"[\s_-]+", " ", licence.lower()).strip()) is not None

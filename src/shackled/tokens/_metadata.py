@@ -1,4 +1,4 @@
-"""What a `tokenURI` says of a token: its name, its traits, its picture."""
+"""Metadata of a token from its `tokenURI`, which is untrusted: name, traits, picture."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import io
 import json
 import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote_to_bytes
 
@@ -16,15 +17,17 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from ..errors import VerificationError
+from ..image import Image
 from ..untrusted import plain, read_json
+from ..whole_file import write_output
 
-#: Marketplaces cut off, or do not show, what is longer.
+#: Maximum size of a `tokenURI` in bytes; marketplaces do not show longer ones.
 MAX_LENGTH = 100_000
-#: Pillow's name of each kind of picture that wallets show.
+#: Media types that wallets show, and Pillow's names of them.
 PICTURES = {"image/png": "PNG", "image/bmp": "BMP"}
 #: The last chunk of every PNG.
 PNG_END = bytes.fromhex("0000000049454e44ae426082")
-#: Of a picture, in pixels.
+#: Maximum side of a picture, in pixels.
 MAX_SIDE = 2048
 
 Trait = str | int | float | bool
@@ -32,11 +35,10 @@ Trait = str | int | float | bool
 
 @dataclass(frozen=True, eq=False)
 class Metadata:
-    """What a token says of itself.
+    """The metadata of a token.
 
-    traits: by their names, in the order in which they are told. media_type: "image/png" or "image/bmp".
-    picture: the bytes of the file in `image`; None where the token shows none.
-    document: all of it, as the JSON has it. length: of the whole `tokenURI`, in bytes.
+    traits: values by name, in their order. media_type: "image/png" or "image/bmp". picture: file in `image`; None if
+    there is none. document: the whole JSON. length: size of the `tokenURI`, in bytes.
     """
 
     name: str
@@ -49,29 +51,36 @@ class Metadata:
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
-        """The picture, (H, W, 3), rows from the top. VerificationError if there is none, or it is not whole."""
+        """The picture, (H, W, 3) uint8, rows from the top. Raises VerificationError if it is missing or damaged."""
         if self.picture is None or self.media_type is None:
-            raise VerificationError(f"{self.name} shows no picture")
+            raise VerificationError(f"{self.name} has no picture")
         return decode_picture(self.picture, self.media_type)
 
     @property
     def extension(self) -> str:
-        """Of a file with the picture: ".png" or ".bmp"."""
+        """Extension of the picture's format: ".png" or ".bmp"."""
         return f".{(self.media_type or 'image/png').partition('/')[2]}"
+
+    def save(self, path: Path) -> None:
+        """Write the picture: the bytes of the token if the extension is that of its format, else the same pixels."""
+        content = self.picture
+        if content is None or path.suffix.lower() != self.extension:
+            content = Image(self.pixels).encode(path.suffix)
+        write_output(path, content)
 
 
 def read_token_uri(uri: str) -> Metadata:
-    """Return the metadata of a token. VerificationError, one line, where marketplaces would not understand it."""
+    """Parse a `tokenURI`. Raises VerificationError if marketplaces would not accept it."""
     document = _document(uri)
     name, description = _text(document, "name"), _text(document, "description")
-    image, shown = _text(document, "image"), plain(name)[:60]
-    media_type, picture = read_data_uri(image, f"the image of {shown}")
+    image, label = _text(document, "image"), plain(name)[:60]
+    media_type, picture = read_data_uri(image, f"the image of {label}")
     if media_type not in PICTURES:
-        raise VerificationError(f"the image of {shown} is of the type {media_type}, not one of {', '.join(PICTURES)}")
+        raise VerificationError(f"the image of {label} has the type {media_type}, not one of {', '.join(PICTURES)}")
     metadata = Metadata(
         name=name,
         description=description,
-        traits=_traits(document, shown),
+        traits=_traits(document, label),
         media_type=media_type,
         picture=picture,
         document=document,
@@ -82,26 +91,28 @@ def read_token_uri(uri: str) -> Metadata:
 
 
 def read_data_uri(uri: str, what: str) -> tuple[str, bytes]:
-    """Return the media type, without parameters, and the content of a `data:` URI. VerificationError if it is none."""
+    """Return the media type and the content of a `data:` URI. Raises VerificationError if it is invalid."""
     match = re.match(r"data:([\w.+-]+/[\w.+-]+)((?:;[^;,]*)*),", uri, re.ASCII)
     if not match:
-        raise VerificationError(f"{what} is not kept on the chain: it begins with {uri[:40]!r}, not with data:TYPE,")
+        raise VerificationError(f"{what} is not on the chain: it begins with {uri[:40]!r}, not with data:TYPE,")
     content = uri[match.end() :]
     if not match[2].endswith(";base64"):
         return match[1], unquote_to_bytes(content)
     try:
         return match[1], base64.b64decode(content, validate=True)
     except (binascii.Error, ValueError):
-        raise VerificationError(f"{what} is said to be Base64, and is not") from None
+        raise VerificationError(f"{what} is not valid Base64") from None
 
 
 def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
-    """Return the pixels, (H, W, 3), of a PNG or a BMP. VerificationError if it is broken, not opaque, or too large."""
+    """Decode a PNG or BMP to (H, W, 3) uint8. Raises VerificationError if it is damaged, transparent, or too large."""
     whole = (
         picture.endswith(PNG_END) if media_type == "image/png" else picture[2:6] == len(picture).to_bytes(4, "little")
     )
     if not whole:
-        raise VerificationError(f"the picture of the token is no whole {media_type}: its end is not where it should be")
+        raise VerificationError(
+            f"the picture of the token is not a complete {media_type}: it does not end where it should"
+        )
     try:
         with PillowImage.open(io.BytesIO(picture), formats=[PICTURES[media_type]]) as opened:
             if max(opened.size) > MAX_SIDE:
@@ -111,11 +122,11 @@ def decode_picture(picture: bytes, media_type: str) -> NDArray[np.uint8]:
                 raise VerificationError("the picture of the token has transparent pixels")
             return np.array(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError) as error:
-        raise VerificationError(f"the picture of the token is no whole {media_type}: {error}") from None
+        raise VerificationError(f"the picture of the token is not a complete {media_type}: {error}") from None
 
 
 def shrink(pixels: NDArray[np.uint8], width: int, height: int) -> NDArray[np.uint8] | None:
-    """Return the picture of `width` x `height` pixels, each of which became a square; None if they did not."""
+    """Undo the enlargement of a picture of `width` x `height` pixels to squares; None if it is not one."""
     factor = pixels.shape[1] // width
     if factor == 0 or pixels.shape[:2] != (height * factor, width * factor):
         return None
@@ -132,27 +143,27 @@ def _document(uri: str) -> dict[str, Any]:
         )
     media_type, content = read_data_uri(uri, "the tokenURI")
     if media_type != "application/json":
-        raise VerificationError(f"the tokenURI is of the type {media_type}, not application/json")
+        raise VerificationError(f"the tokenURI has the type {media_type}, not application/json")
     try:
         document = read_json(content.decode(), object_pairs_hook=_once, parse_constant=_no_number)
-        # half of a character, and numbers beyond all, are taken by this reader and by few others
+        # this reader accepts lone surrogates and huge numbers, which most others do not
         json.dumps(document, ensure_ascii=False, allow_nan=False).encode()
     except (UnicodeDecodeError, ValueError, RecursionError) as error:
-        raise VerificationError(f"the tokenURI holds no JSON: {' '.join(str(error).split())[:100]}") from None
+        raise VerificationError(f"the tokenURI is not valid JSON: {' '.join(str(error).split())[:100]}") from None
     if not isinstance(document, dict):
-        raise VerificationError("the tokenURI holds JSON that is no object")
+        raise VerificationError("the JSON of the tokenURI is not an object")
     return document
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     keys = [key for key, _ in pairs]
     if len(set(keys)) < len(keys):
-        raise ValueError(f"{next(key for key in keys if keys.count(key) > 1)!r} stands there twice")
+        raise ValueError(f"{next(key for key in keys if keys.count(key) > 1)!r} occurs twice")
     return dict(pairs)
 
 
 def _no_number(text: str) -> Any:
-    raise ValueError(f"{text} is no number")
+    raise ValueError(f"{text} is not a number")
 
 
 def _text(document: dict[str, Any], key: str) -> str:
@@ -163,10 +174,10 @@ def _text(document: dict[str, Any], key: str) -> str:
 
 
 def _traits(document: dict[str, Any], name: str) -> dict[str, Trait]:
-    """Return the marketplaces' list of {"trait_type": ..., "value": ...} as a mapping."""
+    """Return the list of {"trait_type": ..., "value": ...} as a mapping."""
     attributes = document.get("attributes", [])
     if not isinstance(attributes, list):
-        raise VerificationError(f"the attributes of {name} are no list: marketplaces show none of them")
+        raise VerificationError(f"the attributes of {name} are not a list")
     traits: dict[str, Trait] = {}
     for attribute in attributes:
         kind, value = (

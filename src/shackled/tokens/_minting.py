@@ -1,4 +1,4 @@
-"""The call that mints, whichever way an account may."""
+"""The call that mints tokens: public, by allow list, by permission, or from the reserve."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._icons import icon_at
 
 @dataclass(frozen=True)
 class MintCall:
-    """A function with its arguments. value: the ether to be sent along, in wei."""
+    """A function with its arguments. value: ether to send, in wei."""
 
     function: str
     arguments: tuple[Any, ...]
@@ -31,27 +31,28 @@ def mint_call(
     reserve_to: str | None = None,
     icon: int | None = None,
 ) -> MintCall:
-    """Return how an account mints: as everybody, by its place on an allow-list, by a permission, or from the reserve.
+    """Return the call with which an account mints.
 
-    icon: the number of the icon, of a collection that has them.
-
-    InputError where the list or the permission is not one for this account and collection.
+    reserve_to: receiver of tokens from the reserve. icon: number of the icon, for collections of icons.
+    Raises InputError if the allow list or the permission is not for this account and collection.
     """
-    kind = () if icon is None else (icon,)
+    which = () if icon is None else (icon,)
     if reserve_to is not None:
-        return MintCall("mintReserve", (*kind, reserve_to, quantity))
+        return MintCall("mintReserve", (*which, reserve_to, quantity))
     price = collection.contract.call("price") if icon is None else icon_at(collection, icon).price
     value = quantity * int(price)
     if allow_list is not None:
         listed = allow_list if isinstance(allow_list, AllowList) else read_allow_list(allow_list)
         root = collection.contract.call("allowListRoot")
         if root != listed.root:
-            has = f"the list of root 0x{root.hex()}" if any(root) else "no list"
-            raise InputError(f"the allow-list has the root 0x{listed.root.hex()}, but the collection has {has}")
-        return MintCall("mintWithProof", (*kind, quantity, listed.allowance(account), listed.proof(account)), value)
+            actual = f"0x{root.hex()}" if any(root) else "none"
+            raise InputError(
+                f"the allow list has the root 0x{listed.root.hex()}, but that of the collection is {actual}"
+            )
+        return MintCall("mintWithProof", (*which, quantity, listed.allowance(account), listed.proof(account)), value)
     if permission is not None:
         allowed = permission if isinstance(permission, Allowance) else read_allowance(permission)
         if allowed.account != account:
-            raise InputError(f"the permission is one for {allowed.account}, not for {account}")
-        return MintCall("mintWithSignature", (*kind, quantity, allowed.struct, allowed.signature), value)
-    return MintCall("mint", (*kind, quantity), value)
+            raise InputError(f"the permission is for {allowed.account}, not for {account}")
+        return MintCall("mintWithSignature", (*which, quantity, allowed.struct, allowed.signature), value)
+    return MintCall("mint", (*which, quantity), value)

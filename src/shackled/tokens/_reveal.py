@@ -1,4 +1,4 @@
-"""Revealing tokens: showing a collection the headers of the blocks whose randomness their seeds are made of."""
+"""Transactions that reveal tokens: they prove the headers of the blocks whose randomness determines the seeds."""
 
 from __future__ import annotations
 
@@ -9,33 +9,33 @@ from typing import Any
 from ..deploy import Quote, Transactor, make_quotes
 from ..errors import InputError, NodeError
 from ..ethereum import encode_header
-from ._actions import call_of, plan
 from ._collection import Collection
+from ._contract import call_of, plan
 
-#: Rounds in a transaction.
+#: Maximum number of rounds in a transaction.
 ROUNDS_AT_ONCE = 40
-#: What a transaction takes, each round in it, and each header of one that proves an older block.
+#: Gas of a transaction, of each round in it, and of each header in one that proves an older block.
 FIRST_GAS, REVEAL_GAS, HEADER_GAS = 45_000, 50_000, 25_000
-#: Headers in a transaction that proves an old block: each has about 600 bytes, and nodes take 128 kB.
+#: Maximum number of headers in a transaction: each has about 600 bytes, and nodes accept 128 kB.
 HEADERS_AT_ONCE = 150
-#: How far back the chain knows hashes by itself (EIP-2935), with a margin for the time until a transaction is mined.
+#: Number of recent blocks whose hashes are available (EIP-2935), less a margin until a transaction is mined.
 KNOWN_BLOCKS = 8191 - 64
 #: The same on a chain without EIP-2935.
 KNOWN_BLOCKS_BEFORE = 256 - 16
-#: Tokens asked for at once.
+#: Number of tokens per call of `hiddenRounds`.
 TOKENS_AT_ONCE = 256
 
 
 @dataclass(frozen=True)
 class Round:
-    """Blocks that share a randomness. block: whose it is."""
+    """A round of minting, whose tokens share the randomness of `block`."""
 
     number: int
     block: int
 
 
 def hidden_rounds(collection: Collection) -> list[Round]:
-    """Return the rounds of all tokens that are not revealed, each once."""
+    """Return the rounds with tokens that are not revealed."""
     minted = collection.minted()
     numbers: list[int] = []
     for first in range(0, minted, TOKENS_AT_ONCE):
@@ -45,45 +45,47 @@ def hidden_rounds(collection: Collection) -> list[Round]:
 
 
 def latest_block(collection: Collection) -> int:
-    """Return the number of the last block of the chain."""
+    """Return the number of the latest block."""
     return collection.connection.number("eth_blockNumber")
 
 
 @dataclass(frozen=True)
-class Step:
-    """A transaction that reveals: function and arguments. gas: about what it takes."""
+class RevealCall:
+    """A call that reveals tokens or proves old blocks. gas: approximate gas of its transaction."""
 
     function: str
     arguments: tuple[Any, ...]
     gas: int
 
 
-def steps(collection: Collection, rounds: list[Round]) -> list[Step]:
-    """Return the transactions that reveal rounds whose blocks are there, in this order.
+def reveal_calls(collection: Collection, rounds: list[Round]) -> list[RevealCall]:
+    """Return the calls that reveal rounds whose blocks are mined, in order.
 
-    Where rounds are so late that the chain has forgotten their blocks, the hashes of these are proven first.
+    If block hashes are no longer available on the chain, the first calls prove them.
     """
-    made = list(_proofs(collection, [each.block for each in rounds if not _hash_known(collection, each.block)]))
+    calls = list(_proofs(collection, [each.block for each in rounds if not _hash_known(collection, each.block)]))
     for first in range(0, len(rounds), ROUNDS_AT_ONCE):
         some = rounds[first : first + ROUNDS_AT_ONCE]
         headers = [header_of(collection, each.block) for each in some]
-        made.append(Step("reveal", ([each.number for each in some], headers), FIRST_GAS + REVEAL_GAS * len(some)))
-    return made
+        calls.append(
+            RevealCall("reveal", ([each.number for each in some], headers), FIRST_GAS + REVEAL_GAS * len(some))
+        )
+    return calls
 
 
-def price_steps(transactor: Transactor, collection: Collection, todo: Sequence[Step]) -> list[Quote]:
-    """Return the prices of one or more steps. Raises RevertError, in words, if the first would be refused."""
-    first, *rest = todo
+def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[RevealCall]) -> list[Quote]:
+    """Return the quotes of one or more calls. Raises RevertError, with an explanation, if the first would revert."""
+    first, *rest = calls
     contract = collection.contract
-    quote = plan(transactor, contract, first.function, *first.arguments, ours=first.gas)
-    calls = [
-        call_of(contract.interface, contract.address, each.function, *each.arguments, ours=each.gas) for each in rest
+    quote = plan(transactor, contract, first.function, *first.arguments, gas=first.gas)
+    later = [
+        call_of(contract.interface, contract.address, each.function, *each.arguments, gas=each.gas) for each in rest
     ]
-    return [quote, *make_quotes(transactor.connection, calls, quote.fees, [quote], transactor.address)]
+    return [quote, *make_quotes(transactor.connection, later, quote.fees, [quote], transactor.address)]
 
 
 def header_of(collection: Collection, number: int) -> bytes:
-    """Return the header of a block, whose hash the node says and we check."""
+    """Return the RLP header of a block, checked against its hash."""
     block = collection.connection.block(number)
     try:
         return encode_header(block)
@@ -91,25 +93,25 @@ def header_of(collection: Collection, number: int) -> bytes:
         raise
     except (OverflowError, TypeError, ValueError):
         raise NodeError(
-            f"the {collection.connection.name} tells a block {number:,} with fields that are none: {block!r:.60}"
+            f"the {collection.connection.name} returned invalid fields of block {number:,}: {block!r:.60}"
         ) from None
 
 
-def _proofs(collection: Collection, forgotten: list[int]) -> Iterator[Step]:
-    """Transactions that go back, header by header, from a block that the chain knows to each of some older ones."""
-    if not forgotten:
+def _proofs(collection: Collection, old: list[int]) -> Iterator[RevealCall]:
+    """Yield calls that go back, header by header, from a block whose hash is available to each of the old ones."""
+    if not old:
         return
     latest = latest_block(collection)
     starts = (max(latest - back, 1) for back in (KNOWN_BLOCKS, KNOWN_BLOCKS_BEFORE))
     known = next((number for number in starts if _hash_known(collection, number)), None)
     if known is None:
         raise NodeError(f"the collection does not know the hash of any block before {latest:,}")
-    for block in sorted(forgotten, reverse=True):
+    for block in sorted(old, reverse=True):
         while known > block:
             count = min(HEADERS_AT_ONCE, known - block)
             headers = [header_of(collection, number) for number in range(known, known - count, -1)]
-            yield Step("keepHash", (known, headers), FIRST_GAS + HEADER_GAS * count)
-            # this is the block whose hash is kept then
+            yield RevealCall("keepHash", (known, headers), FIRST_GAS + HEADER_GAS * count)
+            # the block whose hash the contract has stored then
             known -= count
 
 

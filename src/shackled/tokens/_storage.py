@@ -1,4 +1,4 @@
-"""Scenes put on a chain through the Studio: what is missing there, what it costs, and doing it."""
+"""Storage of scenes on a chain through the Studio: plan with prices, transactions, and check of the result."""
 
 from __future__ import annotations
 
@@ -9,22 +9,34 @@ from functools import partial
 
 from .._render import render
 from ..chain import Connection
-from ..deploy import Call, Deployer, Fees, Plan, Quote, Receipt, Step, Transactor, create, current_fees, make_quotes
+from ..deploy import (
+    Call,
+    Deployer,
+    DeploymentStep,
+    Fees,
+    Plan,
+    Quote,
+    Receipt,
+    Transactor,
+    create,
+    current_fees,
+    make_quotes,
+)
 from ..errors import VerificationError
 from ..ethereum import checksum_address
 from ..image import Image, decode_bmp
 from ..scene import Scene
-from ..studio import STUDIO, Storing, store_scene
+from ..studio import STUDIO, StoreTransaction, store_scene
 from ._contract import Contract
-from ._deploying import address_of, parts_of
+from ._launch import address_of, parts_of
 
-#: The Studio has two functions of this name.
+#: The Studio has two functions called `render`.
 RENDER = "render(address)"
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """A scene that is to be on a chain. position_bits: None keeps it exactly; fewer, 4 to 16, are cheaper."""
+class SceneToStore:
+    """A scene to store. position_bits: None is exact; 4 to 16 are cheaper. normal_bits: 4 to 10, which is lossless."""
 
     name: str
     scene: Scene
@@ -33,92 +45,94 @@ class Wanted:
 
 
 @dataclass(frozen=True)
-class Due:
-    """Something that is to be stored, of the scene of that name."""
+class QuotedStorage:
+    """A transaction that stores a part of the scene `name`, with its quote."""
 
     name: str
-    storing: Storing
+    transaction: StoreTransaction
     quote: Quote
 
 
 @dataclass(frozen=True)
-class Storage:
-    """What is to be done. parts: contracts that are missing. missing: what is to be stored, in this order. pointers: of
-    the scenes, in the order in which they were wanted. codes: by address, what the chain keeps of the scenes then.
+class StoragePlan:
+    """Transactions that store scenes.
+
+    parts: contracts that are needed. missing: what is not stored yet, in order. pointers: addresses of the scenes, in
+    the order of the request. codes: code of all parts of the scenes, by address.
     """
 
     parts: Plan
     studio: str
-    missing: tuple[Due, ...]
+    missing: tuple[QuotedStorage, ...]
     pointers: tuple[str, ...]
     codes: Mapping[bytes, bytes]
 
     @property
     def gas(self) -> int:
-        """Of those transactions that store, as counted here."""
-        return sum(each.storing.gas for each in self.missing)
+        """Gas of the transactions that store, as counted here."""
+        return sum(each.transaction.gas for each in self.missing)
 
     @property
     def quotes(self) -> list[Quote]:
-        """Of those that store."""
+        """Quotes of the transactions that store."""
         return [each.quote for each in self.missing]
 
 
-def plan_storage(connection: Connection, wanted: Iterable[Wanted], fees: Fees | None = None) -> Storage:
-    """Return what of some scenes a chain does not have yet. fees: None asks for those of now.
+def plan_storage(connection: Connection, wanted: Iterable[SceneToStore], fees: Fees | None = None) -> StoragePlan:
+    """Plan the transactions that store scenes, without those that are stored already.
 
-    Each scene is rendered here first, since one that cannot be rendered is not worth the price.
+    fees: None uses the current ones. Each scene is rendered first, so that errors occur before anything is paid.
     """
     fees = current_fees(connection) if fees is None else fees
     parts = parts_of(STUDIO, itself=True)
     studio = address_of(parts, STUDIO)
-    missing: dict[bytes, tuple[str, Storing]] = {}
+    missing: dict[bytes, tuple[str, StoreTransaction]] = {}
     pointers, codes = [], {}
     for each in wanted:
         render(each.scene)
-        storings = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
-        pointers.append(checksum_address(storings[-1].pointer))
-        for storing in storings:
-            codes[storing.pointer] = storing.code
-            if storing.pointer not in missing and not _stands(connection, storing):
-                missing[storing.pointer] = each.name, storing
+        transactions = store_scene(each.scene, bytes.fromhex(studio[2:]), each.position_bits, each.normal_bits)
+        pointers.append(checksum_address(transactions[-1].pointer))
+        for transaction in transactions:
+            codes[transaction.pointer] = transaction.code
+            if transaction.pointer not in missing and not connection.code(transaction.pointer):
+                missing[transaction.pointer] = each.name, transaction
     plan = Deployer(connection).plan(parts, fees)
     place = bytes.fromhex(studio[2:])
-    calls = [Call(place, storing.data, storing.gas, needs=plan.codes) for _, storing in missing.values()]
+    calls = [Call(place, each.data, each.gas, needs=plan.codes) for _, each in missing.values()]
     quotes = make_quotes(connection, calls, fees, plan.quotes)
-    due = (Due(name, storing, quote) for (name, storing), quote in zip(missing.values(), quotes, strict=True))
-    return Storage(plan, studio, tuple(due), tuple(pointers), codes)
+    quoted = (QuotedStorage(*named, quote) for named, quote in zip(missing.values(), quotes, strict=True))
+    return StoragePlan(plan, studio, tuple(quoted), tuple(pointers), codes)
 
 
 def store(
-    storage: Storage,
+    storage: StoragePlan,
     transactor: Transactor,
-    report: Callable[[Step, Sequence[Receipt]], None] | None = None,
+    report: Callable[[DeploymentStep, Sequence[Receipt]], None] | None = None,
 ) -> list[Receipt]:
-    """Deploys what is missing and stores what is missing; the receipts of the latter.
+    """Deploy missing contracts, store missing parts of scenes, and return the receipts of the latter.
 
-    What was done before a failure stays, and the next time goes on from there.
+    report: called after each step. After a failure, a new plan continues from there.
     """
-    Deployer(transactor.connection).carry_out(storage.parts, transactor, report)
+    Deployer(transactor.connection).execute(storage.parts, transactor, report)
     receipts = []
-    for due in storage.missing:
-        each = due.storing
-        # the address is made of the bytes that are kept: if anything is there, it is these
-        receipt = create(
-            transactor, due.quote, partial(_stands, transactor.connection, each), f"the {each.what}", each.pointer
-        )
+    for quoted in storage.missing:
+        each = quoted.transaction
+        # the address is a hash of the stored bytes, so no others can be there
+        is_stored = partial(_is_stored, transactor.connection, each.pointer)
+        receipt = create(transactor, quoted.quote, is_stored, f"the {each.what}", each.pointer)
         if receipt is None:
             continue
         receipts.append(receipt)
         if report is not None:
-            report(Step(f"{due.name}, {each.what}, {each.size:,} bytes", each.pointer, False), [receipt])
+            name = f"{quoted.name}, {each.what}, {each.size:,} bytes"
+            report(DeploymentStep(name, each.pointer, False), [receipt])
     return receipts
 
 
-def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted) -> Image:
-    """Return the picture that the Studio of a chain draws of a scene that it keeps.
+def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneToStore) -> Image:
+    """Return the picture that the Studio draws of a stored scene.
 
-    VerificationError if it is not that of the scene as it was kept; exact scenes are compared byte for byte.
+    Raises VerificationError if it is wrong; if the scene was stored exactly, all bytes are compared.
     """
     contract = Contract(connection, STUDIO, studio)
     started = time.perf_counter()
@@ -126,9 +140,9 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: Wanted)
     seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
-        raise VerificationError(f"chain {connection.chain_id} does not draw {wanted.name} as it is computed here")
+        raise VerificationError(f"chain {connection.chain_id} draws {wanted.name} differently than it is computed here")
     return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
 
 
-def _stands(connection: Connection, storing: Storing) -> bool:
-    return bool(connection.code(storing.pointer))
+def _is_stored(connection: Connection, pointer: bytes) -> bool:
+    return bool(connection.code(pointer))

@@ -1,11 +1,10 @@
-import os
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from shackled import Scene, load
+from original_scenes import documents, wrong_documents
+from shackled import Scene
 from shackled.errors import InputError
 from shackled.scene import DEFAULT_HALF_HEIGHT, original_scene, rotate
 
@@ -187,21 +186,13 @@ def test_what_is_needed(key: str) -> None:
         original_scene(keys)
 
 
-SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).parents[4] / "shared")) / "scenes"
+def test_scenes_of_the_kinds_that_were_measured() -> None:
+    for found in documents().values():
+        scene = original_scene(found)
+        assert scene.lights or all(thing.material.shading == "unlit" for thing in scene.objects)
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="the scenes of the original's measurements are not here")
-def test_the_scenes_that_were_measured() -> None:
-    refused = set()
-    for path in sorted(SHARED.glob("*.json")):
-        try:
-            scene = load(path)
-        except InputError:
-            refused.add(path.stem)
-        else:
-            assert scene.lights or all(thing.material.shading == "unlit" for thing in scene.objects)
-    # the original reverts on the first four, and draws garbage for the others
-    assert refused == {
-        "probe_bad_index", "probe_canvas_0", "probe_light_at_origin", "probe_missing_cols",
-        "probe_neg_bg", "probe_neg_bg_invert", "probe_neg_colour", "probe_neg_colour_invert",
-    }  # fmt: skip
+@pytest.mark.parametrize("name", wrong_documents())
+def test_scenes_that_the_original_does_not_draw_either(name: str) -> None:
+    with pytest.raises(InputError):
+        original_scene(wrong_documents()[name])

@@ -48,6 +48,19 @@ def test_windows_line_ends(tmp_path: Path) -> None:
     assert len(np.asarray(read(tmp_path, text).faces)) == 2
 
 
+def test_windows_line_ends_before_binary_data(tmp_path: Path) -> None:
+    content = header("binary_little_endian", "", 1).replace("\n", "\r\n").encode()
+    content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<Biiii", 4, 0, 1, 2, 3)
+    assert read(tmp_path, content).triangles == 2
+
+
+def test_letters_that_are_not_of_ascii(tmp_path: Path) -> None:
+    text = (header("ascii", "", 1).replace("by hand", "by händ") + VERTICES + "3 0 1 2\n").encode("latin-1")
+    assert read(tmp_path, text).triangles == 1
+    with pytest.raises(InputError, match=r"line 15 should hold an element face .*, not '3 0 1 \ufffd'"):
+        read(tmp_path, text.replace(b"3 0 1 2\n", b"3 0 1 \xe9\n"))
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "binary_little_endian"])
 def test_line_ends_of_an_old_mac(tmp_path: Path, encoding: str) -> None:
     content = header(encoding, "", 1).replace("\n", "\r").encode()
@@ -175,4 +188,248 @@ def test_what_is_wrong_is_told_in_one_line(tmp_path: Path, content: str, message
 def test_a_count_without_bounds_ends_at_once(tmp_path: Path) -> None:
     content = header("binary_little_endian", "", 1).replace("vertex 4", "vertex 4000000000").encode() + bytes(200)
     with pytest.raises(InputError, match=r"it ends before its 4000000000 elements vertex are complete$"):
+        read(tmp_path, content)
+
+
+# ---- types and names ----
+
+TYPES = {
+    "i1": ("char", "int8"), "u1": ("uchar", "uint8"), "i2": ("short", "int16"), "u2": ("ushort", "uint16"),
+    "i4": ("int", "int32"), "u4": ("uint", "uint32"), "f4": ("float", "float32"), "f8": ("double", "float64"),
+}  # fmt: skip
+NAMES = [(name, kind) for kind, names in TYPES.items() for name in names]
+
+
+@pytest.mark.parametrize(("encoding", "order"), [("binary_little_endian", "<"), ("binary_big_endian", ">")])
+@pytest.mark.parametrize(("name", "kind"), NAMES)
+def test_types_of_numbers(tmp_path: Path, name: str, kind: str, encoding: str, order: str) -> None:
+    numbers = np.finfo(kind) if kind[0] == "f" else np.iinfo(kind)
+    low, high = (-1.5, 1.7e38 if kind == "f4" else 1e300) if kind[0] == "f" else (numbers.min, numbers.max)
+    points = np.array([[low, 0, 1], [high, 2, 3], [4, high, 5]]).astype(order + kind)
+    text = f"ply\nformat {encoding} 1.0\nelement vertex 3\n"
+    text += "".join(f"property {name} {axis}\n" for axis in "xyz")
+    text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    mesh = read(tmp_path, text.encode() + points.tobytes() + struct.pack(order + "Biii", 3, 0, 1, 2))
+    assert mesh.positions[mesh.faces[0]].tolist() == points.astype(np.float64).tolist()
+
+
+@pytest.mark.parametrize(("name", "kind"), NAMES)
+def test_types_of_lists(tmp_path: Path, name: str, kind: str) -> None:
+    """Of the numbers in them, and of their lengths: also where these differ, so that rows are read one by one."""
+    for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 1, 2], [0, 1, 2, 3]]):
+        content = header("binary_little_endian", "", 2).replace("uchar int", f"{name} {name}").encode()
+        content += np.array(SQUARE, "<f4").tobytes()
+        content += b"".join(np.array([len(face), *face], "<" + kind).tobytes() for face in faces)
+        assert read(tmp_path, content).triangles == sum(len(face) - 2 for face in faces)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "expected"),
+    [
+        ("uchar", [1, 200, 255], [1, 200, 255]),
+        ("char", [0, 1, 127], [0, 1, 127]),
+        ("ushort", [257, 65406, 65407], [1, 254, 255]),
+        ("short", [1, 200, 255], [1, 200, 255]),
+        ("int", [1, 200, 255], [1, 200, 255]),
+        ("uint", [1, 200, 255], [1, 200, 255]),
+        # whole numbers are none of fractions, though none is above 1
+        *[(name, [0, 1, 1], [0, 1, 1]) for name in ("uchar", "char", "short", "int", "uint")],
+        ("ushort", [0, 1, 1], [0, 0, 0]),
+        ("float", [0, 0.5, 1], [0, 128, 255]),
+        ("double", [0.25, 0.5, 1], [64, 128, 255]),
+    ],
+)
+def test_colors_by_their_type(tmp_path: Path, name: str, values: list[float], expected: list[int]) -> None:
+    rows = "".join(f"{x} {y} {z} {' '.join(map(str, values))}\n" for x, y, z in SQUARE)
+    text = header("ascii", COLOR.replace("uchar", name), 1) + rows + "3 0 1 2\n"
+    assert corner_colors(read(tmp_path, text)) == [[expected] * 3]
+
+
+@pytest.mark.parametrize(
+    "names", [("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b")]
+)
+def test_names_of_colors(tmp_path: Path, names: tuple[str, str, str]) -> None:
+    more = "".join(f"property uchar {name}\n" for name in names)
+    rows = "".join(f"{x} {y} {z} 10 20 30\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[10, 20, 30]] * 3]
+    # a colour that is not whole is none
+    text = header("ascii", more.replace(names[2], "other"), 1) + rows + "3 0 1 2\n"
+    assert corner_colors(read(tmp_path, text)) == [[list(DEFAULT_COLOR)] * 3]
+
+
+@pytest.mark.parametrize(("red", "other", "expected"), [("float", "uchar", 255), ("uchar", "float", 1)])
+def test_the_type_of_red_tells(tmp_path: Path, red: str, other: str, expected: int) -> None:
+    more = COLOR.replace("uchar", other).replace(f"{other} red", f"{red} red")
+    rows = "".join(f"{x} {y} {z} 1 1 1\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[expected] * 3] * 3]
+
+
+def test_the_first_name_of_a_color_counts(tmp_path: Path) -> None:
+    more = "property uchar r\nproperty uchar g\nproperty uchar b\n" + COLOR
+    rows = "".join(f"{x} {y} {z} 1 2 3 4 5 6\n" for x, y, z in SQUARE)
+    assert corner_colors(read(tmp_path, header("ascii", more, 1) + rows + "3 0 1 2\n")) == [[[4, 5, 6]] * 3]
+
+
+def test_faces_have_colors_if_any_two_differ(tmp_path: Path) -> None:
+    """In any place, and one channel is enough."""
+    rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
+    for colors in (["1 2 3", "1 2 3", "1 2 4"], ["1 2 4", "1 2 3", "1 2 3"]):
+        faces = "".join(f"3 0 1 {2 + (k > 1)} {color}\n" for k, color in enumerate(colors))
+        mesh = read(tmp_path, header("ascii", COLOR, 3, COLOR) + rows + faces)
+        assert corner_colors(mesh) == [[list(map(int, color.split()))] * 3 for color in colors]
+
+
+def test_a_single_face_beside_colors_of_vertices(tmp_path: Path) -> None:
+    rows = "".join(f"{x} {y} {z} 9 9 9\n" for x, y, z in SQUARE)
+    mesh = read(tmp_path, header("ascii", COLOR, 1, COLOR) + rows + "3 0 1 2 7 7 7\n")
+    assert corner_colors(mesh) == [[[9, 9, 9]] * 3]
+
+
+def test_both_names_of_the_list_of_a_face(tmp_path: Path) -> None:
+    text = header("ascii", "", 1) + VERTICES + "3 0 1 2\n"
+    whole = read(tmp_path, text)
+    assert read(tmp_path, text.replace("vertex_indices", "vertex_index")) == whole
+    # beside other lists, and the first name counts
+    other = "property list uchar int vertex_index\nproperty list uchar float weights\n"
+    text = header("ascii", "", 1, other) + VERTICES + "3 0 1 2 4 0 1 2 3 1 0.5\n"
+    assert read(tmp_path, text) == whole
+    text = header("ascii", "", 1).replace("element face 1\n", "element face 1\nproperty list uchar float weights\n")
+    assert read(tmp_path, text + VERTICES + "2 0.5 0.25 3 0 1 2\n") == whole
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "face"),
+    [
+        ("property float z", "property float w", "3 0 1 2"),
+        ("property float x", "property list uchar float x", "3 0 1 2"),
+        ("vertex_indices", "corners", "3 0 1 2"),
+        ("list uchar int vertex_indices", "int vertex_indices", "0"),
+    ],
+)
+def test_what_a_mesh_needs(tmp_path: Path, old: str, new: str, face: str) -> None:
+    rows = VERTICES if "list uchar float" not in new else "".join(f"1 {x} {y} {z}\n" for x, y, z in SQUARE)
+    with pytest.raises(
+        InputError, match=r"the element vertex needs x, y and z, the element face a list vertex_indices$"
+    ):
+        read(tmp_path, header("ascii", "", 1).replace(old, new) + rows + face + "\n")
+
+
+def test_other_elements_are_passed_over(tmp_path: Path) -> None:
+    """Wherever they are, with numbers and lists, as text and binary; the message names what is there."""
+    edges = "element edge 2\nproperty int a\nproperty list uchar short more\n"
+    for encoding in ("ascii", "binary_little_endian"):
+        head = header(encoding, "", 1)
+        head = head.replace("element vertex", edges + "element vertex").replace(
+            "end_header", "element empty 3\nend_header"
+        )
+        if encoding == "ascii":
+            content = (head + "7 1 5\n8 2 5 6\n" + VERTICES + "3 0 1 2\n").encode()
+        else:
+            content = head.encode() + struct.pack("<iBhiBhh", 7, 1, 5, 8, 2, 5, 6) + np.array(SQUARE, "<f4").tobytes()
+            content += struct.pack("<Biii", 3, 0, 1, 2)
+        assert read(tmp_path, content).triangles == 1
+    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has edge, point$"):
+        read(tmp_path, "ply\nformat ascii 1.0\nelement edge 0\nelement point 0\nend_header\n")
+    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has none$"):
+        read(tmp_path, "ply\nformat ascii 1.0\nend_header\n")
+    with pytest.raises(InputError, match=r"needs the elements vertex and face; this file has face$"):
+        read(tmp_path, "ply\nformat ascii 1.0\nelement face 0\nend_header\n")
+
+
+# ---- headers and ends ----
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("format ascii 1.0", "format ascii"),
+        ("format ascii 1.0", "format utf8 1.0"),
+        ("element vertex 4", "element vertex -1"),
+        ("element vertex 4", "element vertex 4 4"),
+        ("property float x", "property half x"),
+        ("list uchar int", "list half int"),
+        ("list uchar int", "list uchar half"),
+        ("property float y", "property float"),
+        ("property float y", "properties float y"),
+    ],
+)
+def test_wrong_lines_of_a_header(tmp_path: Path, old: str, new: str) -> None:
+    text = header("ascii", "", 1)
+    number = next(k for k, line in enumerate(text.splitlines(), 1) if old in line)
+    text = text.replace(old, new)
+    with pytest.raises(InputError, match=rf"line {number} of its header is '[^']*{new}[^']*'; {HEADER_LINES}$"):
+        read(tmp_path, text + VERTICES + "3 0 1 2\n")
+
+
+def test_long_lines_are_cut_in_messages(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=f"header is '{'x' * 60}';"):
+        read(tmp_path, header("ascii", "", 1).replace("comment made by hand", "x" * 90))
+    with pytest.raises(InputError, match=f"not '{'x' * 60}'$"):
+        read(tmp_path, header("ascii", "", 1) + "x" * 90 + "\n")
+    with pytest.raises(InputError, match=f"header: '{'x' * 60}'$"):
+        read(tmp_path, header("ascii", "", 1) + VERTICES + "3 0 1 2\n" + "x" * 90 + "\n")
+
+
+def test_notes_in_a_header_are_passed_over(tmp_path: Path) -> None:
+    notes = "comment\ncomment TextureFiles are none\nobj_info 3 of 7\n\n  \ncomment property half x\n"
+    text = header("ascii", "", 1).replace("comment made by hand\n", notes) + VERTICES + "3 0 1 2\n"
+    assert read(tmp_path, text).triangles == 1
+
+
+def test_all_textures_are_told(tmp_path: Path) -> None:
+    notes = "comment TextureFile a.png\ncomment TextureFile b  c.png"
+    text = header("ascii", "", 1).replace("comment made by hand", notes) + VERTICES + "3 0 1 2\n"
+    with pytest.warns(InputWarning, match=r"its texture a\.png, b c\.png is left out"):
+        read(tmp_path, text)
+
+
+def test_blank_lines_are_passed_over(tmp_path: Path) -> None:
+    text = header("ascii", "", 2) + "\n" + VERTICES.replace("\n", "\n \n") + "\n\n3 0 1 2\n\n4 0 1 2 3\n\n \n"
+    assert read(tmp_path, text).triangles == 3
+
+
+@pytest.mark.parametrize(
+    ("faces", "line"),
+    [
+        ("3 0 1 2\n4 0 1 2\n", 16),
+        ("3 0 1 2\n-1 0 1 2\n", 16),
+        ("3 0 1 2\n\n2.5 0 1 2\n", 17),
+        ("3 0 1 2\n3 0 1 2 3\n", 16),
+        ("3 0 1 2\n# none\n", 16),
+    ],
+)
+def test_wrong_lines_of_faces(tmp_path: Path, faces: str, line: int) -> None:
+    words = rf"line {line} should hold an element face \(a list vertex_indices after its length\) and nothing else"
+    with pytest.raises(InputError, match=words):
+        read(tmp_path, header("ascii", "", 2) + VERTICES + faces)
+
+
+def test_what_is_left_over_at_once(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"line 16 is left over behind the elements of its header: '7'$"):
+        read(tmp_path, header("ascii", "", 1) + VERTICES + "3 0 1 2\n7\n")
+
+
+@pytest.mark.parametrize("missing", range(1, 40))
+def test_a_binary_file_that_ends_early(tmp_path: Path, missing: int) -> None:
+    """Nothing but the end of its data is told, wherever that is: in a number, a length, a list."""
+    faces = struct.pack("<BiiiBiiii", 3, 0, 1, 2, 4, 0, 1, 2, 3)
+    content = header("binary_little_endian", "", 2).encode() + np.array(SQUARE, "<f4").tobytes() + faces
+    assert read(tmp_path, content).triangles == 3
+    name, count = ("face", 2) if missing <= len(faces) else ("vertex", 4)
+    with pytest.raises(InputError, match=rf"it ends before its {count} elements {name} are complete$"):
+        read(tmp_path, content[:-missing])
+
+
+def test_lists_may_be_empty(tmp_path: Path) -> None:
+    more = "property list uchar short more\n"
+    text = header("ascii", "", 2, more) + VERTICES + "3 0 1 2 0\n3 0 2 3 1 7\n"
+    content = header("binary_little_endian", "", 2, more).encode() + np.array(SQUARE, "<f4").tobytes()
+    content += struct.pack("<BiiiB", 3, 0, 1, 2, 0) + struct.pack("<BiiiBh", 3, 0, 2, 3, 1, 7)
+    assert read(tmp_path, text).triangles == read(tmp_path, content).triangles == 2
+
+
+def test_a_list_of_less_than_nothing(tmp_path: Path) -> None:
+    content = header("binary_little_endian", "", 1).replace("uchar int", "char int").encode()
+    content += np.array(SQUARE, "<f4").tobytes() + struct.pack("<b", -1) + bytes(40)
+    with pytest.raises(InputError, match=r"it ends before its 1 elements face are complete$"):
         read(tmp_path, content)

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import typer
 
-from .demo import demo
-from .guests import allow_list, permit
-from .holder import mint, reveal, transfer
+from .allow_list import allow_list, permit
+from .deploy import demo, deploy
 from .icons import add, seal
-from .launch import deploy
-from .look import list_, picture, show, verify
 from .owner import hand_over, phase, royalty, take_over, withdraw
+from .sale import mint, reveal, transfer
+from .show import list_, picture, show, verify
 
-token = typer.Typer(no_args_is_help=True, help="Collections of tokens whose pictures are computed on chain.")
+token = typer.Typer(no_args_is_help=True, help="Deploy and use collections of tokens whose pictures are on chain.")
 token.command()(deploy)
 token.command()(add)
 token.command()(seal)

@@ -1,4 +1,4 @@
-"""shackled token phase, withdraw, royalty, hand-over and take-over: what is the owner's"""
+"""shackled token phase, withdraw, royalty, hand-over and take-over: commands of the owner"""
 
 from __future__ import annotations
 
@@ -9,105 +9,80 @@ import typer
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import checksum_address, ether
+from ..chain_options import parse_checksum_address, with_groups
 from ..option import option
-from ..payer import open_signer
-from ..telling import tell
-from .common import PHASES, Account, Chain, Key, MaxFee, Rpc, Which, Yes, address, do, open_named, send
+from ..output import print_line
+from .options import PHASES, CollectionOptions, TokenPayerOptions
 
 
+@with_groups
 def phase(
     to: Annotated[str, typer.Argument(help=", ".join(PHASES) + ".", metavar="PHASE")],
-    which: Which = "genesis",
-    rpc: Rpc = None,
-    account: Account = None,
-    private_key_env: Key = None,
-    max_fee: MaxFee = None,
-    chain_id: Chain = None,
-    yes: Yes = False,
+    which: CollectionOptions,
+    payer: TokenPayerOptions,
 ) -> None:
-    """Say who may mint from now on; for the owner."""
+    """Set who may mint from now on. For the owner."""
     number = PHASES.index(choice(to, "the phase", PHASES))
-    collection = open_named(which, rpc, chain_id)
-    receipt = do(collection, account, private_key_env, max_fee, yes, f"the sale becomes {to}", "setPhase", number)
-    tell(f"{collection.name} is {collection.terms().phase_words}; {receipt.gas:,} gas")
+    collection = which.open()
+    receipt = payer.send(collection, f"set the sale to {to}", "setPhase", number)
+    print_line(f"{collection.name} is {collection.state().phase_name}; {receipt.gas:,} gas")
 
 
+@with_groups
 def withdraw(
-    to: Annotated[str | None, option("--to", "Who gets it; else the owner.", "ADDRESS")] = None,
-    which: Which = "genesis",
-    rpc: Rpc = None,
-    account: Account = None,
-    private_key_env: Key = None,
-    max_fee: MaxFee = None,
-    chain_id: Chain = None,
-    yes: Yes = False,
+    which: CollectionOptions,
+    payer: TokenPayerOptions,
+    to: Annotated[str | None, option("--to", "Receiver; default: the owner.", "ADDRESS")] = None,
 ) -> None:
-    """Fetch the ether of the sale; for the owner."""
-    collection = open_named(which, rpc, chain_id)
-    signer = open_signer(account, private_key_env)
-    receiver = str(signer.address) if to is None else address(to, "--to")
-    balance = collection.terms().balance
+    """Withdraw the ether of the sale. For the owner."""
+    collection = which.open()
+    receiver = str(payer.signer.address) if to is None else parse_checksum_address(to, "--to")
+    balance = collection.state().balance
     if not balance:
-        tell("there is nothing to withdraw")
+        print_line("there is nothing to withdraw")
         return
-    receipt = send(collection, signer, max_fee, yes, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
-    tell(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
+    receipt = payer.send(collection, f"send {ether(balance)} to {receiver}", "withdraw", receiver)
+    print_line(f"{ether(balance)} sent to {receiver}; {receipt.gas:,} gas")
 
 
+@with_groups
 def royalty(
-    percent: Annotated[float, typer.Argument(help="Of resales, 0 to 10.", metavar="PERCENT")],
-    receiver: Annotated[str | None, option("--receiver", "Whose they are; else whose they were.", "ADDRESS")] = None,
-    which: Which = "genesis",
-    rpc: Rpc = None,
-    account: Account = None,
-    private_key_env: Key = None,
-    max_fee: MaxFee = None,
-    chain_id: Chain = None,
-    yes: Yes = False,
+    percent: Annotated[float, typer.Argument(help="Share of the price of resales, 0 to 10.", metavar="PERCENT")],
+    which: CollectionOptions,
+    payer: TokenPayerOptions,
+    receiver: Annotated[str | None, option("--receiver", "Receiver; default: as it is.", "ADDRESS")] = None,
 ) -> None:
-    """Say what part of resales marketplaces are to pay, and to whom; for the owner."""
+    """Set the royalty that marketplaces are asked to pay on resales, and its receiver. For the owner."""
     parts = round(100 * number(percent, "the royalty", 0, 10))
-    given = None if receiver is None else address(receiver, "--receiver")
-    collection = open_named(which, rpc, chain_id)
-    whose = collection.terms().royalty_receiver if given is None else given
-    title = f"royalties of {parts / 100:g} % for {whose}"
-    receipt = do(collection, account, private_key_env, max_fee, yes, title, "setRoyalty", whose, parts)
-    tell(f"royalties are {parts / 100:g} % for {whose}; {receipt.gas:,} gas")
+    given = None if receiver is None else parse_checksum_address(receiver, "--receiver")
+    collection = which.open()
+    address = collection.state().royalty_receiver if given is None else given
+    title = f"set royalties of {parts / 100:g} % for {address}"
+    receipt = payer.send(collection, title, "setRoyalty", address, parts)
+    print_line(f"royalties are {parts / 100:g} % for {address}; {receipt.gas:,} gas")
 
 
+@with_groups
 def hand_over(
-    to: Annotated[str, typer.Argument(help="Who is to be the owner.", metavar="ADDRESS")],
-    which: Which = "genesis",
-    rpc: Rpc = None,
-    account: Account = None,
-    private_key_env: Key = None,
-    max_fee: MaxFee = None,
-    chain_id: Chain = None,
-    yes: Yes = False,
+    to: Annotated[str, typer.Argument(help="The new owner.", metavar="ADDRESS")],
+    which: CollectionOptions,
+    payer: TokenPayerOptions,
 ) -> None:
-    """Offer the collection to another owner, who then takes it over; for the owner."""
-    heir = address(to, "the new owner")
-    collection = open_named(which, rpc, chain_id)
-    title = f"offer it to {heir}"
-    receipt = do(collection, account, private_key_env, max_fee, yes, title, "transferOwnership", heir)
-    tell(f"{heir} can take it over: shackled token take-over; {receipt.gas:,} gas")
+    """Offer the collection to a new owner, who then takes it over. For the owner."""
+    address = parse_checksum_address(to, "the new owner")
+    collection = which.open()
+    receipt = payer.send(collection, f"offer it to {address}", "transferOwnership", address)
+    print_line(f"{address} can take it over: shackled token take-over; {receipt.gas:,} gas")
 
 
-def take_over(
-    which: Which = "genesis",
-    rpc: Rpc = None,
-    account: Account = None,
-    private_key_env: Key = None,
-    max_fee: MaxFee = None,
-    chain_id: Chain = None,
-    yes: Yes = False,
-) -> None:
+@with_groups
+def take_over(which: CollectionOptions, payer: TokenPayerOptions) -> None:
     """Become the owner of a collection that was offered to you."""
-    collection = open_named(which, rpc, chain_id)
-    signer = open_signer(account, private_key_env)
-    heir = checksum_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
-    if heir != str(signer.address):
-        offered = "to nobody" if int(heir, 16) == 0 else f"to {heir}"
-        raise InputError(f"{collection.name} is offered {offered}, not to {signer.address}")
-    receipt = send(collection, signer, max_fee, yes, "become its owner", "acceptOwnership")
-    tell(f"{collection.name} belongs to {collection.terms().owner}; {receipt.gas:,} gas")
+    collection = which.open()
+    signer = str(payer.signer.address)
+    pending = checksum_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
+    if pending != signer:
+        offered = "to nobody" if int(pending, 16) == 0 else f"to {pending}"
+        raise InputError(f"{collection.name} is offered {offered}, not to {signer}")
+    receipt = payer.send(collection, "become its owner", "acceptOwnership")
+    print_line(f"{collection.name} belongs to {collection.state().owner}; {receipt.gas:,} gas")

@@ -12,7 +12,7 @@ from ...chain import AddressBook
 from ...datasets import require
 from ...errors import InputError
 from ...ethereum import checksum_address, ether
-from ...tokens import KINDS, PHASES, Kind
+from ...tokens import KINDS, PHASES, CollectionKind
 from ..state import Source
 from .waiting import UnknownChainError, WalletError
 from .wallet import Wallet
@@ -34,7 +34,7 @@ Tell = Callable[[str], Awaitable[None]]
 class Offer:
     """What may be minted of an object. places: addresses of its collection, by chain."""
 
-    kind: Kind
+    kind: CollectionKind
     source: Source
     places: dict[int, bytes]
 

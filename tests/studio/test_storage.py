@@ -18,7 +18,15 @@ from shackled.datasets import teapot
 from shackled.errors import RenderError
 from shackled.ethereum import intrinsic_gas
 from shackled.scene import from_euler, pack, rotate, stage
-from shackled.studio import Storing, compress_zeros, expand, kept_at, on_grid, read_mesh, store_mesh, store_scene
+from shackled.studio import (
+    StoreTransaction,
+    compress_zeros,
+    quantize,
+    split_mesh,
+    storage_address,
+    store_mesh,
+    store_scene,
+)
 
 STUDIO = b"\x11" * 20
 
@@ -28,7 +36,7 @@ def world() -> World:
     return World()
 
 
-def happens(world: World, storings: list[Storing]) -> None:
+def happens(world: World, storings: list[StoreTransaction]) -> None:
     for storing in storings:
         # as much as it uses is not enough, since a call hands on all but a 64th
         if storing.size > 2000:
@@ -71,9 +79,10 @@ def test_a_large_mesh(world: World) -> None:
     assert [s.what for s in storings] == ["mesh, part 1 of 3", "mesh, part 2 of 3", "mesh, part 3 of 3", "mesh, joined"]
     happens(world, storings)
     world.chain._codes.update(world.codes)
-    kept = b"".join(world.codes[storing.pointer][1:] for storing in storings[:3])
-    assert storings[-1].pointer == kept_at(kept, world.address("Studio"))
-    assert read_mesh(storings[-1].pointer, world.chain) == expand(kept)
+    stored = b"".join(world.codes[storing.pointer][1:] for storing in storings[:3])
+    assert storings[-1].pointer == storage_address(stored, world.address("Studio"))
+    there = split_mesh(world.chain.ask("Studio", "mesh", storings[-1].pointer))
+    assert sorted(there.positions) == sorted(split_mesh(packed).positions)
 
 
 def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:
@@ -106,7 +115,7 @@ def test_zeros_are_compressed_as_they_are_decompressed(runs: list[tuple[int, int
 @pytest.mark.parametrize("bits", [4, 8, 16])
 def test_a_grid_leaves_objects_where_they_are(bits: int) -> None:
     o = Object(teapot(2), (3, -4, 5), from_euler((20, 30, 40)), 2.5)
-    gridded = on_grid(o, bits)
+    gridded = quantize(o, bits)
     positions = gridded.mesh.positions
     assert (positions % 1 == 0).all()
     assert np.ptp(positions, axis=0).max() <= 2**bits - 1
@@ -120,7 +129,7 @@ def test_a_grid_leaves_objects_where_they_are(bits: int) -> None:
 
 def test_a_grid_keeps_a_point() -> None:
     o = Object(Mesh([[1, 2, 3]] * 3, [[0, 1, 2]]))
-    assert np.array_equal(on_grid(o, 8).position, (1, 2, 3))
+    assert np.array_equal(quantize(o, 8).position, (1, 2, 3))
 
 
 def test_bad_input() -> None:

@@ -1,4 +1,4 @@
-"""What collections and the studio refuse, in words."""
+"""Explanations of the errors of collections and the Studio."""
 
 from __future__ import annotations
 
@@ -6,35 +6,34 @@ from collections.abc import Callable
 from typing import Any
 
 from ..artifacts import known_errors
-from ..chain import describe
+from ..chain import describe_revert
 from ..errors import RevertError
 from ..ethereum import decode_error, ether
 
-PHASES = ("closed", "open for the allow-list", "open for all")
+#: The phases of a sale, in the order of the contract's numbers.
+PHASES = ("closed", "open for the allow list", "open for all")
 
-#: A sentence for each error that users meet, of its values by their names.
+#: A sentence for each error that users may get, from its values by name.
 SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "WrongPhase": lambda v: f"the sale is {_phase(v['phase'])}; for this it must be {_phase(v['needed'])}",
     "Quantity": lambda v: f"a call mints 1 to {v['perTransaction']} tokens, not {v['quantity']}",
-    "Payment": lambda v: f"the price is {ether(v['due'])}, and {ether(v['sent'])} were sent",
-    "PaymentForNothing": lambda v: f"{ether(v['sent'])} were sent where nothing is to be paid",
-    "NotOnAllowList": lambda v: f"the account {v['account']} is not on the allow-list for {v['quantity']} tokens",
-    "AllowanceOfAnother": lambda v: f"the permission is one for {v['account']}, not for {v['sender']}",
-    "AllowanceExpired": lambda v: f"the permission ended at {v['deadline']} s of Unix time, and it is {v['time']}",
-    "AllowanceNotSigned": lambda v: (
-        f"the permission is not signed by {v['signer']}, who signs those of this collection"
-    ),
+    "Payment": lambda v: f"the price is {ether(v['due'])}, but {ether(v['sent'])} were sent",
+    "PaymentForNothing": lambda v: f"{ether(v['sent'])} were sent, but the call is free",
+    "NotOnAllowList": lambda v: f"the account {v['account']} is not on the allow list for {v['quantity']} tokens",
+    "AllowanceOfAnother": lambda v: f"the permission is for {v['account']}, not for {v['sender']}",
+    "AllowanceExpired": lambda v: f"the permission expired at {v['deadline']} s of Unix time, and it is {v['time']}",
+    "AllowanceNotSigned": lambda v: f"the permission is not signed by {v['signer']}, the signer of this collection",
     "AllowanceExceeded": lambda v: (
-        f"the allow-list allows the account {v['allowance']} in all: {v['minted']} minted, {v['quantity']} more wanted"
+        f"the allow list allows the account {v['allowance']} in all: {v['minted']} minted, {v['quantity']} more wanted"
     ),
     "NothingLeft": lambda v: (
         f"sold out: {v['quantity']} wanted, {v['left']} left"
         if v["left"]
         else f"sold out: {v['quantity']} wanted, none left"
     ),
-    "WithdrawalRefused": lambda v: f"{v['to']} does not take the {ether(v['amount'])}; choose another account",
+    "WithdrawalRefused": lambda v: f"{v['to']} does not accept the {ether(v['amount'])}; choose another account",
     "NameNotUtf8": lambda v: f"the name is not valid UTF-8 at byte {v['position']}",
-    "OwnerNeeded": lambda v: "a collection cannot be without an owner",
+    "OwnerNeeded": lambda v: "a collection needs an owner",
     "PerTransaction": lambda v: f"a call may mint 1 to 100 tokens, not {v['perTransaction']}",
     "Reserve": lambda v: f"the reserve can be 0 to {v['supply']} tokens, not {v['reserve']}",
     "Royalty": lambda v: f"royalties can be 0 to {v['highest'] / 100:g} %, not {v['royalty'] / 100:g} %",
@@ -43,35 +42,35 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "NotRevealed": lambda v: (
         f"token {v['tokenId']} is not revealed yet (round {v['round']}); run: shackled token reveal"
     ),
-    "NotSealed": lambda v: "the set of icons is not fixed yet: the owner must seal the collection first",
+    "NotSealed": lambda v: "the set of icons is not fixed yet: the owner has to seal the collection first",
     "AlreadySealed": lambda v: "the set of icons is fixed for ever: none can be added",
     "NoIcons": lambda v: "a collection without icons cannot be sealed",
     "UnknownIcon": lambda v: f"there is no icon {v['icon']}: there are {v['icons']}",
     "NameLength": lambda v: f"the name of an icon has 1 to {v['longest']} bytes, not {v['length']}",
-    "NothingKept": lambda v: f"no scene is kept at {v.get('scene', v.get('pointer'))}",
-    "NotAScene": lambda v: f"what is kept at {v['pointer']} is no scene",
-    "BlockToCome": lambda v: f"block {v['blockNumber']:,} is still to come",
-    "BlockForgotten": lambda v: f"the chain has forgotten the hash of block {v['blockNumber']:,}",
+    "NothingKept": lambda v: f"no scene is stored at {v.get('scene', v.get('pointer'))}",
+    "NotAScene": lambda v: f"the data stored at {v['pointer']} are not a scene",
+    "BlockToCome": lambda v: f"block {v['blockNumber']:,} is not mined yet",
+    "BlockForgotten": lambda v: f"the chain no longer knows the hash of block {v['blockNumber']:,}",
     "WrongHeader": lambda v: f"the header is not that of block {v['blockNumber']:,}",
-    "NoRandomness": lambda v: f"block {v['blockNumber']:,} has no randomness: this chain gives none",
+    "NoRandomness": lambda v: f"block {v['blockNumber']:,} has no randomness, which this chain does not provide",
     "OwnerQueryForNonexistentToken": lambda v: "there is no such token",
     "URIQueryForNonexistentToken": lambda v: "there is no such token",
     "TransferCallerNotOwnerNorApproved": lambda v: "the token belongs to another account",
     "TransferFromIncorrectOwner": lambda v: "the token belongs to another account",
     "TransferToZeroAddress": lambda v: "a token cannot be sent to the address 0",
-    "TransferToNonERC721ReceiverImplementer": lambda v: "the receiver is a contract that does not take tokens",
+    "TransferToNonERC721ReceiverImplementer": lambda v: "the receiver is a contract that does not accept tokens",
 }
 
 
-def in_words(error: RevertError) -> RevertError:
-    """Return the error with a sentence in place of what the node says, if its data is an error that is known."""
+def explained(error: RevertError) -> RevertError:
+    """Return a RevertError with an explanation as its message, if its data are those of a known error."""
     found = decode_error(error.data, known_errors())
     if found is None:
         return error
     name, values = found
     sentence = SENTENCES.get(name)
-    said = f"the contract refused: {describe(error.data)}" if sentence is None else sentence(values)
-    return RevertError(said, error.data)
+    message = f"the contract refused: {describe_revert(error.data)}" if sentence is None else sentence(values)
+    return RevertError(message, error.data)
 
 
 def _phase(number: int) -> str:

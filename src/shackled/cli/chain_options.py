@@ -1,0 +1,198 @@
+"""Options of the commands that use a node: which node, which account pays, and how much at most."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property, wraps
+from inspect import Parameter, Signature, signature
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+
+import typer
+
+from ..chain import PATIENCE, Connection
+from ..checks import number
+from ..errors import InputError
+from ..ethereum import at_most, checksum_address, ether, parse_address, roughly
+from ..untrusted import plain
+from .option import option
+from .output import print_line, print_note
+
+if TYPE_CHECKING:
+    from eth_account.signers.local import LocalAccount
+
+    from ..deploy import DeploymentStep, Quote, Receipt, Transactor
+
+#: The environment variable with the password of a keystore file.
+PASSWORD = "SHACKLED_PASSWORD"
+
+MaxFee = Annotated[
+    float | None,
+    option(
+        "--max-fee",
+        "Maximum price of a unit of gas, in gwei. Without it: twice the base fee and a tip of at most 3, and the "
+        "command stops if the node suggests a higher tip, reports no base fee, or estimates 10 times the usual gas.",
+        "GWEI",
+    ),
+]
+Json = Annotated[bool, option("--json", "Print JSON instead of text.")]
+
+
+@dataclass(frozen=True)
+class NodeOptions:
+    """The node that a command uses."""
+
+    rpc: Annotated[str | None, option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")] = None
+    chain_id: Annotated[int | None, option("--chain-id", "Stop unless the node belongs to this chain.", "N")] = None
+
+    def connect(self, timeout: float = PATIENCE) -> Connection:
+        """Return a connection to the node. timeout: seconds for an answer. InputError without --rpc.
+
+        WrongChainError if the node belongs to another chain than --chain-id.
+        """
+        if self.rpc is None or not self.rpc.strip():
+            raise InputError("--rpc is missing: the URL of a node of the chain, such as http://127.0.0.1:8545")
+        connection = Connection(self.rpc.split()[0], timeout, attempts=4)
+        connection.expect_chain(self.chain_id)
+        return connection
+
+
+@dataclass(frozen=True)
+class SignerOptions:
+    """The account that signs."""
+
+    account: Annotated[
+        Path | None,
+        option(
+            "--account", f"Keystore file of the account. Its password is asked for, or read from {PASSWORD}.", "FILE"
+        ),
+    ] = None
+    private_key_env: Annotated[
+        str | None, option("--private-key-env", "Environment variable with the private key of the account.", "NAME")
+    ] = None
+
+    @property
+    def is_given(self) -> bool:
+        """Whether an account was named."""
+        return self.account is not None or self.private_key_env is not None
+
+    def check(self) -> None:
+        """Raise InputError if two accounts were named."""
+        if self.account is not None and self.private_key_env is not None:
+            raise InputError("--account and --private-key-env exclude each other: give one of them")
+
+    @cached_property
+    def signer(self) -> LocalAccount:
+        """The account, opened once. InputError if none was named or it cannot be opened; messages never show a key."""
+        from ..deploy import environment_account, keystore_account, read_keystore
+
+        self.check()
+        if self.private_key_env is not None:
+            return environment_account(self.private_key_env)
+        if self.account is None:
+            raise InputError("nothing was sent: name an account with --account FILE or --private-key-env NAME")
+        read_keystore(self.account)
+        password = os.environ.get(PASSWORD)
+        if password is None:
+            if not sys.stdin.isatty():
+                raise InputError(f"there is no terminal to ask for the password of {self.account}: set {PASSWORD}")
+            password = typer.prompt(plain(f"password of {self.account}"), hide_input=True, err=True)
+        return keystore_account(self.account, password)
+
+
+@dataclass(frozen=True)
+class PayerOptions(SignerOptions):
+    """The account that signs and pays, the maximum price of gas, and whether to ask before sending."""
+
+    max_fee: MaxFee = None
+    yes: Annotated[bool, option("--yes -y", "Send without asking.")] = False
+
+    @property
+    def max_wei(self) -> int | None:
+        """The wei of --max-fee. InputError if it is out of range."""
+        return parse_max_fee(self.max_fee)
+
+    def transactor(self, connection: Connection) -> Transactor:
+        """Return a transactor of the account."""
+        from ..deploy import Transactor
+
+        max_fee = self.max_wei
+        return Transactor(connection, self.signer, max_fee=max_fee)
+
+    def confirm(self, transactor: Transactor, quotes: Sequence[Quote] = ()) -> None:
+        """Print the price of transactions, and ask for consent unless --yes was given.
+
+        InputError if there is no terminal to ask at, typer.Abort for no.
+        """
+        if quotes:
+            print_note(f"it costs {price(quotes)}")
+        if self.yes:
+            return
+        if not sys.stdin.isatty():
+            raise InputError("nothing was sent: there is no terminal to ask for consent; --yes sends without asking")
+        if not typer.confirm(plain(f"Shall {transactor.name} pay for it?"), err=True):
+            raise typer.Abort
+
+
+def with_groups(command: Callable[..., None]) -> Callable[..., None]:
+    """Return the command with the options of each group, a dataclass of options, in place of its parameter."""
+    groups: dict[str, Any] = {}
+    parameters: list[Parameter] = []
+    for each in signature(command, eval_str=True).parameters.values():
+        if is_dataclass(each.annotation):
+            groups[each.name] = each.annotation
+            hints = get_type_hints(each.annotation, include_extras=True)
+            for field in fields(each.annotation):
+                parameter = Parameter(field.name, Parameter.KEYWORD_ONLY, default=field.default)
+                parameters.append(parameter.replace(annotation=hints[field.name]))
+        else:
+            parameters.append(each.replace(kind=Parameter.KEYWORD_ONLY))
+
+    @wraps(command)
+    def whole(**values: Any) -> None:
+        for name, group in groups.items():
+            values[name] = group(**{field.name: values.pop(field.name) for field in fields(group)})
+        command(**values)
+
+    # typer reads both
+    whole.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    whole.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return whole
+
+
+def parse_max_fee(gwei: float | None) -> int | None:
+    """Return the wei of --max-fee. InputError if it is out of range."""
+    return None if gwei is None else max(1, round(number(gwei, "--max-fee", 1e-9, 1e9) * 10**9))
+
+
+def price(quotes: Sequence[Quote]) -> str:
+    """Return a sentence with the value, the estimated gas and the maximum cost of transactions."""
+    value = sum(each.call.value for each in quotes)
+    likely = sum(each.likely for each in quotes) - value
+    gas, counted = sum(each.expected for each in quotes), sum(each.call.gas for each in quotes)
+    return (
+        (f"{ether(value)} and " if value else "")
+        + f"about {roughly(likely)} for {gas:,} gas as the node estimates, {counted:,} as counted here; "
+        + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in all"
+    )
+
+
+def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: bool = False) -> None:
+    """Print what was deployed or stored, and the gas that it used."""
+    gas = sum(receipt.gas for receipt in receipts)
+    text = f"{step.name}: at {checksum_address(step.address)}, {gas:,} gas, transaction {receipts[-1].hash}"
+    (print_line if to_stdout else print_note)(text)
+
+
+def print_json(document: Any) -> None:
+    """Print a JSON document in one line."""
+    print(json.dumps(document, ensure_ascii=False))
+
+
+def parse_checksum_address(text: str, name: str) -> str:
+    """Return an address with its checksum. InputError, which names `name`, if it is invalid."""
+    return checksum_address(parse_address(text, name))

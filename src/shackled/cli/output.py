@@ -1,0 +1,35 @@
+"""Output of commands: results on stdout, notes on stderr, both safe for a terminal."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from ..untrusted import plain
+
+
+def print_line(text: str) -> None:
+    """Print a line of the result."""
+    print(plain(text), flush=True)
+
+
+def print_note(text: str) -> None:
+    """Print a line that is not part of the result."""
+    print(plain(text), file=sys.stderr, flush=True)
+
+
+def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, to_stderr: bool = False) -> None:
+    """Print a table. Columns whose last cell begins with a digit are aligned to the right."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    stream = sys.stderr if to_stderr else sys.stdout
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for number, title in enumerate(head):
+        is_number = number > 0 and bool(rows) and rows[-1][number][:1].isdigit()
+        table.add_column(title, justify="right" if is_number else "left")
+    for row in rows:
+        table.add_row(*(Text(plain(cell)) for cell in row))
+    # in a file, a row is as wide as it needs to be
+    Console(file=stream, width=None if stream.isatty() else 1000).print(table)

@@ -1,0 +1,138 @@
+"""shackled token show, list, picture and verify: commands that read"""
+
+from __future__ import annotations
+
+from itertools import chain
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import InputError, VerificationError
+from ...ethereum import amount, ether
+from ...image import check_output
+from ...whole_file import check_output_file, write_output
+from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
+from ..option import option
+from ..output import print_line, print_table
+from .options import MAX_NUMBER, PHASES, CollectionOptions
+
+
+@with_groups
+def show(
+    token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
+    which: CollectionOptions,
+    output: Annotated[
+        Path | None, option("-o --output", "File for the picture; in the token's own format, its very bytes.", "FILE")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Show a token: its traits, and its picture as a file, both from its `tokenURI`."""
+    from ...tokens import read_view
+
+    if output is not None:
+        check_output(output)
+    view = read_view(which.open(), token_id)
+    metadata = view.metadata
+    if output is not None:
+        metadata.save(output)
+    if as_json:
+        print_json(view.document() | {"document": metadata.document})
+        return
+    height, width = metadata.pixels.shape[:2]
+    rows = [
+        ("token", f"{metadata.name}" + ("" if view.revealed else ", not revealed yet")),
+        ("owner", view.owner),
+        *((key.lower(), str(value)) for key, value in metadata.traits.items()),
+        ("gas", "unknown" if view.gas is None else f"{view.gas:,} for the whole tokenURI, {metadata.length:,} bytes"),
+        ("picture", f"{width} x {height} pixels" + ("" if output is None else f", in {output}")),
+    ]
+    width = max(len(key) for key, _ in rows)
+    for key, value in rows:
+        print_line(f"{key:{width}}  {value}")
+
+
+@with_groups
+def list_(which: CollectionOptions, as_json: Json = False) -> None:
+    """List the tokens with owners and traits, and the state of the collection."""
+    from ...tokens import icons_of, read_views
+
+    collection = which.open()
+    state = collection.state()
+    icons = [] if collection.kind.hidden else icons_of(collection)
+    views = list(read_views(collection))
+    if as_json:
+        print_json(
+            {
+                "collection": state.name,
+                "address": collection.address,
+                "chain_id": collection.connection.chain_id,
+                "owner": state.owner,
+                "phase": PHASES[state.phase],
+                "minted": state.minted,
+                "balance": amount(state.balance),
+                "icons": [each.document() for each in icons],
+                "tokens": [each.summary() for each in views],
+            }
+        )
+        return
+    print_line(f"{state.name} at {collection.address}: {state.phase_name}, {state.minted:,} minted")
+    print_line(f"owner {state.owner}, {ether(state.balance)} to withdraw, royalties {state.royalty / 100:g} %")
+    if icons:
+        print()
+        rows = [(str(e.number), e.name, amount(e.price), str(e.supply), str(e.left), e.scene) for e in icons]
+        print_table(("icon", "name", "ether", "supply", "left", "scene"), rows)
+        print()
+    traits = list(dict.fromkeys(key for each in views if each.revealed for key in each.metadata.traits))
+    print_table(("token", "owner", "revealed", *traits), [each.row(traits) for each in views])
+
+
+@with_groups
+def picture(
+    pointer: Annotated[
+        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
+    ],
+    node: NodeOptions,
+    output: Annotated[Path, option("-o --output", "File for the picture, .png.", "FILE")],
+    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
+) -> None:
+    """Have a chain draw a scene that is stored there, as a PNG file that contracts make."""
+    from ...studio import STUDIO
+    from ...tokens import Contract, address_of, parts_of
+
+    place = parse_checksum_address(pointer, "the pointer")
+    if output.suffix.lower() != ".png":
+        raise InputError(f"the picture {output} must end in .png")
+    check_output_file(output, "picture")
+    studio = Contract(node.connect(), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
+    call = ("renderPNG(address,uint256)", place, scale)
+    content = studio.call(*call)
+    write_output(output, content)
+    gas = studio.gas(*call)
+    print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
+
+
+@with_groups
+def verify(
+    which: CollectionOptions,
+    numbers: Annotated[list[int] | None, typer.Argument(help="Tokens; default: all.", metavar="[ID]...")] = None,
+) -> None:
+    """Compare the code, the seeds and the pictures of a collection with those computed here."""
+    from ...deploy import local_chain
+    from ...tokens import check_code, check_token
+
+    collection = which.open()
+    local = local_chain()
+    failed = unread = 0
+    wanted = range(collection.minted()) if not numbers else [collection.token(each).number for each in numbers]
+    for check in chain(check_code(collection), (check_token(collection, each, local) for each in wanted)):
+        failed += bool(check.failure)
+        unread += bool(check.unread)
+        verdict = "WRONG" if check.failure else "unread" if check.unread else "ok"
+        reason = check.failure or check.unread
+        print_line(f"{verdict:6} {check.what}" + (f": {reason}" if reason else ""))
+    not_read = f"{unread} of the tokens could not be read, so they were not checked"
+    if failed:
+        raise VerificationError(f"{failed} of the checks failed" + (f", and {not_read}" if unread else ""))
+    if unread:
+        raise VerificationError(f"no check failed, but {not_read}: use a node that gives calls more gas")

@@ -1,0 +1,63 @@
+"""Stored scenes, read from an untrusted node: the address of each part is a hash of its bytes."""
+
+from __future__ import annotations
+
+from ..chain import Connection
+from ..errors import VerificationError
+from ..ethereum import checksum_address
+from ._storage import PARTS, POINTED, SCENE, scene_struct, storage_address
+
+
+def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[bytes, bytes]:
+    """Return code by address of all parts of a stored scene: the scene, its meshes, and their parts.
+
+    Raises VerificationError if a part is missing or its bytes do not belong to its address.
+    """
+    codes: dict[bytes, bytes] = {}
+
+    def read(place: bytes) -> bytes:
+        """Return the bytes stored at an address, joined from their parts."""
+        code = connection.code(place)
+        if not code:
+            raise VerificationError(f"nothing is stored at {checksum_address(place)}")
+        # the first byte is a STOP instruction; the bytes after it determine the address
+        if code[:1] != b"\0" or storage_address(code[1:], studio) != place:
+            raise VerificationError(f"the bytes at {checksum_address(place)} do not belong to that address")
+        codes[place] = code
+        data = code[1:]
+        if data[:1] != bytes([PARTS]):
+            return data
+        return b"".join(read(data[at : at + 20]) for at in range(1, len(data), 20))
+
+    for mesh in stored_meshes(read(pointer)):
+        if mesh[:1] == bytes([POINTED]):
+            read(mesh[1:])
+    return codes
+
+
+def stored_meshes(data: bytes) -> list[bytes]:
+    """Return the field `mesh` of each object of a stored scene. Raises VerificationError if the bytes are invalid."""
+    from eth_abi.abi import decode
+    from eth_abi.exceptions import DecodingError
+
+    if data[:1] != bytes([SCENE]):
+        raise VerificationError("the stored bytes are not a scene")
+    try:
+        (struct,) = decode([scene_struct()], expand_zeros(data[1:]))
+    except (DecodingError, IndexError, OverflowError) as error:
+        raise VerificationError(f"the stored bytes are not a complete scene: {error}") from None
+    *_, objects, _ = struct
+    return [each[0] for each in objects]
+
+
+def expand_zeros(data: bytes) -> bytes:
+    """Decompress the result of `compress_zeros`."""
+    result = bytearray()
+    source = iter(bytes(value ^ 255 for value in data[:4]) + data[4:])
+    for value in source:
+        if value:
+            result.append(value)
+            continue
+        run = next(source, 0)
+        result += (b"\xff" if run & 128 else b"\0") * ((run & 127) + 1)
+    return bytes(result)

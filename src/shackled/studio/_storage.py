@@ -1,0 +1,193 @@
+"""Storage of meshes and scenes in the Studio: transactions, and the addresses and gas that follow from the bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from attrs import evolve
+
+from ..artifacts import artifact
+from ..chain import ContractChain, open_chain
+from ..errors import InputError
+from ..ethereum import create2_address, intrinsic_gas, word
+from ..scene import Object, Scene, encode_scene, fit, pack, rotate
+from ._compact_mesh import compact
+
+STUDIO = "Studio"
+
+#: Maximum size of a part: a contract of 24,576 bytes, less the STOP instruction in front.
+MAX_PART = 24575
+#: First bytes of stored data (contracts/src/mesh/Kinds.sol): a list of parts, a pointer to a mesh, a scene.
+PARTS = 0x13
+POINTED = 0x12
+SCENE = 0x20
+
+
+@dataclass(frozen=True)
+class StoreTransaction:
+    """A transaction to the Studio.
+
+    what: description. data: of the call. pointer: the address at which the bytes are stored. content: these bytes.
+    gas: of the whole transaction if none of it is stored yet.
+    """
+
+    what: str
+    data: bytes
+    pointer: bytes
+    content: bytes
+    gas: int
+
+    @property
+    def size(self) -> int:
+        """Number of stored bytes."""
+        return len(self.content)
+
+    @property
+    def code(self) -> bytes:
+        """Code at the pointer: a STOP instruction, then the stored bytes."""
+        return b"\0" + self.content
+
+    @property
+    def gas_limit(self) -> int:
+        """Gas limit of the transaction, more than it uses, since a call passes on all but a 64th."""
+        return self.gas * 21 // 20
+
+
+def store_scene(
+    scene: Scene,
+    studio: bytes,
+    position_bits: int | None = None,
+    normal_bits: int = 10,
+    chain: ContractChain | None = None,
+) -> list[StoreTransaction]:
+    """Return the transactions that store a scene: each of its meshes once, then the scene, whose pointer is the last.
+
+    studio: address of the Studio, 20 bytes. position_bits: round vertices to a grid of 2^position_bits steps across
+    the longest side of each mesh, 4 to 16; None is exact. normal_bits: see `compact`. chain: where gas is counted;
+    None uses the embedded EVM.
+    """
+    _check_address(studio)
+    if position_bits is not None:
+        scene = evolve(scene, objects=[quantize(o, position_bits) for o in scene.objects])
+    fitted = fit(scene)
+    meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
+    result: list[StoreTransaction] = []
+    interface = artifact(STUDIO).interface
+    for number, mesh in enumerate(dict.fromkeys(meshes), 1):
+        result += _transactions(f"mesh {number}", mesh, interface.encode("storeMesh", mesh), studio, chain)
+    struct = encode_with_pointers(fitted, [storage_address(mesh, studio) for mesh in meshes])
+    data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
+    # the ABI encodes a struct after its own offset
+    content = bytes([SCENE]) + compress_zeros(word(32) + struct)
+    return result + _transactions("scene", content, data, studio, chain)
+
+
+def store_mesh(
+    packed: bytes, studio: bytes, normal_bits: int = 10, chain: ContractChain | None = None
+) -> list[StoreTransaction]:
+    """Return the transactions that store a packed mesh, usually one. The pointer of the last is that of the mesh."""
+    _check_address(studio)
+    mesh = compact(packed, normal_bits)
+    return _transactions("mesh", mesh, artifact(STUDIO).interface.encode("storeMesh", mesh), studio, chain)
+
+
+def storage_address(data: bytes, studio: bytes) -> bytes:
+    """Return the address at which a Studio stores these bytes."""
+    if len(data) <= MAX_PART:
+        return _created(data, studio)
+    return _created(_part_list(_parts(data), studio), studio)
+
+
+def quantize(o: Object, bits: int) -> Object:
+    """Round the vertices of an object to a grid of 2^bits steps across its longest side; it stays in place.
+
+    The error is at most half a step along each axis. Normals are those of the original mesh.
+    """
+    if not 4 <= bits <= 16:
+        raise InputError(f"a grid has 4 to 16 bits a side, not {bits}")
+    positions = o.mesh.positions
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    center = (low + high) / 2
+    step = float((high - low).max()) / ((1 << bits) - 2) or 1.0
+    mesh = evolve(o.mesh, positions=np.rint((positions - center) / step))
+    place = o.position + rotate(o.rotation, center * o.scale)
+    return evolve(o, mesh=mesh, position=place, scale=o.scale * step)
+
+
+def encode_with_pointers(scene: Scene, pointers: Sequence[bytes]) -> bytes:
+    """Encode the struct of a scene that `fit` made, with pointers in place of its meshes."""
+    from eth_abi.abi import decode, encode
+
+    kind = scene_struct()
+    (struct,) = decode([kind], word(32) + encode_scene(scene))
+    *others, objects, extensions = struct
+    pointed = [(bytes([POINTED]) + pointer, *o[1:]) for o, pointer in zip(objects, pointers, strict=True)]
+    return encode([kind], [(*others, pointed, extensions)])[32:]
+
+
+def scene_struct() -> str:
+    """Return the ABI type of the contracts' struct Scene, for eth_abi."""
+    return artifact(STUDIO).interface.parameter_type("storeScene")
+
+
+def compress_zeros(data: bytes) -> bytes:
+    """Compress like LibZip.cdCompress of solady: runs of 0x00 and 0xff in two bytes, the first four bytes negated."""
+    result = bytearray()
+    at = 0
+    while at < len(data):
+        value, most = data[at], {0: 128, 255: 32}.get(data[at], 1)
+        end = at + 1
+        while end < len(data) and end - at < most and data[end] == value:
+            end += 1
+        result += bytes([value]) if most == 1 else bytes([0, (value & 128) + end - at - 1])
+        at = end
+    return bytes(value ^ 255 for value in result[:4]) + bytes(result[4:])
+
+
+def _check_address(address: bytes) -> None:
+    if len(address) != 20:
+        raise InputError(f"an address has 20 bytes, not {len(address)}")
+
+
+def _parts(data: bytes) -> list[bytes]:
+    return [data[at : at + MAX_PART] for at in range(0, len(data), MAX_PART)]
+
+
+def _transactions(
+    what: str, content: bytes, data: bytes, studio: bytes, chain: ContractChain | None
+) -> list[StoreTransaction]:
+    if len(content) <= MAX_PART:
+        return [_transaction(what, data, content, studio, chain)]
+    parts, interface = _parts(content), artifact(STUDIO).interface
+    result = [
+        _transaction(f"{what}, part {number} of {len(parts)}", interface.encode("storePart", part), part, studio, chain)
+        for number, part in enumerate(parts, 1)
+    ]
+    content = _part_list(parts, studio)
+    joining = interface.encode("join", [each.pointer for each in result])
+    # an estimate, since the parts are not there yet: a contract of the size of the list, and reading each part
+    gas = (
+        intrinsic_gas(joining) + 32_000 + 200 * (len(content) + 1) + 2_600 * (len(parts) + 1) + 3_000 + 400 * len(parts)
+    )
+    return [*result, StoreTransaction(f"{what}, joined", joining, _created(content, studio), content, gas)]
+
+
+def _transaction(
+    what: str, data: bytes, content: bytes, studio: bytes, chain: ContractChain | None
+) -> StoreTransaction:
+    chain = chain or open_chain()  # type: ignore[assignment]
+    assert isinstance(chain, ContractChain)
+    result = chain.call(STUDIO, data)
+    return StoreTransaction(what, data, _created(content, studio), content, result.gas + result.intrinsic_gas)
+
+
+def _part_list(parts: Sequence[bytes], studio: bytes) -> bytes:
+    return bytes([PARTS]) + b"".join(_created(part, studio) for part in parts)
+
+
+def _created(data: bytes, studio: bytes) -> bytes:
+    """Return the address that CREATE2 gives the contract with the data (solady's SSTORE2)."""
+    code = bytes.fromhex("61") + (len(data) + 1).to_bytes(2, "big") + bytes.fromhex("80600a3d393df300") + data
+    return create2_address(code, creator=studio)
