@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Unpack
+
 from shackled import Camera, Light, Material, Object, Scene
 from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh
 from shackled.datasets import teapot
-from shackled.scene import Look, Shading, from_euler, stage
+from shackled.scene import LookOptions, Shading, from_euler, stage
 
 #: About a thousand triangles, as the models of the cost table have.
 TEAPOT = teapot(4)
@@ -29,11 +31,9 @@ def room(size: int) -> Scene:
     return Scene([walls], Camera(), (lamp,), NIGHT, width=size, height=size)
 
 
-def staged_teapot(shading: Shading, size: int | tuple[int, int], **look: object) -> Scene:
-    """Stage the teapot as `shackled render` does; `look` changes fields of its Look."""
-    width, height = (size, size) if isinstance(size, int) else size
-    material = Material(shading, 0.25, 0.75, 0.3, 24)
-    return stage(TEAPOT, Look(width, height, material=material, **look))  # type: ignore[arg-type]
+def staged_teapot(kind: Shading, size: int | tuple[int, int], **look: Unpack[LookOptions]) -> Scene:
+    """Stage the teapot as `shackled render` does, with a look."""
+    return stage(TEAPOT, size, material=Material(kind, 0.25, 0.75, 0.3, 24), **look)
 
 
 def empty(size: int) -> Scene:

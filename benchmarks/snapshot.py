@@ -72,7 +72,7 @@ def own_figures() -> Figures:
         "teapot, four lights, 128": evolve(staged_teapot("flat", 128), lights=FOUR_LIGHTS),
         "teapot, four lights, smooth, 128": evolve(staged_teapot("smooth", 128), lights=FOUR_LIGHTS),
         "teapot, inverted, 128": staged_teapot("flat", 128, invert=True),
-        "teapot, orthographic, 128": staged_teapot("flat", 128, projection="orthographic"),
+        "teapot, orthographic, 128": staged_teapot("flat", 128, orthographic=True),
     }
     for size in (128, 256):
         for shading in ("flat", "smooth", "unlit"):

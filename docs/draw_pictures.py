@@ -12,7 +12,7 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from attrs import evolve
@@ -24,7 +24,7 @@ from shackled.datasets import Piece, teapot
 from shackled.datasets.common import builtin
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.scene import Look, from_euler, resize, stage
+from shackled.scene import LookOptions, resize, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 
@@ -36,24 +36,25 @@ CREAM = Background("#f3e9dc", "#c7b8a6")
 NIGHT = Background("#10141f", "#2a3550")
 KEY = Light("directional", (-0.2, 0.8, 0.9), "#fff6ea")
 CLAY = "#c8553d"
+UNLIT = Material("unlit")
 GLAZED = Material("smooth", ambient=0.25, diffuse=0.85, specular=0.6, shininess=30)
 
 
-def pot(divisions: int, look: Look) -> Scene:
+def pot(divisions: int, size: int, material: Material, **look: Unpack[LookOptions]) -> Scene:
     """The teapot, its spout to the right."""
-    return stage(teapot(divisions), evolve(look, rotation=from_euler((0, 12, 0)), azimuth=30, elevation=20))
+    posed: LookOptions = {"rotate": (0, 12, 0), "azimuth": 30, "elevation": 20, **look}
+    return stage(teapot(divisions), size, material=material, **posed)
 
 
 def smooth() -> Image:
     """What `make demo` draws."""
-    lights = [Light("directional", (-0.2, 0.8, 0.9))]
-    return render(pot(8, Look(256, 256, color=CLAY, material=GLAZED, lights=lights, background=CREAM, cull=True)))
+    light = Light("directional", (-0.2, 0.8, 0.9))
+    return render(pot(8, 256, GLAZED, color=CLAY, lights=light, background=CREAM, cull=True))
 
 
 def wireframe() -> Image:
     """Its edges."""
-    unlit = Material("unlit")
-    return render(pot(4, Look(256, 256, color="#ffb35c", material=unlit, background=NIGHT, wireframe=True, cull=True)))
+    return render(pot(4, 256, UNLIT, color="#ffb35c", background=NIGHT, wireframe=True, cull=True))
 
 
 def still_life() -> Image:
@@ -68,7 +69,6 @@ def still_life() -> Image:
 
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
-    base = Look(128, 128, color="#3f8fb5", lights=[KEY], background=NIGHT)
     flat = evolve(GLAZED, shading="flat")
     dim = evolve(GLAZED, ambient=0.1, diffuse=0.75)
     lamps = [
@@ -76,21 +76,26 @@ def strip() -> list[Image]:
         Light("point", (2.5, 2.5, 2), "#40a0ff"),
         Light("point", (0, -2, 3), "#50ff70"),
     ]
-    looks = [
-        evolve(base, wireframe=True, cull=True, color="#7fd6c2", material=Material("unlit")),
-        evolve(base, material=Material("unlit")),
-        evolve(base, material=flat),
-        evolve(base, material=GLAZED),
-        evolve(base, material=dim, color="#d8d8d8", lights=lamps),
-        evolve(base, material=GLAZED, invert=True),
+    base = LookOptions(color="#3f8fb5", lights=KEY, background=NIGHT)
+    looks: list[tuple[Material, LookOptions]] = [
+        (UNLIT, {"wireframe": True, "cull": True, "color": "#7fd6c2"}),
+        (UNLIT, {}),
+        (flat, {}),
+        (GLAZED, {}),
+        (dim, {"color": "#d8d8d8", "lights": lamps}),
+        (GLAZED, {"invert": True}),
     ]
-    return [render(pot(4, look)) for look in looks]
+    images = []
+    for material, look in looks:
+        whole: LookOptions = {**base, **look}
+        images.append(render(pot(4, 128, material, **whole)))
+    return images
 
 
 def spin() -> Animation:
     """A turntable, small enough for a page."""
-    look = Look(160, 160, color=CLAY, material=GLAZED, lights=[KEY], background=CREAM, cull=True)
-    return turntable(pot(6, look), 24, duration=80)
+    pose = pot(6, 160, GLAZED, color=CLAY, lights=KEY, background=CREAM, cull=True)
+    return turntable(pose, 24, duration=80)
 
 
 def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Image, list[int]]:

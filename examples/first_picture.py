@@ -33,4 +33,4 @@ scene = Scene(
 
 image = render(scene, size=(192, 144))
 image.save("first_picture.png")
-print(f"{image.width} x {image.height} pixels, {image.triangles:,} triangles: {image.gas:,} gas on {image.chain}")
+print(f"{image.width} x {image.height} pixels, {image.triangles:,} triangles: {image.gas:,} gas on {image.made_by}")

@@ -32,7 +32,7 @@ def wall(z: float, size: float, color: tuple[int, int, int]) -> Mesh:
 def both(first: Mesh, second: Mesh) -> Mesh:
     return soup(
         [m.positions[face] for m in (first, second) for face in np.asarray(m.faces)],
-        [np.asarray(m.colors)[face[0]] for m in (first, second) for face in np.asarray(m.faces)],
+        [m.colors[face[0]] for m in (first, second) for face in np.asarray(m.faces)],
     )
 
 

@@ -66,7 +66,7 @@ def test_scene_file(tmp_path: Path) -> None:
     assert [is_closed(o.mesh) for o in scene.objects if o.cull] == [True, True, True, False]
     image = render(scene, size=(48, 36))
     assert (image.triangles or 0) > 5000
-    assert (image.lit_pixels or 0) > 1000
+    assert (image.covered_pixels or 0) > 1000
 
 
 def test_meshes_are_written_where_they_are_wanted(tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_call_from_contract() -> None:
     finally:
         del chain._codes[address]
     image = render(tetrahedron_scene(-25))
-    assert (image.lit_pixels or 0) > 500
+    assert (image.covered_pixels or 0) > 500
     # the mesh and the numbers of a scene are rounded in another way here
     difference = np.abs(decode_bmp(bitmap, 64, 64).astype(int) - image.pixels)
     assert np.mean(difference.max(axis=2) > 2) < 0.01

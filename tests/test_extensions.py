@@ -140,7 +140,7 @@ def test_the_nearest_surface_is_seen_once(cull: bool, wireframe: bool) -> None:
 def test_the_order_of_faces_makes_no_difference() -> None:
     expected = pixels(scene_of(box(0.4, cull=False)))
     for seed in range(5):
-        faces = np.random.default_rng(seed).permutation(np.asarray(BOX.faces))
+        faces = np.random.default_rng(seed).permutation(BOX.faces)
         assert (pixels(scene_of(box(0.4, cull=False, mesh=evolve(BOX, faces=faces)))) == expected).all()
 
 

@@ -52,8 +52,8 @@ def test_render_fills_every_field(image: Image) -> None:
     assert image.intrinsic_gas is not None
     assert image.intrinsic_gas > 21_000
     assert image.triangles == 1
-    assert image.lit_pixels == np.count_nonzero(image.pixels.any(axis=2))
-    assert image.chain.startswith("embedded EVM (")
+    assert image.covered_pixels == np.count_nonzero(image.pixels.any(axis=2))
+    assert image.made_by.startswith("embedded EVM (")
     assert image.seconds > 0
 
 
@@ -138,7 +138,7 @@ def test_images_are_values(image: Image) -> None:
     other = evolve(image, seconds=9.0)
     assert image == other
     assert hash(image) == hash(other)
-    for changes in ({"pixels": 255 - image.pixels}, {"gas": 1}, {"chain": "nowhere"}, {"scene": None}):
+    for changes in ({"pixels": 255 - image.pixels}, {"gas": 1}, {"made_by": "nowhere"}, {"scene": None}):
         assert evolve(image, **changes) != image
     with pytest.raises(ValueError, match="read-only"):
         image.pixels[0, 0] = 5
@@ -210,11 +210,11 @@ def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
     run = chain._run
     monkeypatch.setattr(chain, "_run", counted)
     image = render(SCENE, on=chain)
-    assert (image.triangles, image.lit_pixels) == expected
+    assert (image.triangles, image.covered_pixels) == expected
     assert made == [artifact("Renderer").selectors["render"]]
     made.clear()
     image = render(SCENE, on=chain, tile=(37, 7))
-    assert (image.triangles, image.lit_pixels) == expected
+    assert (image.triangles, image.covered_pixels) == expected
     assert [each for each in made if each == artifact("Renderer").selectors["renderTile"]] == made
     assert len(made) == 3
 

@@ -163,7 +163,7 @@ def test_the_numbers_of_these_scenes_are_those_of_the_contracts(scene: Scene) ->
     fitted = fit(scene)
     for one, other in zip(scene.objects, fitted.objects, strict=True):
         assert one.scale == other.scale
-        assert (np.asarray(one.position) == np.asarray(other.position)).all()
+        assert (one.position == other.position).all()
 
 
 # ---- what must hold ----

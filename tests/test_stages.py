@@ -14,7 +14,7 @@ from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, r
 from shackled.chain import open_chain
 from shackled.cli.app import run
 from shackled.datasets import teapot
-from shackled.scene import Look, stage
+from shackled.scene import stage
 from shackled.stages import Stage, draw_stages, nothing, strip
 
 REFERENCE = open_chain("reference")
@@ -55,7 +55,7 @@ def test_a_triangle_becomes_a_picture() -> None:
     assert inside[18, 12]
     assert drawn(triangles, of)[8:24, 7:9].any(axis=1).all()
     # 16 x 16 / 2, by the fill rule
-    assert inside.sum() == render(of, on=REFERENCE).lit_pixels
+    assert inside.sum() == render(of, on=REFERENCE).covered_pixels
     assert (drawn(lit, of) == inside).all()
     # light darkens, and the picture is light over the background
     assert lit.pixels[inside].sum() < filled.pixels[inside].sum() * 2.3
@@ -64,13 +64,13 @@ def test_a_triangle_becomes_a_picture() -> None:
 
 
 def test_the_picture_is_the_one_that_render_makes() -> None:
-    of = stage(teapot(2), Look(48, 40, invert=True))
+    of = stage(teapot(2), (48, 40), invert=True)
     stages = draw_stages(of)
     image = render(of)
     assert (stages[-1].pixels == image.pixels).all()
     assert f"{image.gas:,} gas" in stages[-1].detail
     assert f"{image.triangles:,} triangles" in stages[2].detail
-    assert f"{image.lit_pixels:,} pixels" in stages[3].detail
+    assert f"{image.covered_pixels:,} pixels" in stages[3].detail
     assert len({each.pixels.tobytes() for each in stages}) == 6
     # inversion belongs to the last stage
     inside = drawn(stages[4], of)

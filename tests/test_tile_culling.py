@@ -31,7 +31,7 @@ def objects(scene: Scene, **changes: Any) -> Scene:
 
 def inside(scene: Scene) -> Scene:
     """The eye in the middle of the teapot: faces on all sides of it, behind it, and across the near plane."""
-    middle = np.asarray(scene.objects[0].mesh.positions).mean(axis=0) + np.asarray(scene.objects[0].position)
+    middle = scene.objects[0].mesh.positions.mean(axis=0) + np.asarray(scene.objects[0].position)
     camera = evolve(scene.camera, eye=np.add(middle, (0.1, 0.2, 0.3)), target=np.add(middle, (5, 1, -2)), near=0.01)
     return objects(evolve(scene, camera=camera), cull=False)
 
@@ -78,7 +78,7 @@ def test_tiles_are_parts_and_count_as_the_reference_does(name: str) -> None:
 def moved(scene: Scene, *places: tuple[float, float, float]) -> Scene:
     """The first object, at other places too."""
     (thing, *_) = scene.objects
-    return evolve(scene, objects=[evolve(thing, position=np.asarray(thing.position) + place) for place in places])
+    return evolve(scene, objects=[evolve(thing, position=thing.position + place) for place in places])
 
 
 def word(data: bytes, position: int) -> int:
@@ -112,7 +112,7 @@ def test_a_call_without_padding_at_its_end() -> None:
     first, second = moved(flat(teapot_scene(1)), (0, 0, 0), (0.5, 0, 0)).objects
     mesh = second.mesh
     for faces in range(200, 208):
-        few = evolve(second, mesh=evolve(mesh, faces=np.asarray(mesh.faces)[:faces]))
+        few = evolve(second, mesh=evolve(mesh, faces=mesh.faces[:faces]))
         scene = ready(evolve(flat(teapot_scene(1)), objects=[first, few]))
         whole = draw(scene)
         tile = Rectangle(20, 30, 20, 20)
@@ -152,4 +152,4 @@ def test_a_tile_that_shows_nothing_costs_little() -> None:
         scene = SCENES[name]()
         mesh = scene.objects[0].mesh
         gas = call("renderTile", scene, Rectangle(0, 0, 20, 20)).gas
-        assert gas <= CALL + VERTEX * len(np.asarray(mesh.positions)) + FACE * len(np.asarray(mesh.faces)), name
+        assert gas <= CALL + VERTEX * len(mesh.positions) + FACE * len(mesh.faces), name

@@ -9,7 +9,7 @@ scene = shackled.load("tetrahedron", size=32)
 first = shackled.render(scene, on="pyevm")
 second = shackled.render(scene, on="reference")
 difference = np.abs(np.asarray(first, dtype=int) - np.asarray(second, dtype=int))
-print(f"{first.chain} and {second.chain}: {difference.max()} levels apart")
+print(f"{first.made_by} and {second.made_by}: {difference.max()} levels apart")
 
 first.save("tetrahedron.png")
 with Image.open("tetrahedron.png") as decoded:

@@ -10,4 +10,4 @@ try:
 except shackled.ChainError as error:
     raise SystemExit(f"the node cannot render: {error}") from None
 assert image.gas == shackled.render("cube", size=32).gas
-print(f"{image.gas:,} gas, {image.chain}")
+print(f"{image.gas:,} gas, {image.made_by}")

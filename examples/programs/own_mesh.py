@@ -20,4 +20,4 @@ colors = np.column_stack([height, np.full_like(height, 0.4), 1 - height])  # flo
 mesh = shackled.Mesh(vertices, faces, colors)
 image = shackled.render(mesh, size=64, smooth=True, elevation=35)
 image.save("waves.png")
-print(f"{mesh.triangles} triangles, {image.lit_pixels} lit pixels")
+print(f"{mesh.triangles} triangles, {image.covered_pixels} lit pixels")

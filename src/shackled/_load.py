@@ -1,4 +1,4 @@
-"""A scene of whatever is given: a file, a piece of a dataset, a mesh, arrays, or something of trimesh."""
+"""Scenes from files, pieces of datasets, meshes, arrays, and objects of trimesh."""
 
 from __future__ import annotations
 
@@ -23,39 +23,36 @@ from .scene import (
     mesh_of,
     objects_of,
     read_mesh,
+    read_scene,
 )
-from .scene import load as load_file
 
-#: What a scene can be made of. `Any`: vertices and faces as arrays, or a mesh or scene of trimesh, which need not be
-#: installed.
+#: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
 
 
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
-    """Return the scene of a file, a piece of a dataset, a mesh or anything else that can be drawn.
+    """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 
     thing: the path of a mesh or scene file; the name of a piece, such as "teapot" or "genesis/12" (a file wins over a
     piece of the same name); a Mesh; an Object, or a list of these; (vertices, faces) or (vertices, faces, colors), (n,
-    3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene. A mesh is set up so that it fills the picture; what
-    says itself how it looks keeps that, but for what is set.
-    size: side of a square picture, or (width, height), in pixels; None takes the scene's, or 128.
-    look: what is to be different, by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30,
-    0), background="white", fov=40.
-    InputError, one line, if there is no such thing or anything is wrong with it.
+    3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene. A mesh is staged so that it fills the picture; a
+    scene keeps its look except for the given settings.
+    size: side of a square picture, or (width, height), in pixels; None for the scene's, or 128.
+    look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
+    background="white", fov=40.
+    InputError, one line, if the input does not exist or is not valid.
     """
     chosen = checked_look({"size": size, **look})
     found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
     if isinstance(found, Path):
-        if found.suffix.lower() not in READERS:
-            return look_at(load_file(found), chosen)
-        mesh = read_mesh(found)
+        read = read_mesh(found) if found.suffix.lower() in READERS else read_scene(found)
         with about(str(found)):
-            return look_at(mesh, chosen)
+            return look_at(read, chosen)
     return look_at(_made(found, chosen), chosen)
 
 
 def locate(input: str | os.PathLike[str]) -> Path | Piece:
-    """Return the file, or else the piece, that is meant. InputError if there is neither."""
+    """Return the path of a file, or else the piece of that name. InputError if there is neither."""
     path = Path(input)
     name = input if isinstance(input, str) else path.as_posix()
     if path.suffix.lower() in (*READERS, *SCENES) or os.path.isfile(path):
@@ -64,7 +61,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
     if piece is not None:
         return piece
     if path.suffix or os.path.exists(path):
-        return path  # whose extension or kind is the mistake
+        return path  # reading it reports what is wrong
     try:
         return require(name)
     except InputError as error:
@@ -72,7 +69,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
 
 
 def _made(thing: Any, look: dict[str, Any]) -> Mesh | Scene:
-    """Return the mesh or scene of what is no file."""
+    """Return the mesh or scene of an input that is not a file."""
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Piece):

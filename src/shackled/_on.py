@@ -28,7 +28,7 @@ class Processes:
 
 def _urls(urls: tuple[str, ...]) -> tuple[str, ...]:
     if not urls or not all(isinstance(url, str) for url in urls):
-        raise InputError(f"the addresses of nodes are needed, such as http://127.0.0.1:8545, not {urls!r:.60}")
+        raise InputError(f"`urls` must be addresses of nodes, such as http://127.0.0.1:8545, not {urls!r:.60}")
     return urls
 
 

@@ -91,7 +91,7 @@ def render_whole(scene: Scene, chain: Chain) -> Image:
         bmp=drawing.bmp,
         gas=drawing.gas,
         intrinsic_gas=drawing.intrinsic_gas,
-        chain=chain.name,
+        made_by=chain.name,
         seconds=seconds,
         scene=scene,
     )

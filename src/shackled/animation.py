@@ -1,4 +1,4 @@
-"""Pictures one after the other: GIF, APNG, or a folder of PNG files."""
+"""Animations: GIF, APNG, or a folder of PNG files."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from .checks import number
 from .errors import InputError
 from .image import Format, Image, as_array, check_extension, data_uri, gas_in_short, one_of, pillow_bytes, write_open
 from .palette import indexed
-from .scene import plural
+from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
-#: Milliseconds that a frame is shown.
+#: Milliseconds for which a frame is shown.
 DURATION = 80
 
 
 def check_duration(milliseconds: float) -> int:
-    """Return how long a frame is shown, if it can be: viewers show longer what is below 2 hundredths of a second."""
+    """Return the duration of a frame; viewers ignore those below 20 milliseconds."""
     return round(number(milliseconds, "the duration of a frame in milliseconds", 20, 10_000))
 
 
@@ -36,9 +36,9 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
 
 @frozen(repr=False)
 class Animation:
-    """Frames as a contract made them, all of one size; the last leads over to the first.
+    """Frames as a contract made them, all of one size, repeated endlessly.
 
-    frames: also pixels, (H, W, 3), in place of an Image. duration: milliseconds that each is shown, 20..10,000.
+    frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000.
     """
 
     frames: tuple[Image, ...] = field(converter=_frames)
@@ -48,27 +48,26 @@ class Animation:
         """Check that the frames fit together."""
         sizes = {frame.pixels.shape for frame in self.frames}
         if len(sizes) != 1:
-            raise InputError(f"an animation is made of one frame or more, all of one size, not of {len(sizes)} sizes")
+            raise InputError(f"an animation needs at least one frame, and all of one size, not {len(sizes)} sizes")
 
     def __repr__(self) -> str:
-        """A line."""
         first = self.frames[0]
         frames = plural(len(self.frames), "frame")
         return f"<Animation {first.width}x{first.height}, {frames}{gas_in_short(self.gas)}>"
 
     @property
     def gas(self) -> int | None:
-        """Of all frames together; None where none is counted."""
+        """The sum of all frames; None where gas is not counted."""
         return _sum([frame.gas for frame in self.frames])
 
     @property
     def intrinsic_gas(self) -> int | None:
-        """Of all frames together; None where none is counted."""
+        """The sum of all frames; None where gas is not counted."""
         return _sum([frame.intrinsic_gas for frame in self.frames])
 
     @property
     def calls(self) -> int:
-        """How many made all frames."""
+        """The number of calls for all frames."""
         return sum(frame.calls for frame in self.frames)
 
     @property
@@ -83,7 +82,7 @@ class Animation:
         return FORMATS[check_extension(extension, FORMATS)].encode(self)
 
     def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
-        """Write a file in the format of its extension, whole or not at all, or to an open file, in that of `extension`.
+        """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
         A path without an extension is a folder of numbered PNG files.
         InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
@@ -114,7 +113,7 @@ class Animation:
         webbrowser.open(Path(file.name).as_uri())
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        """Return the pixels, (n, H, W, 3), for functions of NumPy and those who use it."""
+        """Return the pixels, (n, H, W, 3), for NumPy."""
         return as_array(self.pixels, dtype, copy)
 
     def _repr_mimebundle_(self, **_: Any) -> dict[str, bytes]:
@@ -136,7 +135,7 @@ def _encode_apng(animation: Animation) -> bytes:
     return _encode(animation, animation.to_pil(), "PNG", default_image=False)
 
 
-#: What `Animation.save` can write, by extension; a name without one is a folder.
+#: The formats of `Animation.save`, by extension; a name without one is a folder.
 FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
     ".png": Format("image/png", _encode_apng),
@@ -153,7 +152,7 @@ def check_animation(path: str | os.PathLike[str]) -> Path:
     """Return the path, if an animation can be saved there."""
     path = Path(path)
     if path.suffix and path.suffix.lower() not in FORMATS:
-        raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or in nothing for a folder of pictures")
+        raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or be a folder")
     is_file = path.suffix or not os.path.lexists(path)
     return check_output_file(path, "turntable") if is_file else check_output_folder(path)
 

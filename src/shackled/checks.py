@@ -1,4 +1,4 @@
-"""Checks of arguments, each with a message that says what was wrong and what would be right."""
+"""Checks of arguments, each with a message that says what is wrong and what would be right."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def flag(value: object, name: str = "a flag") -> bool:
 
 
 def instance(value: object, name: str, kind: type) -> None:
-    """InputError unless `value` is of a class of the package."""
+    """Raise an InputError unless `value` is an instance of a class of the package."""
     if not isinstance(value, kind):
         raise InputError(f"{name} must be a shackled.{kind.__name__}, not {value!r:.60}")
 
@@ -78,7 +78,7 @@ def vector(value: ArrayLike, name: str = "a vector", size: int = 3) -> Floats:
 
 
 def optional_vector(value: ArrayLike | None, name: str = "a vector", size: int = 3) -> Floats | None:
-    """Return None for None, and for anything else what `vector` does."""
+    """Return None for None, and otherwise the result of `vector`."""
     return None if value is None else vector(value, name, size)
 
 

@@ -1,4 +1,4 @@
-"""A finished picture."""
+"""Images: pixels, what they cost, and their file formats."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from PIL import Image as PillowImage
 from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
-from .scene import Scene, array_key, plural
+from .scene import Scene
+from .values import Value, array_key, plural
 from .whole_file import check_output_file, write_output
 
 Pixels = NDArray[np.uint8]
@@ -36,21 +37,20 @@ def _pixels(values: ArrayLike) -> Pixels:
 
 
 @frozen(repr=False)
-class Image:
+class Image(Value):
     """A picture as a contract made it.
 
-    pixels: (H, W, 3) uint8, rows from the top. bmp: the bytes that the contract returned, those of the pixels if not
-        given.
-    gas, intrinsic_gas: of the execution, and what a transaction costs before it; None where none is counted.
-    chain: where it was made. seconds: how long the call took; this alone is not compared by ==.
-    scene: what it shows; None if that is not known. calls: how many made it.
+    pixels: (H, W, 3) uint8, rows from the top. bmp: the file that the contract returned; by default of the pixels.
+    gas, intrinsic_gas: of the execution, and of a transaction before it; None where gas is not counted.
+    made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
+    scene: None if it is not known. calls: the number of calls that made it.
     """
 
     pixels: Pixels = field(converter=_pixels, eq=array_key)
     bmp: bytes = b""
     gas: int | None = None
     intrinsic_gas: int | None = None
-    chain: str = ""
+    made_by: str = ""
     seconds: float = field(default=0.0, eq=False)
     scene: Scene | None = None
     calls: int = 1
@@ -62,22 +62,22 @@ class Image:
 
     @property
     def width(self) -> int:
-        """In pixels."""
+        """The number of pixels."""
         return int(self.pixels.shape[1])
 
     @property
     def height(self) -> int:
-        """In pixels."""
+        """The number of pixels."""
         return int(self.pixels.shape[0])
 
     @property
     def triangles(self) -> int | None:
-        """How many survived culling and clipping; None if the scene is not known."""
+        """The number of triangles after culling and clipping; None if the scene is not known."""
         return self._counts[0]
 
     @property
-    def lit_pixels(self) -> int | None:
-        """How many any of the triangles covers; None if the scene is not known."""
+    def covered_pixels(self) -> int | None:
+        """The number of pixels that triangles cover; None if the scene is not known."""
         return self._counts[1]
 
     @cached_property
@@ -88,13 +88,14 @@ class Image:
         return (None, None) if self.scene is None else count(self.scene)
 
     def encode(self, extension: str) -> bytes:
-        """Return the bytes of a file: ".png", ".bmp" (as the contract made it), ".svg" (the BMP in a frame that scales
-        without smoothing) or ".gif" (at most 256 colours; the nearest where there are more). InputError for any other.
+        """Return the bytes of a file in a format of `FORMATS`, such as ".png". InputError for any other.
+
+        A GIF has at most 256 colours, the nearest where there are more; other formats are exact.
         """
         return FORMATS[check_extension(extension, FORMATS)].encode(self)
 
     def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
-        """Write a file in the format of its extension, whole or not at all; or to an open file, in that of `extension`.
+        """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
         InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
         """
@@ -117,7 +118,7 @@ class Image:
         self.to_pil().show()
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        """Return the pixels, (H, W, 3), for functions of NumPy and those who use it."""
+        """Return the pixels, (H, W, 3), for NumPy."""
         return as_array(self.pixels, dtype, copy)
 
     def __repr__(self) -> str:
@@ -133,7 +134,7 @@ Encoded = TypeVar("Encoded")
 
 @frozen
 class Format(Generic[Encoded]):
-    """A format of files: its media type, and how something is encoded in it."""
+    """A file format: its media type, and its encoder."""
 
     media_type: str
     encode: Callable[[Encoded], bytes]
@@ -156,7 +157,7 @@ def _encode_gif(image: Image) -> bytes:
     return pillow_bytes(indexed([image.pixels])[0], "GIF")
 
 
-#: What `Image.save` can write, by extension.
+#: The formats of `Image.save`, by extension.
 FORMATS: dict[str, Format[Image]] = {
     ".png": Format("image/png", _encode_png),
     ".bmp": Format("image/bmp", lambda image: image.bmp),
@@ -172,7 +173,7 @@ def one_of(formats: Iterable[str]) -> str:
 
 
 def pillow_bytes(picture: PillowImage.Image, name: str, **options: Any) -> bytes:
-    """Return the bytes of a file as Pillow writes it in a format of that name."""
+    """Return the bytes of a file in a format of Pillow."""
     stream = io.BytesIO()
     picture.save(stream, name, **options)
     return stream.getvalue()
@@ -184,7 +185,7 @@ def data_uri(media_type: str, data: bytes) -> str:
 
 
 def as_array(pixels: Pixels, dtype: DTypeLike | None, copy: bool | None) -> NDArray[Any]:
-    """Return what `__array__` gives for pixels; ValueError where that would be a copy and none is wanted."""
+    """Return pixels for `__array__`; ValueError where a copy is needed but not allowed."""
     changed = dtype is not None and np.dtype(dtype) != pixels.dtype
     if changed and copy is False:
         raise ValueError(f"pixels are {pixels.dtype}: an array of another type is a copy")
@@ -219,7 +220,7 @@ def check_extension(extension: object, formats: Iterable[str]) -> str:
 
 
 def gas_in_short(gas: int | None) -> str:
-    """Return what is put after other figures in a line: ", 35.3M gas", or "" where none is counted."""
+    """Return the end of a line of figures, such as ", 35.3M gas"; "" where gas is not counted."""
     if gas is None:
         return ""
     return f", {gas / 1e6:,.1f}M gas" if gas >= 1e6 else f", {gas:,} gas"

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 MOST_COLORS = 256
-#: Frames that are looked at to choose the colours of a film.
+#: The number of frames that are sampled to choose the colours of an animation.
 SAMPLED = 16
 
 Pixels = NDArray[np.uint8]
@@ -21,9 +21,9 @@ def colors(frames: Sequence[Pixels]) -> int:
 
 
 def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
-    """Return frames, (H, W, 3), in one palette of at most 256 colours, so that nothing at rest flickers.
+    """Return frames, (H, W, 3), as images with one palette of at most 256 colours, without flicker.
 
-    Exact where there are no more; otherwise in the nearest.
+    They are exact if there are no more colours, and otherwise in the nearest ones.
     """
     found = _distinct(frames)
     if len(found) <= MOST_COLORS:
@@ -47,5 +47,5 @@ def _distinct(frames: Sequence[Pixels]) -> NDArray[np.int64]:
 
 
 def _packed(frame: Pixels) -> NDArray[np.int64]:
-    """(H, W): 0xRRGGBB."""
+    """Return the colours as numbers 0xRRGGBB, (H, W)."""
     return np.asarray(frame.astype(np.int64) @ [1 << 16, 1 << 8, 1])

@@ -1,8 +1,8 @@
-"""Pictures of the stages of the pipeline, as in the paper.
+"""A picture of the result of each stage of the pipeline: the pipeline figure of the paper.
 
-The contracts draw stages 3 to 6: the scene as wires, unlit, lit, and whole. They return only pixels, so stages 1 and 2
-come from the reference renderer, whose numbers equal those of the contracts: the mesh unpacked from the calldata, and
-the vertex records.
+Stages 3 to 6 are drawn by the contracts: the same scene as wireframe, in plain colours, with light, and complete. The
+contracts return pixels only, so the points of stages 1 and 2 come from the reference renderer, which has the same
+numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .scene import MAX_VERTICES, Background, Material, Mesh, Object, Scene, enco
 Pixels = NDArray[np.uint8]
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
-#: The two greys of the checkerboard behind the fragments, and the side of its squares at 128 pixels.
+#: The two greys of the checkerboard, and the side of its squares at 128 pixels.
 CHECKS, CHECK_SIDE = (46, 54), 8
 UNLIT = Material("unlit")
 
@@ -42,7 +42,7 @@ PAPER, PRINT, FINE_PRINT = (22, 25, 31), (236, 239, 243), (150, 158, 168)
 
 @dataclass(frozen=True)
 class Stage:
-    """The picture of a stage. pixels: (H, W, 3) uint8, rows from the top. detail: a caption with numbers."""
+    """The result of a stage. pixels: (H, W, 3), rows from the top. detail: figures in words."""
 
     name: str
     title: str
@@ -51,7 +51,7 @@ class Stage:
 
 
 def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
-    """Draw the six stages of the paper, in order. Raises the errors of `render`."""
+    """Return the six stages of the paper, in their order. Errors as `render` raises them."""
     chain = chain or open_chain()
     data = encode(b"\0\0\0\0", scene)
     geometry = assemble(*read_call(data))[2]
@@ -111,7 +111,7 @@ def specified_points(geometry: Iterable[Geometry], scene: Scene) -> Pixels:
 
 
 def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels, int]:
-    """Draw the projected vertices; return the picture and the number of vertices on the canvas."""
+    """Draw the vertices where the vertex shader put them, and count those on the canvas."""
     places, colors, depths = [], [], []
     for part in geometry:
         for vertex, color in zip(part.vertices, part.mesh.colors, strict=True):
@@ -128,7 +128,7 @@ def projected_points(geometry: Iterable[Geometry], scene: Scene) -> tuple[Pixels
 
 
 def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, order: NDArray[np.float64]) -> Pixels:
-    """Draw points as dots, in ascending order. places: (n, 2) pixels from the top left corner."""
+    """Draw points as dots, the highest order last. places: (n, 2) pixels from the top left corner."""
     picture = PillowImage.fromarray(pixels)
     brush = ImageDraw.Draw(picture)
     few = np.clip(5 - 1.6 * np.log10(len(places)), 1, 4)
@@ -145,12 +145,12 @@ def with_points(pixels: Pixels, places: NDArray[np.float64], colors: ArrayLike, 
 
 
 def edges(o: Object) -> Object:
-    """Return an object as a wireframe."""
+    """Return an object as wireframe."""
     return evolve(o, wireframe=True, material=UNLIT)
 
 
 def filled(o: Object) -> Object:
-    """Return an object with unlit triangles, each slightly brighter or darker than the next."""
+    """Return an object in the colours of its vertices, with varied brightness per triangle."""
     faces = o.mesh.faces
     if o.wireframe or faces.size > MAX_VERTICES:
         return evolve(o, material=UNLIT)
@@ -165,7 +165,7 @@ def filled(o: Object) -> Object:
 
 
 def over_nothing(scene: Scene, chain: Chain) -> Pixels:
-    """Draw the fragments of a scene over a checkerboard: the pixels that do not depend on the background."""
+    """Draw the fragments of a scene without its background: the pixels that do not depend on it."""
     on_black, on_white = (
         decode_bmp(chain.draw(evolve(scene, background=background)).bmp, scene.width, scene.height)
         for background in (BLACK, WHITE)
@@ -175,7 +175,7 @@ def over_nothing(scene: Scene, chain: Chain) -> Pixels:
 
 
 def nothing(scene: Scene) -> Pixels:
-    """Return a checkerboard, (H, W, 3)."""
+    """Return a checkerboard, which stands for transparency."""
     side = max(1, CHECK_SIDE * min(scene.width, scene.height) // 128)
     rows, columns = np.indices((scene.height, scene.width)) // side
     grey = np.where((rows + columns) % 2, *CHECKS).astype(np.uint8)
@@ -196,7 +196,7 @@ def _lights(scene: Scene) -> str:
 
 
 def strip(stages: list[Stage]) -> PillowImage.Image:
-    """Return the stages side by side, each with its number and name below."""
+    """Draw the stages side by side, each with its name and number below."""
     height, width = stages[0].pixels.shape[:2]
     enlarged = max(1, -(-STRIP_SIDE // min(width, height)))
     width, height = width * enlarged, height * enlarged

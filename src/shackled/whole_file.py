@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all."""
+"""Atomic writes: a file is replaced completely or not at all."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from pathlib import Path
 
 from .errors import InputError, OutputError
 
-#: Bytes of a file's name that are repeated in that of the file that takes its place; names have 255 at most.
+#: Bytes of a file's name that are repeated in that of its temporary file; names have at most 255.
 NAME = 200
-#: What is wrong with a path, and not with the disk.
+#: Errors of a path, and not of the disk.
 WRONG_PATH = {
     errno.EACCES,
     errno.EISDIR,
@@ -25,7 +25,7 @@ WRONG_PATH = {
 
 
 def write_output(path: Path, data: bytes) -> None:
-    """Write a file that somebody has named, as `write_whole` does.
+    """Write a file that the user has named, as `write_whole` does.
 
     InputError where the path is wrong, OutputError where the disk is full or fails.
     """
@@ -36,7 +36,7 @@ def write_output(path: Path, data: bytes) -> None:
 
 
 def make_output_folder(path: Path) -> None:
-    """Make a folder that somebody has named, and those above it, unless they are there. Errors as `write_output`."""
+    """Make a folder that the user has named, and its parents. Errors as in `write_output`."""
     try:
         path.mkdir(parents=True, exist_ok=True)
     except FileExistsError:
@@ -46,7 +46,7 @@ def make_output_folder(path: Path) -> None:
 
 
 def check_output_folder(path: Path) -> Path:
-    """Return the path, if it is a folder, or nothing yet; otherwise InputError."""
+    """Return the path, if it is a folder or does not exist; otherwise InputError."""
     try:
         if path.exists() and not path.is_dir():
             raise InputError(f"{path} is a file, not a folder to write to")
@@ -56,7 +56,7 @@ def check_output_folder(path: Path) -> Path:
 
 
 def check_output_file(path: Path, what: str) -> Path:
-    """Return the path, if a file can be written there; `what` is the word for it in messages. Otherwise InputError."""
+    """Return the path, if a file can be written there, otherwise InputError. what: the word for it in messages."""
     try:
         if path.is_dir():
             raise InputError(f"{path} is a folder, not the file of a {what}")
@@ -72,9 +72,9 @@ def check_output_file(path: Path, what: str) -> Path:
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file in place of any that is there. OSError if it cannot be written; then no file has changed.
+    """Write a file atomically, replacing any other. If it raises OSError, no file has changed.
 
-    A symbolic link stays, and the file to which it leads is written. Pipes and devices are written to.
+    A symbolic link is followed. Pipes and devices are written to directly.
     """
     is_there = path.exists()
     if is_there and not path.is_file():

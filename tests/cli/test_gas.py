@@ -196,4 +196,4 @@ def test_a_node_counts_too(capsys: pytest.CaptureFixture[str], monkeypatch: pyte
 
 def test_options_of_a_node_without_one(capsys: pytest.CaptureFixture[str]) -> None:
     for option, value in (("--address", "0x" + 40 * "5"), ("--rpc-timeout", "5")):
-        assert f"{option} is for a node: give --rpc as well" in error(capsys, 2, "--no-stages", option, value)
+        assert f"{option} needs --rpc" in error(capsys, 2, "--no-stages", option, value)

@@ -69,16 +69,16 @@ def test_sheet(capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ([], "a SEED is missing: 64 hexadecimal digits, or a number from 0 to 1023; or give --sheet FILE"),
+        ([], "a SEED is missing: 64 hexadecimal digits or a number from 0 to 1023; or give --sheet FILE"),
         (["1024"], "a seed must be 64 hexadecimal digits, with or without 0x, or a number from 0 to 1023, not '1024'"),
         (
             ["3", "xyz"],
             "a seed must be 64 hexadecimal digits, with or without 0x, or a number from 0 to 1023, not 'xyz'",
         ),
-        (["3", "4", "-o", "a.png"], "--output is the picture of one SEED, and 2 were given"),
+        (["3", "4", "-o", "a.png"], "--output needs exactly one SEED, not 2"),
         (["3", "-o", "a.txt"], "the picture a.txt must end in one of .png .bmp .svg .gif"),
-        (["3", "--count", "4"], "--count, --size and --jobs belong to --sheet FILE"),
-        (["3", "--sheet", "a.png"], "--sheet FILE draws the collection: give no SEED, --json or --output with it"),
+        (["3", "--count", "4"], "--count, --size and --jobs need --sheet FILE"),
+        (["3", "--sheet", "a.png"], "--sheet excludes SEED, --json and --output"),
         (["--sheet", "a.gif"], "the sheet a.gif must end in .png"),
     ],
 )

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from shackled.cli import late_bar
-from shackled.cli.late_bar import LateBar
+from shackled.cli import progress
+from shackled.cli.progress import LateBar
 
 
 @pytest.fixture
@@ -22,7 +22,7 @@ def screen(monkeypatch: pytest.MonkeyPatch) -> io.StringIO:
     def terminal(**_: Any) -> Console:
         return Console(file=text, force_terminal=True, width=80)
 
-    monkeypatch.setattr(late_bar, "Console", terminal)
+    monkeypatch.setattr(progress, "Console", terminal)
     return text
 
 

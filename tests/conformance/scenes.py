@@ -227,7 +227,7 @@ def _point(rng: Rng, seen: Object) -> Array:
     faces = seen.mesh.faces
     corners = seen.mesh.positions[faces[rng.integers(len(faces))]]
     point = rng.dirichlet([1, 1, 1]) @ corners
-    return np.asarray(np.asarray(seen.position) + rotate(seen.rotation, seen.scale * point))
+    return np.asarray(seen.position + rotate(seen.rotation, seen.scale * point))
 
 
 def _size(seen: Object) -> float:

@@ -142,7 +142,7 @@ def test_a_pose_moves_all_objects_together() -> None:
     bounds = bounds_of(scene)
     made = to_scene(State(Source("piece", "x"), Pose((0.5, 0, 0), (0, 0, 90), 2)), scene)
     for before, after in zip(scene.objects, made.objects, strict=True):
-        from_middle = np.asarray(before.position) - bounds.middle
+        from_middle = before.position - bounds.middle
         expected = np.array(bounds.middle) + (0.5 * bounds.radius, 0, 0) + 2 * from_middle[[1, 0, 2]] * (-1, 1, 1)
         assert np.allclose(after.position, expected)
         assert after.scale == 2 * before.scale
@@ -225,7 +225,7 @@ def test_a_spot_light_shines_whatever_its_numbers() -> None:
 def test_fewer_triangles() -> None:
     scene, facts = facts_of("teapot")
     made = to_scene(State(facts.source, max_triangles=300), scene, facts.bounds)
-    assert 0 < len(np.asarray(made.objects[0].mesh.faces)) <= 300
+    assert 0 < len(made.objects[0].mesh.faces) <= 300
 
 
 @settings(max_examples=60, deadline=None)

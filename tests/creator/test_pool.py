@@ -302,7 +302,7 @@ def test_a_picture_is_that_of_the_command_line() -> None:
         assert frame is not None
         assert frame.bmp == image.bmp
         assert (frame.gas, frame.intrinsic_gas) == (image.gas, image.intrinsic_gas)
-        assert (frame.triangles, frame.lit_pixels) == (image.triangles, image.lit_pixels)
+        assert (frame.triangles, frame.lit_pixels) == (image.triangles, image.covered_pixels)
         assert (np.asarray(PillowImage.open(BytesIO(frame.png))) == image.pixels).all()
         assert all(fit.fits for fit in frame.fits)
         quick = await pool.render("a", replace(state, size=Size(64, 32)), longest=16, count=False)
@@ -345,7 +345,7 @@ def test_a_large_picture_does_not_stand_in_the_way(monkeypatch: pytest.MonkeyPat
 
 def test_what_is_wrong_is_said() -> None:
     async def test(pool: Pool) -> None:
-        with pytest.raises(InputError, match="there is no piece 'teapott'; close is teapot"):
+        with pytest.raises(InputError, match="there is no piece 'teapott'; did you mean teapot"):
             await pool.render("a", State(Source("piece", "teapott")))
         with pytest.raises(InputError, match="is not in the memory of this server: open it again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))

@@ -119,7 +119,7 @@ def test_a_small_mesh_stays_as_it_is() -> None:
 
 
 def test_inside_out() -> None:
-    inverted = Mesh(BALL.positions, np.asarray(BALL.faces)[:, ::-1])
+    inverted = Mesh(BALL.positions, BALL.faces[:, ::-1])
     assert signed_volume(prepare(inverted)) < 0
     assert signed_volume(prepare(inverted, turn_inside_out=True)) > 0
 

@@ -131,7 +131,7 @@ PIECES = builtin.pieces()
 def test_every_piece_makes_a_picture(piece: Piece) -> None:
     assert (piece.dataset, piece.licence, piece.commercial) == ("common", "MIT", True)
     image = shackled.render(piece.make())
-    covered = (image.lit_pixels or 0) / 128**2
+    covered = (image.covered_pixels or 0) / 128**2
     assert 0.02 < covered <= 1
     if piece.name != "cornell-box":  # which fills its picture
         background = shackled.render(evolve(piece.make(), objects=[])).pixels
@@ -159,7 +159,7 @@ def test_wireframes_show_edges_only() -> None:
         assert piece is not None
         scene = piece.make()
         assert [o.wireframe for o in scene.objects] == [True]
-        assert 500 < (shackled.render(scene).lit_pixels or 0) < 5000
+        assert 500 < (shackled.render(scene).covered_pixels or 0) < 5000
 
 
 @pytest.mark.parametrize("name", sorted(models()))

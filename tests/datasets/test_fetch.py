@@ -20,7 +20,7 @@ import pytest
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import Cost, cost, find
+from shackled.datasets import PieceCost, cost, find
 from shackled.datasets.common import Model, checksum, fetch, take
 from shackled.datasets.common.shapes import icosphere
 from shackled.errors import FetchError, InputError
@@ -131,16 +131,16 @@ def files(folder: Path) -> list[str]:
 
 
 def test_a_model_is_fetched_once(ball: Model, server: Server, cache: Path) -> None:
-    with pytest.raises(InputError, match=r"^ball is not here yet; run: shackled datasets fetch ball$"):
+    with pytest.raises(InputError, match=r"^ball has not been fetched; run: shackled datasets fetch ball$"):
         shackled.load("ball")
     assert fetch(ball)
     scene = shackled.load("ball")
     positions = np.asarray(scene.objects[0].mesh.positions)
     assert np.linalg.norm(positions, axis=1).max() == pytest.approx(1)
     assert np.abs(positions.min(axis=0) + positions.max(axis=0)).max() < 1e-6
-    assert 900 < len(np.asarray(scene.objects[0].mesh.faces)) <= 1198
+    assert 900 < len(scene.objects[0].mesh.faces) <= 1198
     assert scene.objects[0].cull  # it is still closed
-    assert (shackled.render("ball").lit_pixels or 0) > 5000
+    assert (shackled.render("ball").covered_pixels or 0) > 5000
     assert not fetch(ball)
     assert len(server.requests) == 1
     assert fetch(ball, again=True)
@@ -254,7 +254,7 @@ def test_a_kept_mesh_that_is_damaged(ball: Model) -> None:
     ball.prepared().write_bytes(b"PK\3\4 and no more")
     with pytest.raises(InputError, match="run: shackled datasets fetch --again ball"):
         shackled.load("ball")
-    assert cost(ball.piece()) == Cost(None, None)
+    assert cost(ball.piece()) == PieceCost(None, None)
     fetch(ball, again=True)
     assert shackled.load("ball").objects
 
@@ -362,7 +362,7 @@ def test_the_command(ball: Model, server: Server, capsys: pytest.CaptureFixture[
     ("arguments", "code", "message"),
     [
         (["fetch", "bal"], 2, "there is no model 'bal' to fetch; there are ball"),
-        (["fetch", "ball", "ball", "--from", "x.obj"], 2, "--from is the file of one model: give one NAME with it"),
+        (["fetch", "ball", "ball", "--from", "x.obj"], 2, "--from needs exactly one NAME"),
         (["fetch", "ball", "--from", "x.obj"], 2, "x.obj does not exist; a mesh file or archive is needed"),
         (["fetch", "ball", "--from", "."], 2, ". is no file; a mesh file or archive is needed"),
         (["fetch", "ball"], 1, "the connection was cut after 0 of"),

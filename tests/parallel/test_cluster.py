@@ -43,7 +43,7 @@ def test_a_turntable_on_two_workers(address: str) -> None:
     assert [image.bmp for image in two.images] == [image.bmp for image in here.images]
     assert [image.gas for image in there.images] == [image.gas for image in here.images]
     assert len({image.bmp for image in here.images}) == 36
-    assert there.images[0].chain.endswith("2 workers")
+    assert there.images[0].made_by.endswith("2 workers")
 
 
 def test_a_lie_of_a_cluster_is_found_if_it_is_asked_for(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,7 +66,7 @@ def test_tiles_on_a_cluster_of_our_own() -> None:
     job = render_frames([large], Where(cluster="", jobs=2, tile=(100, 9)))
     (image,) = render_frames([large], Where()).images
     assert job.images[0].bmp == image.bmp
-    assert (job.images[0].triangles, job.images[0].lit_pixels) == (image.triangles, image.lit_pixels)
+    assert (job.images[0].triangles, job.images[0].covered_pixels) == (image.triangles, image.covered_pixels)
 
 
 def test_what_a_worker_says_is_told(address: str) -> None:

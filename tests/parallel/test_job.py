@@ -56,7 +56,7 @@ def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
     (image,) = job.images
     assert image.bmp == whole.bmp
     assert (image.pixels == whole.pixels).all()
-    assert (image.triangles, image.lit_pixels) == (whole.triangles, whole.lit_pixels)
+    assert (image.triangles, image.covered_pixels) == (whole.triangles, whole.covered_pixels)
     assert job.calls == sum(job.shares.values())
     assert image.gas is None if where.chain == "reference" else image.gas >= whole.gas  # type: ignore[operator]
     if job.calls == 1:
@@ -158,7 +158,7 @@ def test_what_makes_no_sense(options: dict[str, object], message: str) -> None:
 
 def test_nodes_need_addresses() -> None:
     for urls in ((), (5,), (["http://127.0.0.1:1"],)):
-        with pytest.raises(InputError, match=r"^the addresses of nodes are needed, such as http://127\.0\.0\.1:8545"):
+        with pytest.raises(InputError, match=r"^`urls` must be addresses of nodes, such as http://127\.0\.0\.1:8545"):
             Nodes(*urls)
 
 

@@ -67,10 +67,10 @@ def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
     with anvil() as other:
         job = render_frames([SCENE], Where(rpc=(node, other.url, node), tile=TILE))
     assert job.images[0].bmp == right.bmp
-    assert (job.images[0].triangles, job.images[0].lit_pixels) == (right.triangles, right.lit_pixels)
+    assert (job.images[0].triangles, job.images[0].covered_pixels) == (right.triangles, right.covered_pixels)
     assert len(job.shares) == 2
     assert sum(job.shares.values()) == job.calls == PARTS
-    assert job.images[0].chain.startswith("2 nodes: 127.0.0.1:")
+    assert job.images[0].made_by.startswith("2 nodes: 127.0.0.1:")
 
 
 def test_a_large_picture_survives_the_death_of_a_node() -> None:
@@ -131,7 +131,7 @@ def test_a_node_that_always_fails(node: str, right: Image, manner: str, message:
     assert all("it is left out" in warning for warning in notes.warnings)
     assert len(job.shares) == 2
     # whoever did nothing for it is not named
-    assert not notes.warnings or job.images[0].chain.startswith("node ")
+    assert not notes.warnings or job.images[0].made_by.startswith("node ")
 
 
 @pytest.mark.parametrize("lie", range(LIES))

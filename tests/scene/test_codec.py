@@ -81,7 +81,7 @@ def test_a_whole_numbered_scene_passes_exactly() -> None:
         "0000 0000 0000 010203   03e8 0000 0000 040506   0000 03e8 0000 ff0080   0000 0001 0002"
     )
     assert (position, rotation, scale) == ((0, 0, -2500 * ONE), (0, 0, 0, ONE), ONE)
-    assert material == (0, round(0.2 * ONE), round(0.7 * ONE), round(0.4 * ONE), 20)
+    assert material == (0, round(0.3 * ONE), round(0.75 * ONE), round(0.3 * ONE), 24)
     assert flags == 1
 
 
@@ -130,8 +130,8 @@ def test_unused_vertices_are_dropped_in_order() -> None:
     mesh = Mesh([[9, 9, 9], [0, 0, 0], [8, 8, 8], [5, 0, 0], [0, 5, 0]], [[1, 4, 3]], np.arange(15).reshape(5, 3))
     fitted = fit(scene_of(mesh)).objects[0].mesh
     assert fitted.positions.tolist() == [[0, 0, 0], [5, 0, 0], [0, 5, 0]]
-    assert np.asarray(fitted.faces).tolist() == [[0, 2, 1]]
-    assert np.asarray(fitted.colors).tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
+    assert fitted.faces.tolist() == [[0, 2, 1]]
+    assert fitted.colors.tolist() == [[3, 4, 5], [9, 10, 11], [12, 13, 14]]
 
 
 @pytest.mark.parametrize(("vertices", "faces"), [(65536, 30000), (3, 65536)])

@@ -1,19 +1,15 @@
 import numpy as np
 import pytest
-from attrs import evolve
 from numpy.typing import NDArray
 
 from shackled.errors import InputError
 from shackled.scene import (
     Light,
-    Look,
     Material,
     Mesh,
     Scene,
-    from_euler,
     is_closed,
     painted,
-    rotate,
     signed_volume,
     stage,
 )
@@ -25,8 +21,7 @@ BOX = Mesh(CORNERS * (1, 2, 3) * 100 + (1000, -50, 7), FACES)
 
 
 def world(scene: Scene) -> NDArray[np.float64]:
-    thing = scene.objects[0]
-    return thing.position + rotate(thing.rotation, thing.scale * thing.mesh.positions)
+    return scene.world_positions()
 
 
 def picture(scene: Scene) -> NDArray[np.float64]:
@@ -57,12 +52,15 @@ def test_the_mesh_comes_into_the_unit_sphere() -> None:
 def test_the_mesh_fills_the_picture(
     projection: str, size: tuple[int, int], turn: tuple[int, ...], view: tuple[int, int]
 ) -> None:
-    look = Look(
-        *size, rotation=from_euler(turn), azimuth=view[0], elevation=view[1], projection="perspective", margin=0.1
+    scene = stage(
+        BOX,
+        size,
+        rotate=turn,
+        azimuth=view[0],
+        elevation=view[1],
+        orthographic=projection == "orthographic",
+        margin=0.1,
     )
-    if projection == "orthographic":
-        look = evolve(look, projection="orthographic")
-    scene = stage(BOX, look)
     places = picture(scene)
     assert np.abs(places).max() == pytest.approx(0.9)
     # the side that decides is filled on both ends
@@ -72,42 +70,44 @@ def test_the_mesh_fills_the_picture(
 
 
 def test_the_viewer_stands_before_it_above_and_to_the_right() -> None:
-    x, y, z = np.asarray(stage(BOX).camera.eye)
+    x, y, z = stage(BOX).camera.eye
     assert 0 < y < x < z
     assert stage(BOX).camera.half_height == pytest.approx(1 / 2.145)
 
 
 def test_the_key_light_comes_from_the_upper_left_of_the_viewer() -> None:
     for azimuth in (0, 90, 200):
-        scene = stage(BOX, Look(azimuth=azimuth, elevation=10))
+        scene = stage(BOX, azimuth=azimuth, elevation=10)
         back = scene.camera.eye - scene.camera.target
         right = np.cross(scene.camera.up, back)
         (key,) = scene.lights
-        assert np.asarray(key.vector) @ right < 0 < np.asarray(key.vector) @ np.cross(back, right)
-        assert np.asarray(key.vector) @ back > 0
+        assert key.vector @ right < 0 < key.vector @ np.cross(back, right)
+        assert key.vector @ back > 0
 
 
 def test_what_may_be_chosen_is_taken() -> None:
-    look = Look(
+    scene = stage(
+        BOX,
         color="#ff0000",
-        material=Material("smooth"),
-        lights=[Light("point", (1, 2, 3))],
+        material=Material("smooth", 0.1),
+        diffuse=0.2,
+        lights=Light("point", (1, 2, 3)),
         ambient_light=(1, 2, 3),
         wireframe=True,
         invert=True,
         cull=False,
     )
-    scene = stage(BOX, look)
     thing = scene.objects[0]
     assert thing.mesh.colors.tolist() == [[255, 0, 0]] * 8
-    assert (thing.material.shading, thing.wireframe, thing.cull) == ("smooth", True, False)
+    assert thing.material == Material("smooth", 0.1, 0.2)
+    assert (thing.wireframe, thing.cull) == (True, False)
     assert (scene.lights[0].kind, scene.ambient_light, scene.invert) == ("point", (1, 2, 3), True)
 
 
 def test_only_closed_meshes_are_culled() -> None:
     assert stage(BOX).objects[0].cull
     assert not stage(Mesh(BOX.positions, FACES[1:])).objects[0].cull
-    assert stage(Mesh(BOX.positions, FACES[1:]), Look(cull=True)).objects[0].cull
+    assert stage(Mesh(BOX.positions, FACES[1:]), cull=True).objects[0].cull
 
 
 def test_closed_whatever_the_colors() -> None:
@@ -130,19 +130,21 @@ def test_painted_keeps_the_rest() -> None:
 
 @pytest.mark.parametrize("projection", ["perspective", "orthographic"])
 def test_flat_thin_and_pointlike_meshes(projection: str) -> None:
-    look = Look(projection="orthographic") if projection == "orthographic" else Look()
     for points in ([[0, 0, 0]] * 3, [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 0, 0], [0, 0, 1], [1, 0, 0]]):
-        assert np.abs(picture(stage(Mesh(points, [[0, 1, 2]]), look))).max() <= 0.92 + 1e-9
+        assert (
+            np.abs(picture(stage(Mesh(points, [[0, 1, 2]]), orthographic=projection == "orthographic"))).max()
+            <= 0.92 + 1e-9
+        )
 
 
 def test_what_cannot_be() -> None:
     with pytest.raises(InputError, match=r"^the coordinates of the mesh are too large or too small to be scaled$"):
         stage(Mesh(np.array([[0, 0, 0], [1e308, 0, 0], [-1e308, 1e308, 0]]), [[0, 1, 2]]))
-    with pytest.raises(InputError, match=r"^the margin around the mesh must be a finite number from 0 to 0\.9, not 1$"):
-        stage(BOX, Look(margin=1))
+    with pytest.raises(InputError, match=r"^`margin` must be a finite number from 0 to 0\.9, not 1$"):
+        stage(BOX, margin=1)
     with pytest.raises(InputError, match="zero quaternion"):
-        stage(BOX, Look(rotation=(0, 0, 0, 0)))
+        stage(BOX, rotate=(0, 0, 0, 0))
     with pytest.raises(InputError, match=r"^the height of a picture must be from 1 to 2048 pixels, not 0$"):
-        stage(BOX, Look(height=0))
-    with pytest.raises(InputError, match=r"^the colour of a mesh must be red, green and blue from 0 to 255"):
-        stage(BOX, Look(color="crimsonish"))
+        stage(BOX, (8, 0))
+    with pytest.raises(InputError, match=r"^`color` must be red, green and blue from 0 to 255"):
+        stage(BOX, color="crimsonish")

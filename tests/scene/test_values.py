@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 from typing import Any
 
 import numpy as np
@@ -81,6 +83,11 @@ def test_arrays_cannot_be_written_to() -> None:
     for array in (*arrays, mesh.positions, mesh.faces, mesh.colors, mesh.normals):
         with pytest.raises(ValueError, match="read-only"):
             np.asarray(array)[0] = 5
+    for copied in (pickle.loads(pickle.dumps((thing, camera, light))), copy.deepcopy((thing, camera, light))):
+        assert copied == (thing, camera, light)
+        one, other, third = copied
+        written = (one.position, one.rotation, one.mesh.positions, one.mesh.faces, other.eye, third.vector)
+        assert not any(array.flags.writeable for array in written)
     mine = np.array(CORNERS)
     kept = Mesh(mine, FACES)
     mine[0] = 7
@@ -179,7 +186,7 @@ def test_dark_colours_of_the_original_stay_dark(tmp_path: Any) -> None:
     (tmp_path / "dark.json").write_text(json.dumps(document), "utf-8")
     dark = load(tmp_path / "dark.json")
     assert dark.background == Background((1, 0, 0), (0, 1, 1))
-    assert np.asarray(dark.objects[0].mesh.colors).tolist() == [[1, 0, 0]] * 3
+    assert dark.objects[0].mesh.colors.tolist() == [[1, 0, 0]] * 3
 
 
 def test_integers_of_numpy_are_sizes() -> None:
@@ -272,7 +279,7 @@ def test_objects_alone_are_staged() -> None:
         assert len(made.lights) == 1
         assert made.background != Background()
         image = render(made)
-        assert (image.lit_pixels or 0) > 1500
+        assert (image.covered_pixels or 0) > 1500
         assert np.ptp(image.pixels.reshape(-1, 3), axis=0).min() > 100
     assert Scene([place], width=64).camera != Scene([place]).camera
     assert replace(Scene([place]), width=64).camera == Scene([place]).camera

@@ -71,7 +71,7 @@ def changed(world: World, pointer: str, **changes: object) -> NDArray[np.uint8]:
 def test_a_scene_is_drawn_as_it_was(world: World) -> None:
     pointer = stored(world, SCENE)
     picture = render(SCENE)
-    assert (picture.lit_pixels or 0) > 200
+    assert (picture.covered_pixels or 0) > 200
     assert world.call("Studio", "render(address)", pointer) == picture.bmp
     png = world.call("Studio", "renderPNG(address,uint256)", pointer, 3)
     assert np.array_equal(pixels(png), picture.pixels.repeat(3, 0).repeat(3, 1))
@@ -96,7 +96,7 @@ def test_what_is_kept_is_the_scene(world: World) -> None:
     pointer = stored(world, SCENE)
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert struct[0] == (48, 40)
-    sizes = [5 + 13 * len(POT.positions) + 6 * len(np.asarray(POT.faces)), 5 + 9 * 3 + 6]
+    sizes = [5 + 13 * len(POT.positions) + 6 * len(POT.faces), 5 + 9 * 3 + 6]
     assert [len(o[0]) for o in struct[6]] == sizes
     # a scene that is not kept is drawn in the same way, its meshes wherever they are
     data = call_data(f"drawPNG({SCENE_STRUCT},uint256)", struct, 1)
@@ -157,7 +157,7 @@ def test_turned(world: World) -> None:
         for o in SCENE.objects
     ]
     expected = render(evolve(SCENE, objects=objects))
-    assert (expected.lit_pixels or 0) > 200
+    assert (expected.covered_pixels or 0) > 200
     difference = np.abs(changed(world, pointer, fields=1, turn=turn).astype(int) - expected.pixels).max(axis=2)
     # the last bits of the numbers differ
     assert (difference > 3).mean() < 0.02

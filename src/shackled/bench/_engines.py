@@ -12,7 +12,7 @@ from ..artifacts import artifact
 from ..chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
 from ..datasets import teapot
 from ..errors import RenderError
-from ..scene import Look, Scene, encode, stage
+from ..scene import Scene, encode, stage
 from ._plots import FOURTH, ORIGINAL, OURS, THIRD
 from ._report import Cell, ExperimentReport, millions, table
 from ._runner import Runner
@@ -70,7 +70,7 @@ def all_scenes(quick: bool) -> dict[str, Scene]:
         "cube, 32 x 32": cube(32),
         "16 triangles, 128 x 128": equal_triangles(16),
         "cube, 128 x 128": cube(128),
-        "teapot of 1,008 triangles, 128 x 128": stage(teapot(4), Look(128, 128)),
+        "teapot of 1,008 triangles, 128 x 128": stage(teapot(4), 128),
     }
 
 

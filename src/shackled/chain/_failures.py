@@ -23,7 +23,7 @@ from ..errors import (
     WrongChainError,
 )
 from ..ethereum import decode_error, to_hex
-from ..plain import plain
+from ..untrusted import plain
 
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
 TOO_LITTLE_GAS = (

@@ -16,7 +16,7 @@ import urllib3
 
 from .. import __version__
 from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
-from ..json_text import read_json
+from ..untrusted import read_json
 from ._failures import http_failure, too_large
 
 #: Timeout of connecting, in seconds.

@@ -13,7 +13,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, InputWarning, ShackledError
-from ..plain import plain
+from ..untrusted import plain
 from .bench import bench
 from .creator import creator
 from .datasets import datasets
@@ -49,7 +49,7 @@ app.add_typer(token, name="token")
 @app.callback(invoke_without_command=True)
 def shackled(
     context: typer.Context,
-    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
 ) -> None:
     """Render 3D scenes with Ethereum smart contracts."""
     if version:

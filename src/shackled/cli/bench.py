@@ -14,20 +14,18 @@ from ..whole_file import check_output_folder
 def bench(
     names: Annotated[
         list[str] | None,
-        typer.Argument(help="Experiments to run. Default: all; without -o they are listed.", metavar="[NAME]..."),
+        typer.Argument(help="Experiments to run; all by default. Without -o they are listed.", metavar="[NAME]..."),
     ] = None,
     output: Annotated[
-        str | None, typer.Option("--output", "-o", help="Folder for CSV, plots and tables.", metavar="DIR")
+        str | None, typer.Option("--output", "-o", help="Folder for CSV files, plots and tables.", metavar="DIR")
     ] = None,
     everything: Annotated[bool, typer.Option("--all", help="Run all experiments.")] = False,
-    quick: Annotated[bool, typer.Option("--quick", help="Run a few small scenes, as a check.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="Use a few small scenes, as a smoke test.")] = False,
     processes: Annotated[
         int | None,
-        typer.Option("--processes", min=1, help="Worker processes. Default: one for each core.", metavar="N"),
+        typer.Option("--processes", min=1, help="Number of processes; one per core by default.", metavar="N"),
     ] = None,
-    rpc: Annotated[
-        str | None, typer.Option("--rpc", help="Node that `engines` measures too, as http://...", metavar="URL")
-    ] = None,
+    rpc: Annotated[str | None, typer.Option("--rpc", help="Node that `engines` measures, too.", metavar="URL")] = None,
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
     from ..bench import EXPERIMENTS, Runner, check_plots
@@ -41,7 +39,7 @@ def bench(
         if name not in EXPERIMENTS:
             raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
     if output is None:
-        raise InputError("the experiments need a folder to write to: -o DIR")
+        raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))
     check_plots()
     with Runner(quick, processes, rpc) as runner:

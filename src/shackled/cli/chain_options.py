@@ -18,7 +18,7 @@ from ..chain import PATIENCE, Connection
 from ..checks import number
 from ..errors import InputError
 from ..ethereum import at_most, checksum_address, ether, parse_address, roughly
-from ..plain import plain
+from ..untrusted import plain
 from .option import option
 from .output import print_line, print_note
 

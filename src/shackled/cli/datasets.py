@@ -23,15 +23,15 @@ from rich.progress import (
 )
 
 from ..checks import choice
-from ..datasets import DATASETS, Cost, Piece, cost, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
 from ..errors import InputError
 
 CONSOLE = Console(stderr=True)
 
-#: How many Genesis pieces a gallery shows unless all are wanted.
+#: Number of Genesis pieces in a gallery without --all.
 GENESIS_SHOWN = 48
 
-datasets = typer.Typer(no_args_is_help=True, help="The pieces that are known by name.")
+datasets = typer.Typer(no_args_is_help=True, help="List, fetch and show the pieces of the datasets.")
 
 
 def _check_dataset(name: str | None) -> str | None:
@@ -41,12 +41,13 @@ def _check_dataset(name: str | None) -> str | None:
 @datasets.command("list")
 def list_(
     dataset: Annotated[
-        str | None, typer.Argument(help=f"{', '.join(DATASETS)}; else all.", metavar="DATASET", show_default=False)
+        str | None,
+        typer.Argument(help=f"{', '.join(DATASETS)}; all by default.", metavar="DATASET", show_default=False),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print a list of JSON objects.")] = False,
-    every: Annotated[bool, typer.Option("--all", help="A line for each Genesis piece too.")] = False,
+    every: Annotated[bool, typer.Option("--all", help="List each Genesis piece.")] = False,
 ) -> None:
-    """Name the pieces, with triangles, gas to render them at 128 x 128, and licence."""
+    """List the pieces with their triangles, gas at 128 x 128, and licence."""
     wanted = _check_dataset(dataset)
     rows = [(piece, cost(piece)) for piece in pieces(wanted)]
     if as_json:
@@ -64,7 +65,7 @@ def list_(
             )
 
 
-def _object(piece: Piece, figures: Cost) -> dict[str, Any]:
+def _object(piece: Piece, figures: PieceCost) -> dict[str, Any]:
     return {
         "name": piece.name,
         "dataset": piece.dataset,
@@ -78,7 +79,7 @@ def _object(piece: Piece, figures: Cost) -> dict[str, Any]:
     }
 
 
-def _line(piece: Piece, figures: Cost) -> tuple[str, str, str, str, str]:
+def _line(piece: Piece, figures: PieceCost) -> tuple[str, str, str, str, str]:
     triangles = "-" if figures.triangles is None else f"{figures.triangles:,}"
     gas = "-" if figures.gas is None else f"{figures.gas:,}"
     terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
@@ -87,7 +88,7 @@ def _line(piece: Piece, figures: Cost) -> tuple[str, str, str, str, str]:
     return piece.name, triangles, gas, piece.title, terms
 
 
-def _summary(rows: Sequence[tuple[Piece, Cost]]) -> tuple[str, str, str, str, str]:
+def _summary(rows: Sequence[tuple[Piece, PieceCost]]) -> tuple[str, str, str, str, str]:
     triangles = [figures.triangles for _, figures in rows if figures.triangles is not None]
     gas = [figures.gas for _, figures in rows if figures.gas is not None]
     first, last = rows[0][0], rows[-1][0]
@@ -102,23 +103,25 @@ def _summary(rows: Sequence[tuple[Piece, Cost]]) -> tuple[str, str, str, str, st
 
 @datasets.command()
 def fetch(
-    names: Annotated[list[str], typer.Argument(help="Models, as `list` names them.", metavar="NAME...")],
+    names: Annotated[
+        list[str], typer.Argument(help="Names of models, as in `shackled datasets list`.", metavar="NAME...")
+    ],
     own: Annotated[
         Path | None,
-        typer.Option("--from", help="A mesh file or archive of yours, in place of a download.", metavar="FILE"),
+        typer.Option("--from", help="Local mesh file or archive to use instead of a download.", metavar="FILE"),
     ] = None,
     cache: Annotated[
         Path | None,
-        typer.Option("--cache", help="Where to keep it; else $SHACKLED_CACHE, else that of the system.", metavar="DIR"),
+        typer.Option("--cache", help="Cache folder; $SHACKLED_CACHE or that of the system by default.", metavar="DIR"),
     ] = None,
-    again: Annotated[bool, typer.Option("--again", help="Prepare anew what is there already.")] = False,
+    again: Annotated[bool, typer.Option("--again", help="Prepare models again that are in the cache.")] = False,
 ) -> None:
-    """Download models of other people, clean and simplify them, and keep the result."""
+    """Download third-party models, clean and simplify them, and keep the result."""
     from ..datasets import VARIABLE
     from ..datasets.common import model
 
     if own is not None and len(names) != 1:
-        raise InputError("--from is the file of one model: give one NAME with it")
+        raise InputError("--from needs exactly one NAME")
     if cache is not None:
         os.environ[VARIABLE] = str(cache)
     for each in [model(name) for name in names]:
@@ -134,15 +137,15 @@ def _fetch(model: Any, own: Path | None, again: bool) -> None:
         if not take(model, own):
             print(
                 f"{model.name}: {own} is not the published file, so its checksum was not compared;"
-                " its licence is for you to know",
+                " check its licence yourself",
                 file=sys.stderr,
             )
     else:
         with _download_bar(model.name) as show:
             done = fetch(model, again, show)
         if not done:
-            source = "from a file of yours; --again downloads the published one" if model.is_own() else "already"
-            print(f"{model.name}: it is here {source}", file=sys.stderr)
+            source = "from a local file; --again downloads the published one" if model.is_own() else "already"
+            print(f"{model.name}: it is in the cache {source}", file=sys.stderr)
     name, triangles, gas, *_ = _line(model.piece(), cost(model.piece()))
     print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 
@@ -158,27 +161,28 @@ def _download_bar(name: str) -> Iterator[Any]:
 @datasets.command()
 def gallery(
     outputs: Annotated[
-        list[Path] | None, typer.Option("-o", "--output", help=".html or .png; may be given twice.", metavar="FILE")
+        list[Path] | None,
+        typer.Option("-o", "--output", help="Output file, .html or .png; can be repeated.", metavar="FILE"),
     ] = None,
     dataset: Annotated[
-        str | None, typer.Argument(help=f"{', '.join(DATASETS)}; else all.", metavar="DATASET", show_default=False)
+        str | None,
+        typer.Argument(help=f"{', '.join(DATASETS)}; all by default.", metavar="DATASET", show_default=False),
     ] = None,
-    every: Annotated[bool, typer.Option("--all", help=f"All Genesis pieces, not {GENESIS_SHOWN} of them.")] = False,
-    jobs: Annotated[int | None, typer.Option("--jobs", help="Worker processes; else one a core.", min=1)] = None,
+    every: Annotated[bool, typer.Option("--all", help=f"Show all Genesis pieces instead of {GENESIS_SHOWN}.")] = False,
+    jobs: Annotated[
+        int | None, typer.Option("--jobs", help="Number of worker processes; one per core by default.", min=1)
+    ] = None,
 ) -> None:
-    """Draw all pieces by the contracts: a page that stands alone, or a contact sheet. What was drawn once is kept."""
+    """Render all pieces into a self-contained HTML page or a contact sheet. Finished drawings are cached."""
     from ..datasets import draw_all, page, sheet
-    from ..whole_file import write_output
+    from ..whole_file import check_output_file, write_output
 
     wanted = _check_dataset(dataset)
     paths = outputs or [Path("gallery.html")]
     for path in paths:
         if path.suffix.lower() not in (".html", ".png"):
             raise InputError(f"the gallery {path} must end in .html or .png")
-        if path.is_dir():
-            raise InputError(f"{path} is a folder, not the file of a gallery")
-        if not path.parent.is_dir():
-            raise InputError(f"the folder {path.parent} of the gallery {path.name} does not exist")
+        check_output_file(path, "gallery")
     shown, genesis = [], 0
     for piece in pieces(wanted):
         genesis += piece.dataset == "genesis"

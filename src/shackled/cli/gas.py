@@ -19,66 +19,64 @@ from .gas_tables import print_profile, print_report
 from .look_options import load_with, with_look
 from .option import option
 
-#: What --profile writes, by extension.
+#: The formats of --profile, by extension.
 FORMATS = (".json", ".svg")
 
 
 @with_look
 def gas(
-    input: Annotated[
-        str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
-    ],
+    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
     *,
     look: dict[str, Any],
     chain: Annotated[
         str | None,
-        option("--chain", f"EVM that measures: {', '.join(CHAINS)}. Default: the fastest installed.", "NAME"),
+        option("--chain", f"EVM to measure in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
         typer.Option(
             "--rpc",
-            help="Node on which to make the search, and that counts the gas as well.",
+            help="Node that also counts the gas, and runs the search.",
             metavar="URL",
             envvar="SHACKLED_RPC",
             show_default=False,
         ),
     ] = None,
-    address: Annotated[
-        str | None, option("--address", "Address of a renderer that is deployed on the node's chain.", "ADDRESS")
-    ] = None,
+    address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "Timeout of a call of the node. Default: 120.", "SECONDS")
+        float | None, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", show_default="120")
     ] = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of tables.")] = False,
+    as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[
         str | None,
         option(
             "--profile",
-            "Print gas by function and line; write a flame graph: .svg, or .json for speedscope.",
+            "Also show gas by function and line, and write a flame graph: .svg, or .json for speedscope.",
             "FILE",
         ),
     ] = None,
     stages: Annotated[
-        bool, option("--stages/--no-stages", "Measure gas by stage, which takes some seconds in py-evm.")
+        bool, option("--stages/--no-stages", "Show gas by stage, which takes some seconds in py-evm.")
     ] = True,
-    gas_price: Annotated[float, option("--gas-price", "Gas price of a transaction. Default: 1.", "GWEI")] = 1.0,
+    gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
     eth_price: Annotated[float | None, option("--eth-price", "Price of an ether in US dollars.", "USD")] = None,
     lower: Annotated[
-        int, option("--lower", "Lower bound of the search: gas that does not suffice. Default: 0.", "GAS", "Search")
+        int, option("--lower", "Lower bound of the search, gas that does not suffice.", "GAS", "Search")
     ] = 0,
     upper: Annotated[
         int | None,
-        option("--upper", "Upper bound of the search. Default: doubled until it suffices.", "GAS", "Search"),
+        option(
+            "--upper", "Upper bound of the search, gas that suffices; found by doubling by default.", "GAS", "Search"
+        ),
     ] = None,
 ) -> None:
-    """Measure the gas of a picture: exactly, by a search over gas limits, by stage and by line, and where it fits."""
+    """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)
     _check_price(gas_price, "--gas-price", "gwei a gas")
     if eth_price is not None:
         _check_price(eth_price, "--eth-price", "US dollars an ether")
     if path is not None and not stages:
-        raise InputError("--profile needs what --no-stages leaves out: give only one of them")
+        raise InputError("--profile and --no-stages exclude each other: give one of them")
     traced = stages and can_trace()
     if path is not None and not traced:
         raise InputError(f"--profile needs {TRACER}")
@@ -113,7 +111,7 @@ def _open_node(rpc: str | None, address: str | None, timeout: float | None) -> N
         return open_node(rpc.split()[0], address, timeout)
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None:
-            raise InputError(f"{name} is for a node: give --rpc as well, or leave it out")
+            raise InputError(f"{name} needs --rpc")
     return None
 
 

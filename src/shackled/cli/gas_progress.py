@@ -14,13 +14,13 @@ from rich.text import Text
 
 from ..gas import SearchStep
 
-#: Steps that are shown.
+#: Number of steps shown at a time.
 ROWS = 12
 BAR = 32
 
 
 class Progress:
-    """Shows steps and progress; nothing if it is quiet, a line for each step where stderr is no terminal."""
+    """The progress of a measurement: live on a terminal, a line per step elsewhere unless it is quiet."""
 
     def __init__(self, quiet: bool) -> None:
         """Start nothing yet. quiet: show progress on a terminal only."""
@@ -72,10 +72,10 @@ class Progress:
 
 
 def bracket(step: SearchStep) -> str:
-    """Return what is known after a step, for messages."""
+    """Return the bounds of the gas after a step."""
     return f"{step.lower:,} < gas" + ("" if step.upper is None else f" <= {step.upper:,}")
 
 
 def _bar(step: SearchStep) -> Text:
-    """Return a bar with a character for each call that remains."""
+    """Return a bar with a character for each call that the search still needs."""
     return Text("█" * (BAR if step.upper is None else min(BAR, (step.upper - step.lower - 1).bit_length())))

@@ -10,12 +10,12 @@ from rich.table import Table
 from ..gas import GasReport, Profile, limits
 
 BAR = 24
-#: How many functions and lines are shown.
+#: Number of functions and lines shown.
 ROWS = 20
 
 
 def print_report(report: GasReport, gas_price: float, eth_price: float | None) -> None:
-    """Print gas, search, stages, price, and where the call fits."""
+    """Print gas, search, stages, price, and the limits that the gas fits."""
     console = _console()
     for label, value in _figures(report, gas_price, eth_price).items():
         console.print(f"{label:12} {value}", highlight=False, markup=False, soft_wrap=True)
@@ -33,7 +33,7 @@ def print_report(report: GasReport, gas_price: float, eth_price: float | None) -
 
 
 def print_profile(profile: Profile) -> None:
-    """Print the gas by function and by line."""
+    """Print gas by function, and by line."""
     console = _console()
     functions = Table("function", "self", "", "with calls", box=None, header_style="bold")
     _right(functions, 1, 2, 3)
@@ -50,7 +50,7 @@ def print_profile(profile: Profile) -> None:
 
 
 def _console() -> Console:
-    # a file has room for wide tables
+    # files need no narrow tables
     return Console(file=sys.stdout, width=None if sys.stdout.isatty() else 160)
 
 

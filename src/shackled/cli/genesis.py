@@ -16,42 +16,54 @@ from ..image import FORMATS, one_of
 def genesis(
     seeds: Annotated[
         list[str] | None,
-        typer.Argument(help="64 hexadecimal digits each, or a number from 0 to 1023.", metavar="SEED"),
+        typer.Argument(help="Seeds of 64 hexadecimal digits, or numbers from 0 to 1023.", metavar="SEED"),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="A JSON object a line: seed, traits, mesh, colours.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print a JSON object per line: seed, traits, mesh, colours.")
+    ] = False,
     output: Annotated[
         str | None,
-        typer.Option("-o", "--output", help=f"The picture of one SEED: {one_of(FORMATS)}.", metavar="FILE"),
+        typer.Option(
+            "-o", "--output", help=f"Output file for the picture of one SEED: {one_of(FORMATS)}.", metavar="FILE"
+        ),
     ] = None,
     sheet: Annotated[
-        str | None, typer.Option("--sheet", help="All 1024 pieces in one picture, .png.", metavar="FILE")
+        str | None,
+        typer.Option("--sheet", help="Output file for all 1024 pieces in one picture, .png.", metavar="FILE"),
     ] = None,
     count: Annotated[
-        int | None, typer.Option("--count", help="So many of them.", metavar="N", rich_help_panel="Sheet")
+        int | None, typer.Option("--count", help="Number of pieces.", metavar="N", rich_help_panel="Sheet")
     ] = None,
     size: Annotated[
-        int | None, typer.Option("--size", help="Pixels a piece, else 128.", metavar="N", rich_help_panel="Sheet")
+        int | None,
+        typer.Option("--size", help="Pixels per piece, 128 by default.", metavar="N", rich_help_panel="Sheet"),
     ] = None,
     workers: Annotated[
         int | None,
-        typer.Option("--jobs", help="Worker processes, else one a core.", metavar="N", min=1, rich_help_panel="Sheet"),
+        typer.Option(
+            "--jobs",
+            help="Number of worker processes; one per core by default.",
+            metavar="N",
+            min=1,
+            rich_help_panel="Sheet",
+        ),
     ] = None,
 ) -> None:
-    """Make Genesis pieces from seeds, in the contract: traits, mesh, picture; or draw the whole collection.
+    """Generate Genesis pieces from seeds in the contract, or render the whole collection.
 
-    A sheet that was stopped goes on where it was.
+    An interrupted sheet continues where it stopped.
     """
     if sheet is None:
         if not seeds:
             raise InputError(
-                "a SEED is missing: 64 hexadecimal digits, or a number from 0 to 1023; or give --sheet FILE"
+                "a SEED is missing: 64 hexadecimal digits or a number from 0 to 1023; or give --sheet FILE"
             )
         if count is not None or size is not None or workers is not None:
-            raise InputError("--count, --size and --jobs belong to --sheet FILE")
+            raise InputError("--count, --size and --jobs need --sheet FILE")
         _pieces(seeds, as_json, output)
         return
     if seeds or as_json or output is not None:
-        raise InputError("--sheet FILE draws the collection: give no SEED, --json or --output with it")
+        raise InputError("--sheet excludes SEED, --json and --output")
     _sheet(sheet, count, size, workers)
 
 
@@ -60,7 +72,7 @@ def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
     from ..image import check_output
 
     if output is not None and len(seeds) > 1:
-        raise InputError(f"--output is the picture of one SEED, and {len(seeds)} were given")
+        raise InputError(f"--output needs exactly one SEED, not {len(seeds)}")
     path = None if output is None else check_output(output)
     for number, (text, seed) in enumerate([(text, parse_seed(text)) for text in seeds]):
         piece, gas = generate_on_chain(seed)
@@ -85,7 +97,7 @@ def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
 
 
 def _draw(piece: GenesisPiece, path: Path) -> int:
-    """Writes the picture of a piece, made by one call; the gas of that."""
+    """Save the picture of a piece, made by one call; return its gas."""
     from ..datasets.genesis import picture_on_chain
 
     image = picture_on_chain(piece)

@@ -1,4 +1,4 @@
-"""The options of a look, made of the table of settings, for all commands that draw."""
+"""The options of a look, generated from the table of settings, for all commands that render."""
 
 from __future__ import annotations
 
@@ -11,10 +11,9 @@ from typing import Annotated, Any
 from .._load import load, locate
 from ..datasets import Piece
 from ..scene import SETTINGS, Kind, Scene, Setting, checked_look
-from .option import OPTIONS, option
-from .parse import parse_background, parse_light, parse_size, parse_vector
+from .option import OPTIONS, option, parse_background, parse_light, parse_size, parse_vector
 
-#: What typer makes of a value, what stands for it in the help, and what is then made of it.
+#: The type of a value for typer, its metavar, and its converter.
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "size": (str, "SIZE", lambda text, name: parse_size(text)),
     "whole": (int, "N", lambda value, name: value),
@@ -28,15 +27,15 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
 }
 
-#: What is added to the help, as values are written in another way than in Python.
+#: Additions to the help, where values are written differently than in Python.
 _MORE = {
     "size": " As 128 or 320x200.",
-    "lights": " As directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, each with :color if wanted.",
+    "lights": " As directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, each with :color or not; repeatable.",
 }
 
 
 def with_look(command: Callable[..., None]) -> Callable[..., None]:
-    """Return the command with all options of a look in place of its parameter `look`, which is what they say."""
+    """Return the command with the options of a look in place of its parameter `look`."""
     given = signature(command, eval_str=True).parameters.values()
     parameters: list[Parameter] = []
     for each in given:
@@ -54,10 +53,7 @@ def with_look(command: Callable[..., None]) -> Callable[..., None]:
 
 
 def load_with(input: str, look: dict[str, Any]) -> Scene:
-    """Return the scene of a file or piece, with a look.
-
-    Whom to name for a piece, and on what terms it may be used, is printed on stderr where that matters.
-    """
+    """Return the scene of a file or piece, with a look. Print the credit and terms of a piece on stderr."""
     source = locate(input)
     scene = load(source, **look)
     if isinstance(source, Piece) and source.notice:
@@ -70,7 +66,7 @@ def option_of(setting: Setting) -> str:
     return setting.option or f"--{setting.name.replace('_', '-')}"
 
 
-# messages of the library name keywords of a look too
+# messages of the library also name keywords of a look
 OPTIONS.update({setting.name: option_of(setting).partition("/")[0] for setting in SETTINGS})
 
 

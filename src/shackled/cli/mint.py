@@ -9,7 +9,7 @@ import typer
 from ..errors import InputError
 from ..image import FORMATS, one_of
 from .chain_options import NodeOptions, PayerOptions, print_json, print_step, with_groups
-from .option import option
+from .option import option, parse_size
 from .output import print_line, print_note
 
 
@@ -39,7 +39,6 @@ def mint(
     from ..deploy import current_fees
     from ..image import check_output
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store
-    from .parse import parse_size
 
     path = None if output is None else check_output(output)
     pixels = None if size is None else parse_size(size)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from ..plain import plain
+from ..untrusted import plain
 
 
 def print_line(text: str) -> None:

@@ -25,11 +25,9 @@ from ..errors import InputError
 from ..image import FORMATS, Image, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import VERIFY, folder_of, remove_parts
-from .job_progress import JobProgress
-from .late_bar import LateBar
 from .look_options import load_with, with_look
-from .option import option
-from .parse import parse_tile
+from .option import option, parse_size
+from .progress import JobProgress, LateBar
 
 #: The address that stands for a cluster on this machine.
 LOCAL = "local"
@@ -38,48 +36,45 @@ LOCAL = "local"
 @with_look
 def render(
     context: typer.Context,
-    input: Annotated[
-        str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT", show_default=False)
-    ],
+    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
     output: Annotated[
         str | None,
         option(
             "-o --output",
-            f"{one_of(FORMATS)}, of a turntable {one_of(FILMS)} or a folder; else INPUT's name, in this folder.",
+            f"Output file: {one_of(FORMATS)}; of turntables {one_of(FILMS)} or a folder. Named after INPUT by default.",
             "FILE",
         ),
     ] = None,
-    as_json: Annotated[bool, option("--json", "Print one JSON object instead of words.")] = False,
+    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     turntable: Annotated[
         int | None,
-        option("--turntable", "A full turn in so many frames; the contract turns it.", "FRAMES", "Turntable"),
+        option("--turntable", "Render a full turn in this many frames.", "FRAMES", "Turntable"),
     ] = None,
     duration: Annotated[
-        int | None, option("--duration", f"How long a frame is shown; else {DURATION}.", "MILLISECONDS", "Turntable")
+        int | None,
+        option("--duration", "Duration of a frame.", "MILLISECONDS", "Turntable", show_default=str(DURATION)),
     ] = None,
     chain: Annotated[
         str | None,
-        option("--chain", f"Where it is computed: {', '.join(CHAINS)}; else the fastest EVM here.", "NAME", "Where"),
+        option("--chain", f"EVM to render in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
-        int | None, option("--jobs", "So many worker processes, or calls at a time to each node.", "N", "Where")
+        int | None, option("--jobs", "Number of worker processes, or of concurrent calls per node.", "N", "Where")
     ] = None,
     rpc: Annotated[
         list[str] | None,
         typer.Option(
             "--rpc",
-            help="A node that computes it, with nothing deployed if need be; several share the work.",
+            help="Node to render on, with or without deployed contracts; repeat for several, which share the work.",
             metavar="URL",
             envvar="SHACKLED_RPC",
             show_default=False,
             rich_help_panel="Where",
         ),
     ] = None,
-    address: Annotated[
-        str | None, option("--address", "A renderer that is deployed there, to be called.", "ADDRESS", "Where")
-    ] = None,
+    address: Annotated[str | None, option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "How long a node may take for a call.", "SECONDS", "Where")
+        float | None, option("--rpc-timeout", "Timeout of a call to a node.", "SECONDS", "Where")
     ] = None,
     cluster: Annotated[
         str | None,
@@ -88,37 +83,37 @@ def render(
         ),
     ] = None,
     gas_limit: Annotated[
-        int | None, option("--gas-limit", "What a call may use; the picture is cut to fit.", "GAS", "Where")
+        int | None, option("--gas-limit", "Gas limit of a call; the picture is split to fit.", "GAS", "Where")
     ] = None,
     tile: Annotated[
-        str | None, option("--tile", "Cut the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
+        str | None, option("--tile", "Split the picture into parts of this size, as 128 or 1024x64.", "SIZE", "Where")
     ] = None,
     verify: Annotated[
         str | None,
         option(
             "--verify",
-            f"How much of what nodes draw is compared here: {', '.join(VERIFY)}; else all, or some of large pictures.",
-            "MUCH",
+            f"Pixels from nodes to verify here: {', '.join(VERIFY)}; all by default, some of large pictures.",
+            "PART",
             "Where",
         ),
     ] = None,
     *,
     look: dict[str, Any],
 ) -> None:
-    """Render a mesh file, a scene file or a piece of a dataset to a picture."""
+    """Render a mesh file, a scene file or a piece of a dataset."""
     source = locate(input)
     stem = (source.file_stem if isinstance(source, Piece) else source.stem) or "picture"
     shown = check_duration(DURATION if duration is None else duration)
     if turntable is None:
         if duration is not None:
-            raise InputError("--duration is about a --turntable: give that too, or leave it out")
+            raise InputError("--duration needs --turntable")
         path = check_output(output if output is not None else f"{stem}.png")
     else:
         path = check_animation(output if output is not None else f"{stem}.gif")
     if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
-        rpc = None  # what is typed goes before what is set for all commands
+        rpc = None  # options override the environment
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
-    sides = None if tile is None else parse_tile(tile)
+    sides = None if tile is None else parse_size(tile, "--tile")
     in_parts = turntable is not None or not where_of(on, gas_limit, sides).alone
     if chain is not None:
         open_chain(chain)
@@ -133,7 +128,7 @@ def render(
             made = draw(scene, on=on, **told)
         else:
             made = turn(scene, turntable, duration=shown, on=on, **told)
-        counts = (made.triangles, made.lit_pixels) if isinstance(made, Image) else (None, None)
+        counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
     try:
         with LateBar("writing"):
             made.save(path)
@@ -145,8 +140,8 @@ def render(
         remove_parts(keep)
     report = _report(made, input, path, time.perf_counter() - started, counts, in_parts)
     frames = [made] if isinstance(made, Image) else made.frames
-    if not any(frame.lit_pixels for frame in frames):
-        print("nothing of the scene is seen: the picture shows its background only", file=sys.stderr)
+    if not any(frame.covered_pixels for frame in frames):
+        print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
     print(json.dumps(report) if as_json else _words(report))
@@ -163,14 +158,14 @@ def _on(
 ) -> On | None:
     """Return where to render. InputError for options that exclude or need each other."""
     if verify is not None and not rpc and cluster is None:
-        raise InputError("--verify is about nodes or a cluster: give --rpc or --cluster too, or leave it out")
+        raise InputError("--verify needs --rpc or --cluster")
     if rpc and cluster is not None:
-        raise InputError("nodes and a cluster are two places: give --rpc or --cluster")
+        raise InputError("--rpc and --cluster exclude each other: give one of them")
     if rpc and chain is not None:
-        raise InputError("--rpc is a place of its own: leave out --chain")
+        raise InputError("--rpc and --chain exclude each other: give one of them")
     for name, value in (("--address", address), ("--rpc-timeout", timeout)):
         if value is not None and not rpc:
-            raise InputError(f"{name} is about a node: give --rpc too, or leave it out")
+            raise InputError(f"{name} needs --rpc")
     if cluster is not None:
         if cluster != LOCAL and ":" not in cluster:
             raise InputError(f"--cluster must be {LOCAL} or an address such as tcp://host:8786, not {cluster!r}")
@@ -193,7 +188,7 @@ def _report(
     counts: tuple[int | None, int | None],
     in_parts: bool,
 ) -> dict[str, Any]:
-    """Return what --json prints; of a picture in parts, or of several, also how many frames and calls there were."""
+    """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
     frames = [made] if isinstance(made, Image) else made.frames
     digest = hashlib.sha256()
     for frame in frames:
@@ -207,7 +202,7 @@ def _report(
         "gas": made.gas,
         "intrinsic_gas": made.intrinsic_gas,
         "seconds": round(seconds, 6),
-        "chain": frames[0].chain,
+        "chain": frames[0].made_by,
         "output": str(path),
         "sha256": digest.hexdigest(),
     }
@@ -215,13 +210,13 @@ def _report(
 
 
 def _words(report: dict[str, Any]) -> str:
-    """Return the same for people to read."""
+    """Return the report as text."""
     frames, calls = report.get("frames", 1), report.get("calls", 1)
     several = f"{frames} frames of " if frames > 1 else ""
     rows = {"picture": f"{report['output']}, {several}{report['width']} x {report['height']} pixels"}
     if report["triangles"] is not None and report["lit_pixels"] is not None:
         rows["drawn"] = f"{report['triangles']:,} triangles, {report['lit_pixels']:,} lit pixels"
-    rows["gas"] = "none is counted"
+    rows["gas"] = "not counted"
     if report["gas"] is not None and report["intrinsic_gas"] is not None:
         sent = "the scene" if calls == 1 else f"the scene {calls} times"
         rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
@@ -233,5 +228,5 @@ def _warn_of_palette(frames: Sequence[Pixels]) -> None:
     found = colors(frames)
     if found > MOST_COLORS:
         whose = "picture" if len(frames) == 1 else "frames"
-        text = f"a GIF holds {MOST_COLORS} colours; the {found:,} of the {whose} were brought to the nearest"
+        text = f"a GIF has at most {MOST_COLORS} colours; the {found:,} of the {whose} were mapped to the nearest"
         print(text, file=sys.stderr)

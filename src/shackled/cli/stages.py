@@ -16,15 +16,15 @@ from .look_options import load_with, with_look
 
 @with_look
 def stages(
-    input: Annotated[str, typer.Argument(help="A mesh or scene file, or a piece of a dataset.", metavar="INPUT")],
-    output: Annotated[str, typer.Option("--output", "-o", help="The folder for the pictures.", metavar="DIR")],
+    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
+    output: Annotated[str, typer.Option("--output", "-o", help="Folder for the pictures.", metavar="DIR")],
     *,
     look: dict[str, Any],
     chain: Annotated[
-        str | None, typer.Option("--chain", help=f"Where it is computed: {', '.join(CHAINS)}.", metavar="NAME")
+        str | None, typer.Option("--chain", help=f"EVM to render in: {', '.join(CHAINS)}.", metavar="NAME")
     ] = None,
 ) -> None:
-    """Draw what each stage of the pipeline makes of a scene: six pictures, and all in one strip."""
+    """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""
     from ..stages import draw_stages, strip
 
     folder = check_output_folder(Path(output))

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from .._load import load
 from ..errors import InputError, InputWarning
-from ..scene import READERS, SCENES, Scene, load, resize, simplify_scene
+from ..scene import READERS, SCENES, Scene, resize, simplify_scene
 from ._controls import MAX_SIDE
 from ._sandbox import upload_folder
 from ._scene import describe

@@ -1,7 +1,4 @@
-"""Scenes that are part of the package, and models that are downloaded on request.
-
-Each dataset is a module or package with `pieces()` and `find(name)`, imported when it is first used.
-"""
+"""Datasets: scenes that come with the package, and third-party models that are downloaded on request."""
 
 import lazy_loader
 

@@ -1,6 +1,4 @@
-from ._cache import VARIABLE, cache_folder, keep
-from ._costs import Cost, cost, table
-from ._drawing import SIZE, draw, draw_all
+from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw, draw_all, keep, table
 from ._find import DATASETS, find, pieces, require
 from ._gallery import page, sheet
 from ._piece import Piece
@@ -10,8 +8,9 @@ __all__ = [
     "DATASETS",
     "SIZE",
     "VARIABLE",
-    "Cost",
     "Piece",
+    "PieceCost",
+    "Thumbnail",
     "cache_folder",
     "cost",
     "draw",

@@ -1,7 +1,4 @@
-"""The pieces of all datasets.
-
-Each dataset is a module or package with `pieces()` and `find(name)`, imported when it is first used.
-"""
+"""Pieces by name. Each dataset is a package with `pieces()` and `find(name)`, imported on first use."""
 
 from __future__ import annotations
 
@@ -13,30 +10,30 @@ from typing import Any
 from ..errors import InputError
 from ._piece import Piece
 
-#: The datasets, and what stands before the names of their pieces.
+#: The datasets, and the prefixes of the names of their pieces.
 DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
 
 
 def pieces(dataset: str | None = None) -> Iterator[Piece]:
-    """Return the pieces of one dataset, or of all."""
+    """Yield the pieces of one dataset, or of all."""
     for each in DATASETS if dataset is None else (dataset,):
         yield from _module(each).pieces()
 
 
 def find(name: str) -> Piece | None:
-    """Return the piece of that name, or None. `genesis/` is also followed by the 64 hexadecimal digits of any seed."""
+    """Return the piece of that name; None if there is none. `genesis/` takes 64 hexadecimal digits of any seed, too."""
     dataset, prefix = _dataset_of(name)
     piece: Piece | None = _module(dataset).find(name.removeprefix(prefix))
     return piece
 
 
 def require(name: str) -> Piece:
-    """Return the piece of that name. InputError, with similar names, if there is none."""
+    """Return the piece of that name; InputError, with similar names, if there is none."""
     piece = find(name)
     if piece is not None:
         return piece
     close = get_close_matches(name.lower(), [each.name for each in pieces()], n=3)
-    hint = f"close is {' or '.join(close)}; " if close else ""
+    hint = f"did you mean {' or '.join(close)}? " if close else ""
     raise InputError(f"there is no piece {name!r}; {hint}`shackled datasets list` shows all")
 
 

@@ -1,4 +1,4 @@
-"""Galleries of pieces, as an HTML page or as one picture."""
+"""Galleries: pieces on an HTML page or in a contact sheet."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from string import Template
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from ._drawing import Drawing
+from ._drawing import Thumbnail
 from ._piece import Piece
 
-#: Of the contact sheet, in pixels.
+#: Sizes in the contact sheet, in pixels.
 CELL, LABEL, GAP = 128, 32, 8
 PAPER, INK, FAINT = (250, 250, 248), (20, 22, 28), (110, 114, 122)
 
 
-def page(pieces: Sequence[Piece], drawings: Mapping[str, Drawing]) -> str:
-    """Return a single-file HTML page. Pieces without a drawing are shown as available for download."""
+def page(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> str:
+    """Return a self-contained HTML page. Pieces without a drawing are shown with the command that fetches them."""
     template = Template(files(__package__).joinpath("gallery.html").read_text("utf-8"))
     datasets = list(dict.fromkeys(piece.dataset for piece in pieces))
     return template.substitute(
@@ -31,8 +31,8 @@ def page(pieces: Sequence[Piece], drawings: Mapping[str, Drawing]) -> str:
     )
 
 
-def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Drawing]) -> bytes:
-    """Return a PNG with the drawings in rows, each with a label; pieces without a drawing are left out."""
+def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> bytes:
+    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out."""
     drawn = [(piece, drawings[piece.name]) for piece in pieces if piece.name in drawings]
     columns = max(1, min(len(drawn), round((len(drawn) * (CELL + LABEL) / CELL) ** 0.5) + 1))
     rows = max(1, -(-len(drawn) // columns))
@@ -50,7 +50,7 @@ def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Drawing]) -> bytes:
     return stream.getvalue()
 
 
-def _card(piece: Piece, drawing: Drawing | None) -> str:
+def _card(piece: Piece, drawing: Thumbnail | None) -> str:
     if drawing is None:
         command = f"shackled datasets fetch {piece.name}"
         image, figures = f'<div class="absent"><code>{escape(command)}</code></div>', "not fetched"
@@ -68,7 +68,7 @@ def _card(piece: Piece, drawing: Drawing | None) -> str:
     )
 
 
-def _figures(drawing: Drawing, triangles: str = "triangles") -> str:
+def _figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
     gas = "" if drawing.gas is None else f", {drawing.gas / 1e6:.1f} M gas"
     return f"{drawing.triangles:,} {triangles}{gas}"
 

@@ -1,4 +1,4 @@
-"""The pieces of a dataset."""
+"""Pieces of datasets: scenes with a name and a licence."""
 
 from __future__ import annotations
 
@@ -16,14 +16,13 @@ def _always() -> bool:
 class Piece:
     """A scene of a dataset, with a name and a licence.
 
-    name: the name, for instance "teapot", "icons/diamond" or "genesis/12".
+    name: for instance "teapot", "icons/diamond" or "genesis/12".
     dataset: "common", "icons" or "genesis".
-    title: a title for display.
-    licence: licence of the model, as its source states it.
-    commercial: whether the licence is known to allow commercial use; otherwise the piece cannot be minted.
-    make: returns the scene. It may take a while, and raises InputError if a file must be downloaded first.
+    title: for display. licence: of the model, as its source states it.
+    commercial: whether the licence is known to allow commercial use; otherwise a piece cannot be minted.
+    make: makes the scene. It may be slow, and raises InputError if a file has not been fetched.
     credit: the author to name with the picture, or "".
-    ready: returns whether `make` works without a download.
+    ready: whether all files that `make` needs have been fetched.
     """
 
     name: str
@@ -37,7 +36,7 @@ class Piece:
 
     @property
     def notice(self) -> str:
-        """The credit and the restrictions to show where the piece is used, or ""."""
+        """The credit and the terms to show where the piece is used; "" if there are none."""
         if not self.credit and self.commercial:
             return ""
         author = f" by {self.credit}" if self.credit else ""
@@ -46,5 +45,5 @@ class Piece:
 
     @property
     def file_stem(self) -> str:
-        """The name for files: "genesis-12" for "genesis/12"."""
+        """The name as a file name: "genesis-12" for "genesis/12"."""
         return self.name.replace("/", "-")

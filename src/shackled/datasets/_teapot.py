@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..scene import Mesh, vertex_normals
+from ..scene import Mesh, vertex_normals, without_slivers
 
 Profile = tuple[tuple[float, float], ...]
 Limb = tuple[tuple[tuple[float, float], tuple[float, float], float], ...]
@@ -63,7 +63,10 @@ LIMBS = (
 
 
 def patches() -> NDArray[np.float64]:
-    """Return (32, 4, 4, 3) control points, z up. du x dv points outward, with u and v the second and third index."""
+    """Return the control points, (32, 4, 4, 3), z up, u and v in the order of the indices.
+
+    The outside is where d/du x d/dv points.
+    """
     quarters = [_quarter(profile, turn) for profile in PROFILES for turn in range(4)]
     halves = [_half(limb, side) for limb in LIMBS for side in (-1, 1)]
     return np.array(quarters + halves)
@@ -72,7 +75,7 @@ def patches() -> NDArray[np.float64]:
 def teapot(divisions: int = 6) -> Mesh:
     """Return the teapot with y up, about 6.4 wide, standing on y = 0, with vertex normals.
 
-    divisions: divisions d of each side of a patch, 1..32; the mesh has 64 d^2 - 8 d triangles.
+    divisions: parts d into which each side of a patch is divided, 1..32; there are 64 d^2 - 8 d triangles.
     """
     if not isinstance(divisions, int) or isinstance(divisions, bool) or not 1 <= divisions <= 32:
         raise InputError(f"the divisions of the teapot must be a whole number from 1 to 32, not {divisions!r}")
@@ -84,15 +87,13 @@ def teapot(divisions: int = 6) -> Mesh:
     # patches meet in the same points but for rounding
     x, y, z = np.round(points.reshape(-1, 3), 9).T
     positions, number = np.unique(np.stack([x, z, -y], axis=1) + 0.0, axis=0, return_inverse=True)
-    faces = number.reshape(-1)[faces]
     # at the knob's top and in the middle of the bottom a whole side of a patch is one point
-    one, two, three = faces.T
-    faces = faces[(one != two) & (two != three) & (three != one)]
+    faces = without_slivers(number.reshape(-1)[faces])
     return Mesh(positions, faces, normals=vertex_normals(positions, faces))
 
 
 def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
-    """Return the patch that a profile sweeps in a quarter turn about the z axis, after `turn` quarter turns."""
+    """Return the patch that a profile sweeps in a quarter turn about the z axis, after `turn` of them."""
     rows = []
     for radius, height in profile:
         handle = radius * (KNOB_QUARTER if (radius, height) == (0.8, 3.15) else QUARTER)

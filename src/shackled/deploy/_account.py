@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..json_text import read_json
+from ..untrusted import read_json
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount

@@ -156,7 +156,7 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str
         bmp=_bmp(pixels, list(own.values())),
         gas=_sum([piece.gas for piece in own.values()]),
         intrinsic_gas=_sum([piece.intrinsic_gas for piece in own.values()]),
-        chain=chain,
+        made_by=chain,
         seconds=seconds,
         scene=scene,
         calls=len(own),

@@ -12,30 +12,28 @@ from ._codec import (
     encode_scene,
     extensions,
 )
+from ._files.colors import TEXTURED, sample
 from ._files.content import MAX_BYTES
-from ._files.load import SCENES, load
 from ._files.mesh_file import READERS, read_mesh
 from ._files.obj import write_obj
 from ._files.original import original_scene
 from ._files.polygons import cut, fans
-from ._files.scene_file import encode_scene_file, write_scene
+from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scene
 from ._files.table import about
-from ._files.texture import TEXTURED, sample
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
-from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of
+from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals
+from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, Look, is_closed, painted, signed_volume, stage, view_axes
+from ._staging import BACKGROUND, is_closed, painted, signed_volume, view_axes
 from ._turning import FILLED, full_turn, middle, turn
-from ._value import array_key, plural
 
 __all__ = [
     "BACKGROUND",
@@ -72,7 +70,6 @@ __all__ = [
     "Kind",
     "Light",
     "LightKind",
-    "Look",
     "LookOptions",
     "Material",
     "Mesh",
@@ -83,7 +80,6 @@ __all__ = [
     "Setting",
     "Shading",
     "about",
-    "array_key",
     "checked_look",
     "cut",
     "encode",
@@ -99,7 +95,6 @@ __all__ = [
     "half_height_of",
     "is_closed",
     "is_trimesh",
-    "load",
     "look_at",
     "mesh_of",
     "middle",
@@ -109,8 +104,8 @@ __all__ = [
     "original_scene",
     "pack",
     "painted",
-    "plural",
     "read_mesh",
+    "read_scene",
     "resize",
     "rotate",
     "sample",
@@ -123,6 +118,7 @@ __all__ = [
     "vertex_normals",
     "view_axes",
     "weld",
+    "without_slivers",
     "write_obj",
     "write_scene",
 ]

@@ -1,4 +1,4 @@
-"""What is seen where nothing is drawn."""
+"""Backgrounds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..checks import Color, color
-from ._value import checked, with_names
+from ..values import checked, with_names
 
 
 def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
@@ -18,9 +18,9 @@ def _bottom(value: ArrayLike | str | None, name: str = "") -> Color:
 
 @frozen(field_transformer=with_names)
 class Background:
-    """A vertical gradient from the colour of the top row to that of the bottom row, which is the same if it is None.
+    """A vertical gradient from the colour of the top row to that of the bottom row, by default the same.
 
-    Colours are given as red, green, blue, 0..255, floats 0..1, "#rrggbb" or a name, and kept as the first.
+    Colours are red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
     """
 
     top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
@@ -35,7 +35,7 @@ class Background:
 
 
 def background_of(value: Background | ArrayLike | str | Sequence[ArrayLike | str]) -> Background:
-    """Return the background that is meant: itself, of one colour, or of two, (top, bottom)."""
+    """Return a background, given as itself, as one colour, or as two, (top, bottom)."""
     if isinstance(value, Background):
         return value
     if isinstance(value, list | tuple) and len(value) == 2:

@@ -1,4 +1,4 @@
-"""Where the eye is and how it projects."""
+"""Cameras: position, direction and projection."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from numpy.typing import ArrayLike
 
 from ..checks import Floats, choice, number, vector
 from ..errors import InputError
-from ._value import array_key, checked, with_names
+from ..values import Value, array_key, checked, with_names
 
 Projection = Literal["perspective", "orthographic"]
 PROJECTIONS: tuple[Projection, ...] = ("perspective", "orthographic")
 
 #: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).
 DEFAULT_HALF_HEIGHT = 1 / 2.145
+
+#: The vertical fields of view of perspective cameras, in degrees.
+FIELDS_OF_VIEW = (0.2, 179.8)
 
 _EYE, _TARGET, _UP = (0, 0, 0), (0, 0, -1), (0, 1, 0)
 
@@ -30,14 +33,14 @@ def _near(value: float | None) -> float | None:
 
 
 @frozen(field_transformer=with_names)
-class Camera:
+class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
 
     eye, target, up: (3,) float. The eye looks at the target; `up` is what appears upward in the picture.
     half_height: half the height of what the picture shows: at distance 1 for a perspective camera (the tangent of half
         the vertical field of view, 2^-10..2^10), in world units for an orthographic one.
-    near: distance of the near plane; what is nearer is clipped. Positive for a perspective camera. None chooses a
-        1,024th of how far any object reaches from the eye; all that is before an orthographic one is shown.
+    near: distance of the near plane, before which geometry is clipped. Positive for a perspective camera. None for
+        1/1,024 of the farthest distance of an object; an orthographic camera then clips nothing.
     """
 
     eye: Floats = field(default=_EYE, converter=vector, eq=array_key, metadata=checked("the camera's eye"))
@@ -86,4 +89,4 @@ class Camera:
 
 def half_height_of(fov: float) -> float:
     """Return the `half_height` of a perspective camera with a vertical field of view of `fov` degrees."""
-    return math.tan(math.radians(number(fov, "the field of view in degrees", 0.2, 179.8)) / 2)
+    return math.tan(math.radians(number(fov, "the field of view in degrees", *FIELDS_OF_VIEW)) / 2)

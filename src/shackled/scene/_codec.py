@@ -1,4 +1,4 @@
-"""A scene as the data of a call: the ABI encoding of contracts/src/scene/Scene.sol.
+"""Calldata of scenes: the ABI encoding of contracts/src/scene/Scene.sol.
 
 Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
 """
@@ -28,7 +28,7 @@ SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
 #: Kinds of records in contracts/src/scene/Extensions.sol.
 SPOT = 1
 OPACITY = 2
-#: Opacities are multiples of this.
+#: The unit of opacities.
 OPACITY_STEP = 2.0**-24
 
 CULL_BACKFACES = 1
@@ -58,7 +58,7 @@ def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words:
 
 
 def encode_scene(scene: Scene) -> bytes:
-    """Return the struct Scene, of a scene as `fit` makes it."""
+    """Return the struct Scene of a scene from `fit`."""
     camera = scene.camera
     head = _words(
         [
@@ -84,7 +84,7 @@ def encode_scene(scene: Scene) -> bytes:
 
 
 def extensions(scene: Scene) -> bytes:
-    """Return what is not in the structs: records that ascend by kind and index."""
+    """Return the fields that the structs do not have: records in ascending order of kind and index."""
     records = []
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
@@ -100,7 +100,7 @@ def extensions(scene: Scene) -> bytes:
 
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
-        raise InputError(f"objects that are not opaque must be among the first 65,536 of a scene, not number {index:,}")
+        raise InputError(f"transparent objects must be among the first 65,536 of a scene, not number {index:,}")
     return bytes([kind]) + index.to_bytes(2, "big") + len(content).to_bytes(2, "big") + content
 
 

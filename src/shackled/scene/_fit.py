@@ -1,10 +1,9 @@
-"""The same picture, described in the numbers that the contracts take.
+"""Conversion of scenes to the number ranges of the contracts, without a change of the picture.
 
-A contract counts lengths in multiples of 2^-32 up to 2^26, and vertices in whole numbers. A scene all of whose numbers
-are exact in that form is left as it is. Any other is moved, so that the eye is at the origin, and scaled by a power of
-two, so that its largest object is about 2^12 units: neither changes what is seen. Its meshes, unless their coordinates
-are whole numbers already, are laid on a grid of 2^16 steps across their largest side; on a finer one, for which each
-vertex takes three more bytes, where a step of that would show in the picture.
+Lengths are multiples of 2^-32 up to 2^26, and coordinates of vertices are integers. A scene that is exact in that form
+is not changed. Any other is translated, so that the eye is at the origin, and scaled by a power of two, so that its
+largest object is about 2^12 units. Its meshes, unless their coordinates are integers, are quantized to a grid of 2^16
+steps across their largest side, or to a finer one, with three more bytes per vertex, where a step would be visible.
 """
 
 from __future__ import annotations
@@ -33,16 +32,16 @@ STEP = 2.0**-32
 #: A mesh of so many bits a coordinate must not be scaled by more.
 MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
 
-#: What part of a pixel a step of the grid of a mesh may be before a finer grid is taken.
+#: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
 
-#: Where scenes are left alone.
+#: The range of scenes that are not scaled.
 EXACT_SIZES = (2.0**-2, 2.0**22)
-#: Where others are brought: the exponents of their largest object, and of the farthest point at most.
+#: The exponents to which others are scaled: of their largest object, and of the farthest point at most.
 SIZE_EXPONENT = 12
 REACH_EXPONENT = 25
 
-#: The near plane that is chosen, as a part of the farthest distance.
+#: The default near plane as a share of the farthest distance.
 NEAR_PART = 2.0**-10
 #: Directions of these lengths keep their precision in multiples of 2^-32.
 DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
@@ -50,7 +49,7 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 
 @np.errstate(over="ignore", invalid="ignore")
 def fit(scene: Scene) -> Scene:
-    """Return the scene in numbers that the contracts take: mesh coordinates are whole, and the near plane is chosen."""
+    """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane."""
     _check_view(scene.camera)
     scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
     objects: list[Object]
@@ -86,7 +85,7 @@ def _check_view(camera: Camera) -> None:
 
 
 def _prepare(o: Object) -> Object:
-    """Return the object without vertices that no face names, with the normals that smooth shading needs."""
+    """Return the object without unused vertices, and with the normals that smooth shading needs."""
     mesh = o.mesh
     positions, faces = mesh.positions, mesh.faces
     normals = None
@@ -106,7 +105,7 @@ def _prepare(o: Object) -> Object:
 
 
 def _is_exact(scene: Scene) -> bool:
-    """Return whether the contracts' numbers hold the scene as it is, well within their range."""
+    """Return whether the contracts represent the scene exactly, well within their ranges."""
     camera = scene.camera
     lengths = [*camera.eye, *camera.target, camera.near or 0.0]
     if camera.projection == "orthographic":
@@ -137,7 +136,7 @@ def _factor(scene: Scene) -> float:
         reach = max(reach, scene.camera.half_height)
     for light in scene.lights:
         if light.kind != "directional":
-            # what is a thousand times as far as all that is seen may come nearer: its direction hardly changes
+            # lights far beyond the scene may be moved nearer: their direction hardly changes
             distance = float(np.abs(light.vector - scene.camera.eye).max())
             reach = max(reach, min(distance, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0

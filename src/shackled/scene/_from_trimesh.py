@@ -1,4 +1,4 @@
-"""Meshes and scenes of the library trimesh, which is not needed for it."""
+"""Meshes and scenes of the library trimesh, without importing it."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ._object import Object
 
 
 def is_trimesh(value: object) -> bool:
-    """Return whether it is something of trimesh."""
+    """Return whether a value is an object of trimesh."""
     return type(value).__module__.partition(".")[0] == "trimesh"
 
 
 def mesh_of(value: Any) -> Mesh:
     """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
 
-    An InputWarning tells that colours are not opaque. InputError if it is something else, or empty.
+    InputWarning if colours are not opaque. InputError if it is not a mesh, or empty.
     """
     if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
         raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
@@ -41,7 +41,7 @@ def mesh_of(value: Any) -> Mesh:
 def objects_of(scene: Any) -> list[Object]:
     """Return the objects of a trimesh.Scene, one for each place in which a mesh stands.
 
-    A mesh whose matrix is more than a scale, a rotation and a translation takes it into its vertices.
+    A matrix that is more than a scale, a rotation and a translation is applied to the vertices.
     """
     objects = []
     for name in scene.graph.nodes_geometry:

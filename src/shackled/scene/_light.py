@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, choice, color, number, optional_vector, vector
 from ..errors import InputError
-from ._value import array_key, checked, with_names
+from ..values import Value, array_key, checked, with_names
 
 LightKind = Literal["directional", "point", "spot"]
 LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
@@ -25,15 +25,15 @@ def _kind(value: str) -> LightKind:
 
 
 @frozen(field_transformer=with_names)
-class Light:
+class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
 
     kind: "directional", "point", or "spot", a point light that shines into a cone only.
     vector: (3,) float; the direction toward a directional light (any length but zero), the position of any other.
     color: red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
     direction: (3,) float; where a spot light points, any length but zero; others have none.
-    inner_angle, outer_angle: of a spot light, in degrees from its direction, 0..180: its light is whole up to the inner
-        angle and falls to nothing at the outer one.
+    inner_angle, outer_angle: of a spot light, in degrees from its direction, 0..180: its light is full up to the inner
+        angle and falls to zero at the outer one.
     """
 
     kind: LightKind = field(converter=_kind)
@@ -58,7 +58,7 @@ class Light:
                 raise InputError(f"only a spot light has direction, inner_angle and outer_angle, not a {self.kind} one")
             return
         if self.direction is None:
-            raise InputError("a spot light needs a direction, in which it points")
+            raise InputError("a spot light needs a direction")
         if not self.direction.any():
             raise InputError("the direction of a spot light must not be zero")
         if self.inner_angle > self.outer_angle:
@@ -69,7 +69,7 @@ class Light:
 
     @classmethod
     def directional(cls, toward: ArrayLike, color: ArrayLike | str = WHITE) -> Light:
-        """Return a light so far away that it comes from one direction. toward: (3,) from the scene to the light."""
+        """Return a light at infinity. toward: (3,) the direction from the scene to the light."""
         return cls("directional", toward, color)
 
     @classmethod

@@ -1,10 +1,10 @@
-"""The look of a picture: what can be set, once, for Python and the command line alike."""
+"""The look of a picture: one table of what can be set, for Python, the command line and scene files."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Literal, TypedDict, cast
+from typing import Any, Literal, TypedDict, Unpack, cast
 
 import numpy as np
 from attrs import evolve, frozen
@@ -13,29 +13,33 @@ from numpy.typing import ArrayLike
 from ..checks import choice, color, flag, integer, number, vector
 from ..errors import InputError
 from ._background import Background, background_of
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
 from ._light import Light
-from ._material import SHADINGS, Shading
+from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
-from ._object import Object
-from ._rotation import rotation_of
-from ._scene import MAX_SIDE, Scene, lights_of
-from ._staging import AZIMUTH, ELEVATION, MARGIN, Look, frame, painted, stage
+from ._object import OPACITIES, Object
+from ._rotation import IDENTITY, rotation_of
+from ._scene import DEFAULT_SIDE, MAX_SIDE, Scene, lights_of
+from ._staging import AZIMUTH, ELEVATION, ELEVATIONS, MARGIN, MARGINS, Viewpoint, frame, painted, placed
 from ._turning import middle, turn
 
+#: What a setting is a field of; "camera" also has settings from which a camera is made.
+Part = Literal["scene", "camera", "object", "material"]
 Kind = Literal["size", "whole", "number", "vector", "rotation", "flag", "color", "background", "choice", "lights"]
 
 
 @frozen
 class Setting:
-    """Something of the look of a picture that can be set.
+    """A setting of the look of a picture.
 
-    name: of the keyword; the option is --name with dashes, unless `option` is another. low, high: of a number. unit:
-    what a value is measured in. default: in words, where nothing else in the table says it.
+    name: the keyword; the option is --name with dashes, unless `option` is another. low, high: the range of a number.
+    unit: of a number. default: in words, where nothing else in the table says it. part: what it is a field of, in
+    Python and in scene files; None for what only `load` and the command line take.
     """
 
     name: str
     kind: Kind
+    part: Part | None
     group: str
     text: str
     low: float = -np.inf
@@ -44,6 +48,10 @@ class Setting:
     default: str = ""
     choices: tuple[str, ...] = ()
     option: str = ""
+
+    def check(self, value: object, name: str) -> Any:
+        """Return the value, converted by the kind of the setting. InputError, with the name, if it cannot be one."""
+        return _CHECKS[self.kind](value, self, name)
 
     @property
     def help(self) -> str:
@@ -82,19 +90,27 @@ _WORDS: dict[Kind, str] = {
 
 #: All settings, in the order in which they are shown.
 SETTINGS = (
-    Setting("size", "size", "Canvas", "Width and height of the picture.", 1, MAX_SIDE, "pixels", "the scene's, or 128"),
-    Setting("max_triangles", "whole", "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
-    Setting("background", "background", "Canvas", "Colour of the background, or those of its top and bottom."),
-    Setting("invert", "flag", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
     Setting(
-        "rotate", "rotation", "Camera", "Rotate the scene about x, then y, then z, through its middle.", unit="degrees"
+        "size", "size", None, "Canvas", "Width and height of the picture.", 1, MAX_SIDE, "pixels", "the scene's, or 128"
     ),
-    Setting("eye", "vector", "Camera", "Position of the eye."),
-    Setting("target", "vector", "Camera", "Point at which the eye looks."),
-    Setting("up", "vector", "Camera", "Direction that is upward in the picture."),
+    Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
+    Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
+    Setting("invert", "flag", "scene", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
+    Setting(
+        "rotate",
+        "rotation",
+        None,
+        "Camera",
+        "Rotate the scene about x, then y, then z, through its middle.",
+        unit="degrees",
+    ),
+    Setting("eye", "vector", "camera", "Camera", "Position of the eye."),
+    Setting("target", "vector", "camera", "Camera", "Point at which the eye looks."),
+    Setting("up", "vector", "camera", "Camera", "Direction that is upward in the picture."),
     Setting(
         "azimuth",
         "number",
+        "camera",
         "Camera",
         "Angle at which the camera stands to the right of the front.",
         unit="degrees",
@@ -103,55 +119,76 @@ SETTINGS = (
     Setting(
         "elevation",
         "number",
+        "camera",
         "Camera",
         "Angle at which the camera stands above the horizon.",
-        -90,
-        90,
+        *ELEVATIONS,
         "degrees",
         f"{ELEVATION:g} for mesh files",
     ),
     Setting(
         "margin",
         "number",
+        "camera",
         "Camera",
         "Part of half the picture that stays free around the objects.",
-        0,
-        0.9,
+        *MARGINS,
         default=f"{MARGIN:g} for mesh files",
     ),
     Setting(
-        "fov", "number", "Camera", "Vertical field of view of a perspective camera.", 0.2, 179.8, "degrees", "about 50"
+        "fov",
+        "number",
+        "camera",
+        "Camera",
+        "Vertical field of view of a perspective camera.",
+        *FIELDS_OF_VIEW,
+        "degrees",
+        "about 50",
     ),
-    Setting("half_height", "number", "Camera", "Half the height of the view, in perspective at distance 1.", 0),
-    Setting("near", "number", "Camera", "Distance of the near plane, before which all is clipped."),
+    Setting(
+        "half_height", "number", "camera", "Camera", "Half the height of the view, in perspective at distance 1.", 0
+    ),
+    Setting("near", "number", "camera", "Camera", "Distance of the near plane; nearer geometry is clipped."),
     Setting(
         "orthographic",
         "flag",
+        None,
         "Camera",
         "Use the orthographic projection, or the perspective one.",
         option="--orthographic/--perspective",
     ),
-    Setting("lights", "lights", "Light", "Lights that replace those of the scene, up to four.", option="--light"),
-    Setting("ambient_light", "color", "Light", "Colour of the light that comes from everywhere.", default="white"),
-    Setting("shading", "choice", "Light", "Kind of shading.", choices=SHADINGS),
-    Setting("smooth", "flag", "Light", "Short for shading smooth.", option="--smooth"),
-    Setting("unlit", "flag", "Light", "Short for shading unlit.", option="--unlit"),
-    Setting("ambient", "number", "Light", "Share of ambient light.", 0, 4),
-    Setting("diffuse", "number", "Light", "Share of diffuse light.", 0, 4),
-    Setting("specular", "number", "Light", "Strength of highlights.", 0, 4),
-    Setting("shininess", "whole", "Light", "Exponent of highlights, from wide to small.", 1, 128),
-    Setting("color", "color", "Surface", "One colour for all meshes.", default="their own"),
+    Setting(
+        "lights", "lights", "scene", "Light", "Up to four lights in place of those of the scene.", option="--light"
+    ),
+    Setting(
+        "ambient_light", "color", "scene", "Light", "Colour of the light that comes from everywhere.", default="white"
+    ),
+    Setting("shading", "choice", "material", "Light", "Kind of shading.", choices=SHADINGS),
+    Setting("smooth", "flag", None, "Light", "Short for shading smooth.", option="--smooth"),
+    Setting("unlit", "flag", None, "Light", "Short for shading unlit.", option="--unlit"),
+    Setting("ambient", "number", "material", "Light", "Share of ambient light.", *COEFFICIENTS),
+    Setting("diffuse", "number", "material", "Light", "Share of diffuse light.", *COEFFICIENTS),
+    Setting("specular", "number", "material", "Light", "Strength of highlights.", *COEFFICIENTS),
+    Setting("shininess", "whole", "material", "Light", "Exponent of highlights, from wide to small.", *EXPONENTS),
+    Setting("color", "color", "object", "Surface", "One colour for all meshes.", default="their own"),
     Setting(
         "cull",
         "flag",
+        "object",
         "Surface",
         "Leave out faces that turn away.",
         default="true for closed mesh files",
         option="--cull/--no-cull",
     ),
-    Setting("wireframe", "flag", "Surface", "Draw edges only.", option="--wireframe/--filled"),
-    Setting("opacity", "number", "Surface", "Share of what is behind objects that they hide.", 0, 1),
+    Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
+    Setting("opacity", "number", "object", "Surface", "Share of what is behind objects that they hide.", *OPACITIES),
 )
+
+
+def settings_of(part: Part) -> list[Setting]:
+    """Return the settings that are fields of a part of a scene."""
+    return [setting for setting in SETTINGS if setting.part == part]
+
 
 #: A colour as it is given.
 AnyColor = ArrayLike | str
@@ -200,15 +237,41 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
             close = get_close_matches(name, known, 1)
             meant = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
             raise TypeError(f"{name!r} is not a keyword of a look; {meant}")
-    look = {name: _CHECKS[known[name].kind](value, known[name]) for name, value in options.items() if value is not None}
+    look = {name: known[name].check(value, f"`{name}`") for name, value in options.items() if value is not None}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
     if len(shadings) > 1:
         raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
     if shadings:
         look["shading"] = shadings.pop()
-    _exclude(look, ("fov",), ("half_height",))
-    _exclude(look, ("azimuth", "elevation", "margin"), ("eye", "target", "up"))
+    exclude(look, "`{}`".format)
     return look
+
+
+def exclude(given: Collection[str], quote: Callable[[str], str]) -> None:
+    """Raise an InputError for settings that exclude each other; `quote` makes a name what messages call it."""
+    for pair in _EXCLUSIVE:
+        one, other = (next((name for name in names if name in given), None) for names in pair)
+        if one is not None and other is not None:
+            raise InputError(f"{quote(one)} and {quote(other)} exclude each other: give one of them")
+
+
+def stage(
+    mesh: Mesh,
+    size: int | tuple[int, int] | None = None,
+    *,
+    material: Material | None = None,
+    **look: Unpack[LookOptions],
+) -> Scene:
+    """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, that fills the picture.
+
+    material: of the surface, before the settings of the look. look: as in `load`.
+    """
+    chosen = checked_look({"size": size, **look})
+    scene = look_at(mesh, chosen)
+    if material is None:
+        return scene
+    material = evolve(material, **_given(chosen, settings_of("material")))
+    return evolve(scene, objects=[evolve(o, material=material) for o in scene.objects])
 
 
 def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
@@ -216,7 +279,10 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
     if isinstance(thing, Scene) and not look:
         return thing
     if isinstance(thing, Mesh):
-        scene = stage(thing, _staging(look, look.get("orthographic", False), thing_turned=True))
+        width, height = look.get("size", (DEFAULT_SIDE, DEFAULT_SIDE))
+        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
+        view = view_of(look, width, height, look.get("orthographic", False))
+        scene = placed(thing, look.get("rotate", IDENTITY), view, width, height)
     else:
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
@@ -225,13 +291,22 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
         scene,
         objects=[_object(each, look) for each in scene.objects],
         camera=_camera(scene, look, isinstance(thing, Mesh)),
-        **{name: look[name] for name in ("lights", "background", "ambient_light", "invert") if name in look},
+        **_given(look, settings_of("scene")),
     )
     if "max_triangles" not in look:
         return scene
     from ._simplify import simplify_scene
 
     return simplify_scene(scene, look["max_triangles"])
+
+
+def view_of(look: Mapping[str, Any], width: int, height: int, orthographic: bool) -> Viewpoint:
+    """Return the view that a look asks for, in a picture of this size."""
+    chosen = {name: look[name] for name in ("azimuth", "elevation", "margin") if name in look}
+    half_height = half_height_in(look, orthographic)
+    if half_height is not None and not orthographic:
+        chosen["half_height"] = half_height
+    return Viewpoint(projection="orthographic" if orthographic else "perspective", aspect=width / height, **chosen)
 
 
 def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
@@ -253,43 +328,24 @@ def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, in
     return cast(tuple[int, int], sides)
 
 
-def _exclude(look: Mapping[str, Any], one: Sequence[str], other: Sequence[str]) -> None:
-    pair = [next((name for name in names if name in look), None) for names in (one, other)]
-    if None not in pair:
-        raise InputError(f"`{pair[0]}` and `{pair[1]}` exclude each other: give one of them")
-
-
-def _staging(look: Mapping[str, Any], orthographic: bool, thing_turned: bool) -> Look:
-    """Return how a mesh, or a scene of such a size, is framed."""
-    chosen = {name: look[name] for name in ("azimuth", "elevation", "margin") if name in look}
-    if "size" in look:
-        chosen["width"], chosen["height"] = look["size"]
-    if thing_turned and "rotate" in look:
-        chosen["rotation"] = look["rotate"]
-    half_height = _half_height(look, orthographic)
-    if half_height is not None and not orthographic:
-        chosen["half_height"] = half_height
-    return Look(projection="orthographic" if orthographic else "perspective", **chosen)
-
-
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
-    material = evolve(o.material, **_given(look, "shading", "ambient", "diffuse", "specular", "shininess"))
-    mesh = painted(o.mesh, look["color"]) if "color" in look else o.mesh
-    return evolve(o, mesh=mesh, material=material, **_given(look, "cull", "wireframe", "opacity"))
+    changes = _given(look, settings_of("object"))
+    mesh = painted(o.mesh, changes.pop("color")) if "color" in changes else o.mesh
+    return evolve(o, mesh=mesh, material=evolve(o.material, **_given(look, settings_of("material"))), **changes)
 
 
 def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:
     camera = scene.camera
     orthographic = look.get("orthographic", camera.projection == "orthographic")
     projection: Projection = "orthographic" if orthographic else "perspective"
-    chosen = _half_height(look, orthographic)
-    if not is_staged and scene.objects and _given(look, "azimuth", "elevation", "margin"):
-        staging = evolve(_staging(look, orthographic, False), width=scene.width, height=scene.height)
+    chosen = half_height_in(look, orthographic)
+    if not is_staged and scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
+        view = view_of(look, scene.width, scene.height, orthographic)
         if not orthographic and chosen is None:
             own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
-            staging = evolve(staging, half_height=own)
-        camera = frame(np.concatenate([each.world_positions() for each in scene.objects]), staging)
-    camera = evolve(camera, **_given(look, "eye", "target", "up"))
+            view = evolve(view, half_height=own)
+        camera = frame(scene.world_positions(), view)
+    camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
     half_height, near = camera.half_height, camera.near
     if projection != camera.projection:
         # what the camera looks at keeps its size
@@ -307,7 +363,8 @@ def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:
     )
 
 
-def _half_height(look: Mapping[str, Any], orthographic: bool) -> float | None:
+def half_height_in(look: Mapping[str, Any], orthographic: bool) -> float | None:
+    """Return the half height of the view that a look asks for; None if it does not."""
     if "fov" not in look:
         return look.get("half_height")
     if orthographic:
@@ -315,27 +372,31 @@ def _half_height(look: Mapping[str, Any], orthographic: bool) -> float | None:
     return half_height_of(look["fov"])
 
 
-def _given(look: Mapping[str, Any], *names: str) -> dict[str, Any]:
-    return {name: look[name] for name in names if name in look}
+#: Settings that cannot be given together: one of the first and one of the second.
+_EXCLUSIVE = ((("fov",), ("half_height",)), (("azimuth", "elevation", "margin"), ("eye", "target", "up")))
 
 
-def _whole(value: object, setting: Setting) -> int:
+def _given(look: Mapping[str, Any], settings: Iterable[Setting]) -> dict[str, Any]:
+    return {setting.name: look[setting.name] for setting in settings if setting.name in look}
+
+
+def _whole(value: object, setting: Setting, name: str) -> int:
     found = integer(value)
     if found is None or not setting.low <= found <= setting.high:
         limits = f"from {setting.range}" if setting.range else f"at least {setting.low:g}"
-        raise InputError(f"`{setting.name}` must be a whole number, {limits}, not {value!r:.60}")
+        raise InputError(f"{name} must be a whole number, {limits}, not {value!r:.60}")
     return found
 
 
-_CHECKS: dict[Kind, Callable[[Any, Setting], Any]] = {
-    "size": lambda value, setting: size_of(value),
+_CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
+    "size": lambda value, setting, name: size_of(value, name),
     "whole": _whole,
-    "number": lambda value, setting: number(value, f"`{setting.name}`", setting.low, setting.high),
-    "vector": lambda value, setting: vector(value, f"`{setting.name}`"),
-    "rotation": lambda value, setting: rotation_of(value, f"`{setting.name}`"),
-    "flag": lambda value, setting: flag(value, f"`{setting.name}`"),
-    "color": lambda value, setting: color(value, f"`{setting.name}`"),
-    "background": lambda value, setting: background_of(value),
-    "choice": lambda value, setting: choice(value, f"`{setting.name}`", setting.choices),
-    "lights": lambda value, setting: lights_of(value),
+    "number": lambda value, setting, name: number(value, name, setting.low, setting.high),
+    "vector": lambda value, setting, name: vector(value, name),
+    "rotation": lambda value, setting, name: rotation_of(value, name),
+    "flag": lambda value, setting, name: flag(value, name),
+    "color": lambda value, setting, name: color(value, name),
+    "background": lambda value, setting, name: background_of(value),
+    "choice": lambda value, setting, name: choice(value, name, setting.choices),
+    "lights": lambda value, setting, name: lights_of(value),
 }

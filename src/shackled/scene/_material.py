@@ -1,4 +1,4 @@
-"""How a surface answers light."""
+"""Materials."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ from typing import Literal, cast
 from attrs import field, frozen
 
 from ..checks import choice, number
-from ._value import checked, with_names
+from ..values import checked, with_names
 
 Shading = Literal["unlit", "flat", "smooth"]
 SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
+
+
+#: The ranges of the coefficients and of the exponent.
+COEFFICIENTS = (0, 4)
+EXPONENTS = (1, 128)
 
 
 def _shading(value: str) -> Shading:
@@ -18,7 +23,7 @@ def _shading(value: str) -> Shading:
 
 
 def _shininess(value: float) -> int:
-    return round(number(value, "the shininess of a material", 1, 128))
+    return round(number(value, "the shininess of a material", *EXPONENTS))
 
 
 @frozen(field_transformer=with_names)
@@ -31,12 +36,12 @@ class Material:
 
     shading: Shading = field(default="flat", converter=_shading)
     ambient: float = field(
-        default=0.2, converter=number, metadata=checked("the ambient coefficient of a material", 0, 4)
+        default=0.3, converter=number, metadata=checked("the ambient coefficient of a material", *COEFFICIENTS)
     )
     diffuse: float = field(
-        default=0.7, converter=number, metadata=checked("the diffuse coefficient of a material", 0, 4)
+        default=0.75, converter=number, metadata=checked("the diffuse coefficient of a material", *COEFFICIENTS)
     )
     specular: float = field(
-        default=0.4, converter=number, metadata=checked("the specular coefficient of a material", 0, 4)
+        default=0.3, converter=number, metadata=checked("the specular coefficient of a material", *COEFFICIENTS)
     )
-    shininess: int = field(default=20, converter=_shininess)
+    shininess: int = field(default=24, converter=_shininess)

@@ -1,4 +1,4 @@
-"""Triangles with a colour per vertex."""
+"""Triangle meshes with a colour per vertex."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, Number, channels, color, fixed
 from ..errors import InputError
-from ._value import array_key, checked, plural, with_names
+from ..values import Value, array_key, checked, plural, with_names
 
-#: What a contract takes: vertices and faces are counted in 16 bits.
+#: Limits of the contracts, which count vertices and faces in 16 bits.
 MAX_VERTICES = 65535
 MAX_FACES = 65535
 
@@ -97,15 +97,15 @@ def _rows_of_3(rows: NDArray[Number], name: str) -> NDArray[Number]:
 
 
 @frozen(field_transformer=with_names, repr=False)
-class Mesh:
+class Mesh(Value):
     """A triangle mesh; counter-clockwise faces are seen from the front.
 
     positions: (n, 3) float. faces: (m, 3) int, vertex numbers.
     colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
         opaque alpha, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
-    normals: (n, 3) float, or None; needed for smooth shading, where the codec computes them if they are absent.
+    normals: (n, 3) float, or None; computed for smooth shading if they are absent.
 
-    A Mesh may be larger than a contract takes; `render` says so.
+    A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
     """
 
     positions: Floats = field(converter=_table, eq=array_key, metadata=checked("the positions of a mesh"))
@@ -159,8 +159,14 @@ class Mesh:
         return f"<Mesh {vertices}, {plural(self.triangles, 'triangle')}>"
 
 
+def without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the faces, (m, 3), that have three different vertices."""
+    a, b, c = faces.T
+    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+
+
 def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """(n, 3) unit normals: the mean of the faces around each vertex, weighted by area; zero where there is none."""
+    """Return unit normals, (n, 3): the mean of the faces around each vertex, weighted by area; zero where none are."""
     corners = positions[faces]
     face_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals = np.zeros_like(positions)

@@ -1,4 +1,4 @@
-"""A mesh with its place in the world."""
+"""Objects: meshes placed in the world."""
 
 from __future__ import annotations
 
@@ -10,10 +10,13 @@ from numpy.typing import ArrayLike
 
 from ..checks import Floats, flag, instance, number, vector
 from ..errors import InputError
+from ..values import Value, array_key, checked, with_names
 from ._material import Material
 from ._mesh import Mesh
-from ._rotation import ORTHOGONAL, quaternion_of, rotate, rotation_of
-from ._value import array_key, checked, with_names
+from ._rotation import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
+
+#: The range of an opacity.
+OPACITIES = (0, 1)
 
 
 def _mesh(value: Mesh) -> Mesh:
@@ -27,14 +30,14 @@ def _material(value: Material) -> Material:
 
 
 @frozen(field_transformer=with_names)
-class Object:
+class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.
 
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
         in degrees about x, then y, then z, or as a (3, 3) matrix.
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
-    opacity: what it hides of what is behind it, 0..1. Objects of less than 1 are drawn after the others, in the order
-        of the scene, each over what is there; the farthest should come first.
+    opacity: 0..1. Objects below 1 are drawn after the others, blended in the order of the scene; the farthest should
+        come first.
     """
 
     mesh: Mesh = field(converter=_mesh)
@@ -48,7 +51,7 @@ class Object:
     material: Material = field(factory=Material, converter=_material)
     cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))
     wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
-    opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", 0, 1))
+    opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", *OPACITIES))
 
     @classmethod
     def from_matrix(cls, mesh: Mesh, matrix: ArrayLike, **fields: Any) -> Object:
@@ -56,12 +59,7 @@ class Object:
 
         The other fields as keywords. InputError for a matrix that shears, mirrors, or scales the axes differently.
         """
-        try:
-            m = np.array(matrix, dtype=np.float64)
-        except (TypeError, ValueError):
-            m = np.zeros(0)
-        if m.shape != (4, 4) or not np.isfinite(m).all():
-            raise InputError(f"the matrix of an object must be 4 x 4 finite numbers, not {matrix!r:.60}")
+        m = matrix_of(matrix, 4, "the matrix of an object")
         lengths = np.linalg.norm(m[:3, :3], axis=0)
         scale = float(lengths.max())
         if scale == 0 or (lengths < (1 - ORTHOGONAL) * scale).any() or (m[3] != (0, 0, 0, 1)).any():

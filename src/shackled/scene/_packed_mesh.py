@@ -1,4 +1,4 @@
-"""A mesh as the bytes that a contract reads; the format is that of contracts/src/scene/Mesh.sol."""
+"""Packed meshes, in the format of contracts/src/scene/Mesh.sol."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def pack(mesh: Mesh, smooth: bool = False) -> bytes:
     positions, faces = mesh.positions, mesh.faces
     if len(positions) > MAX_VERTICES or len(faces) > MAX_FACES:
         raise InputError(
-            f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles, a contract takes {MAX_VERTICES:,}"
-            f" and {MAX_FACES:,}: simplify them with `max_triangles`"
+            f"a mesh has {len(positions):,} vertices and {len(faces):,} triangles; a contract takes {MAX_VERTICES:,}"
+            f" and {MAX_FACES:,}: simplify it with `max_triangles`"
         )
     if not is_integral(positions):
         raise InputError(f"a packed mesh needs whole coordinates from {-MAX_WIDE - 1:,} to {MAX_WIDE:,}")
@@ -63,7 +63,7 @@ def _normals(mesh: Mesh) -> NDArray[np.float64]:
 
 
 def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(n, 3) unit vectors as (n, 4) bytes: three numbers of 10 bits, then two bits that are 0."""
+    """Return unit vectors, (n, 3), as (n, 4) bytes: three numbers of 10 bits, then two zero bits."""
     x, y, z = (np.rint(normals * NORMAL_UNIT).astype(np.int64) & 1023).T
     words = np.asarray(x << 22 | y << 12 | z << 2, dtype=">u4")
     return words.view(np.uint8).reshape(-1, 4)

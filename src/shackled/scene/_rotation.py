@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import Floats, number, vector
 from ..errors import InputError
 
+IDENTITY = vector((0, 0, 0, 1), size=4)
+
 #: By how much the columns of a matrix may be from unit vectors at right angles.
 ORTHOGONAL = 1e-6
 
@@ -61,17 +63,22 @@ def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(p + q[3] * t + np.cross(q[:3], t))
 
 
-def quaternion_of(matrix: ArrayLike) -> NDArray[np.float64]:
+def matrix_of(value: ArrayLike, size: int, name: str) -> NDArray[np.float64]:
+    """Return a square matrix of `size` rows of finite floats. InputError for anything else."""
+    try:
+        matrix = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        matrix = np.zeros(0)
+    if matrix.shape != (size, size) or not np.isfinite(matrix).all():
+        raise InputError(f"{name} must be {size} x {size} finite numbers, not {value!r:.60}")
+    return matrix
+
+
+def quaternion_of(m: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the rotation of a matrix, (3, 3), whose columns are unit vectors at right angles, right-handed.
 
     InputError for any other matrix.
     """
-    try:
-        m = np.array(matrix, dtype=np.float64)
-    except (TypeError, ValueError):
-        m = np.zeros(0)
-    if m.shape != (3, 3) or not np.isfinite(m).all():
-        raise InputError(f"a rotation must be a matrix of 3 x 3 finite numbers, not {matrix!r:.60}")
     if np.abs(m.T @ m - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(m) < 0:
         raise InputError("the matrix of a rotation must have unit columns at right angles, and must not mirror")
     # 4 q q^T, whose largest column has no small divisor
@@ -94,7 +101,7 @@ def rotation_of(value: ArrayLike, name: str = "a rotation") -> Floats:
     if shape == (3,):
         value = from_euler(value)
     elif shape == (3, 3):
-        value = quaternion_of(value)
+        value = quaternion_of(matrix_of(value, 3, "the matrix of a rotation"))
     quaternion = vector(value, name, 4)
     if not quaternion.any():
         raise InputError(f"{name} must not be the zero quaternion; the identity is (0, 0, 0, 1)")

@@ -1,4 +1,4 @@
-"""Everything that a picture is made from."""
+"""Scenes: objects, camera, lights, background and size."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from ..checks import Color, Floats, color, flag, instance, integer
 from ..errors import InputError
+from ..values import checked, plural, with_names
 from ._background import Background, background_of
 from ._camera import Camera
 from ._light import WHITE, Light
 from ._mesh import Mesh
 from ._object import Object
-from ._value import checked, plural, with_names
 
 MAX_SIDE = 2048
 MAX_LIGHTS = 4
@@ -36,7 +36,7 @@ def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ..
 
 
 def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
-    """Return the lights that are meant: one alone, or up to four in a list; None is replaced by a Scene."""
+    """Return lights, given as one or as a list of up to four; None is replaced by the Scene."""
     if value is None:
         return value  # type: ignore[return-value]
     lights = _list([value] if isinstance(value, Light) else value, "lights")
@@ -77,9 +77,9 @@ class Scene:
 
     objects: also a Mesh in place of an Object, or one alone.
     background: also a colour, or two, (top, bottom).
-    camera, lights, background: where none of the three is given, objects are staged: the camera comes as near as it can
-        with all of them in the picture, from a little above and to the side, and a white light shines from the upper
-        left. Otherwise None is `Camera()`, no light, or black.
+    camera, lights, background: if none of the three is given, objects are staged: the camera sees all of them from a
+        little above and to the side, and a white light shines from the upper left. Otherwise None is `Camera()`, no
+        light, or black.
     ambient_light: the colour of the light that comes from everywhere.
     invert: every byte v of the picture becomes 255 - v.
     width, height: of the picture in pixels, 1..2048.
@@ -95,14 +95,14 @@ class Scene:
     height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
 
     def __attrs_post_init__(self) -> None:
-        """Choose what is not given."""
+        """Set the default camera, lights and background."""
         camera, background = Camera(), Background()
         lights: tuple[Light, ...] = ()
         if self.objects and self.camera is None and self.lights is None and self.background is None:
             from ._staging import staged
 
             with np.errstate(over="ignore", invalid="ignore"):
-                points = np.concatenate([each.world_positions() for each in self.objects])
+                points = self.world_positions()
             camera, lights, background = staged(points, self.width, self.height)
         for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
             if getattr(self, name) is None:
@@ -113,13 +113,15 @@ class Scene:
         """The number of triangles of all objects."""
         return sum(each.mesh.triangles for each in self.objects)
 
+    def world_positions(self) -> Floats:
+        """Return the vertices of all objects in the world, (n, 3)."""
+        return np.concatenate([np.zeros((0, 3)), *(each.world_positions() for each in self.objects)])
+
     @property
     def bounds(self) -> Floats:
         """The box around all objects in the world, (2, 3): its lowest and its highest corner; zeros without objects."""
-        corners = [(points.min(axis=0), points.max(axis=0)) for points in map(Object.world_positions, self.objects)]
-        if not corners:
-            return np.zeros((2, 3))
-        return np.stack([np.min([low for low, _ in corners], axis=0), np.max([high for _, high in corners], axis=0)])
+        points = self.world_positions()
+        return np.stack([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a scene file, .json, with its meshes inside, such that loading it gives the same scene.

@@ -1,4 +1,4 @@
-"""Fewer triangles for the same shape."""
+"""Mesh simplification."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import InputError
-from ._mesh import Mesh
+from ._mesh import Mesh, without_slivers
 from ._scene import Scene
 
-#: Tries at a collapse, one after the other until one is enough: how forceful it is, and its target as a share of the
-#: one that was asked for, for it may stop a little above its target, or far above it if it is not forceful enough.
+#: Attempts until one suffices: aggressiveness, and the target as a share of the requested one, because a collapse may
+#: stop a little above its target, or far above it if it is not aggressive enough.
 FORCEFUL = ((7, 1.0), (7, 0.9), (10, 0.8), (14, 0.5))
-#: These keep the shape better, and fail for more meshes.
+#: These keep the shape better, but fail for more meshes.
 GENTLE = ((5, 1.0), (5, 0.9))
 
 
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
-    """Return a mesh of at most `max_triangles` triangles, by collapsing edges where it changes the shape least.
+    """Return a mesh of at most `max_triangles` triangles, by edge collapse.
 
-    Each vertex takes the colour of the nearest of the vertices that were collapsed into it. Normals are dropped, for
-    they would no longer be those of the surface. A mesh that is small enough already is returned as it is. `tries`: how
-    forcefully. InputError where edges cannot be collapsed so far; it names a number that would do.
+    Each vertex has the colour of the nearest vertex that was collapsed into it. Normals are dropped. A mesh that is
+    small enough is returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
+    target cannot be reached; it names a number that can.
     """
     most = integer(max_triangles)
     if most is None or most < 1:
@@ -54,7 +54,7 @@ _Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
 
 
 def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
-    """Return the mesh after as many tries as it needs; it may have more triangles than it should, or none."""
+    """Return the mesh after as many attempts as needed; it may have too many triangles, or none."""
     surface = _connect(mesh)
     for force, share in tries:
         if len(surface[1]) <= max_triangles:
@@ -71,13 +71,7 @@ def _connect(mesh: Mesh) -> _Surface:
     positions = mesh.positions
     unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
-    return unique, _without_slivers(faces), mesh.colors[first]
-
-
-def _without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the faces that have three different vertices."""
-    a, b, c = faces.T
-    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
+    return unique, without_slivers(faces), mesh.colors[first]
 
 
 def _collapse(
@@ -89,7 +83,7 @@ def _collapse(
         positions, faces.astype(np.int32), target_count=min(target, len(faces)), agg=agg, return_collapses=True
     )
     points, triangles, number = replay_simplification(positions, faces.astype(np.int32), collapses)
-    triangles = _without_slivers(np.asarray(triangles, dtype=np.int64).reshape(-1, 3))
+    triangles = without_slivers(np.asarray(triangles, dtype=np.int64).reshape(-1, 3))
     if len(triangles) == 0:
         return positions[:0], triangles, colors[:0]
     # of the vertices that became one, the nearest to it comes last, and so stays

@@ -1,27 +1,22 @@
-"""A mesh without a scene, set up like a product shot: centred, seen from a little above and to the side, lit from the
-front.
-"""
+"""Cameras, lights and backgrounds for meshes that have none: all of a mesh in the picture, seen from a little above."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks
-from ..checks import Color, Floats
+from ..checks import Floats, number
 from ..errors import InputError
-from ._background import Background, background_of
+from ..values import checked, with_names
+from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection
-from ._light import WHITE, Light
-from ._material import Material
+from ._light import Light
 from ._mesh import Mesh
 from ._object import Object
-from ._rotation import rotate, rotation_of
-from ._scene import DEFAULT_SIDE, Scene
-from ._value import array_key
+from ._rotation import rotate
+from ._scene import Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 
@@ -32,52 +27,37 @@ KEY_LIGHT = (-0.4, 0.7, 0.8)
 AZIMUTH, ELEVATION = 30.0, 20.0
 #: The part of the picture's half width and half height that stays free around a mesh.
 MARGIN = 0.08
+#: The ranges of elevations and margins.
+ELEVATIONS, MARGINS = (-90, 90), (0, 0.9)
 #: Coordinates of objects at most, so that a float holds those of a camera that sees them all.
 LARGEST = 1e305
 
 
-def _color(value: ArrayLike | str | None) -> Color | None:
-    return None if value is None else checks.color(value, "the colour of a mesh")
+@frozen(field_transformer=with_names)
+class Viewpoint:
+    """The side from which a camera sees all objects, and how it projects.
 
-
-@frozen
-class Look:
-    """What may be chosen about the picture of a mesh.
-
-    rotation: of the mesh, as that of an `Object`; for instance (-90, 0, 0) for a file with z up.
     azimuth, elevation: where the viewer stands, in degrees: to the right of the front (+z), and above the horizon.
-    half_height: as in `Camera`, for the perspective camera; the orthographic one takes what the mesh needs.
-    margin: the part of the picture's half width and half height that stays free around the mesh, 0..0.9.
-    color: one colour for the whole mesh in place of its own.
-    lights: None for a white light from the upper left.
-    cull: None leaves out the faces that turn away where the mesh is closed, so that this cannot be seen.
+    margin: the part of the picture's half width and half height that stays free around the objects, 0..0.9.
+    half_height: of a perspective camera, as in `Camera`; an orthographic one takes what the objects need.
+    aspect: width of the picture / its height.
     """
 
-    width: int = DEFAULT_SIDE
-    height: int = DEFAULT_SIDE
-    rotation: Floats = field(default=(0, 0, 0, 1), converter=rotation_of, eq=array_key)
-    azimuth: float = AZIMUTH
-    elevation: float = ELEVATION
+    azimuth: float = field(default=AZIMUTH, converter=number, metadata=checked("the azimuth in degrees"))
+    elevation: float = field(
+        default=ELEVATION, converter=number, metadata=checked("the elevation in degrees", *ELEVATIONS)
+    )
+    margin: float = field(default=MARGIN, converter=number, metadata=checked("the margin", *MARGINS))
     projection: Projection = "perspective"
     half_height: float = DEFAULT_HALF_HEIGHT
-    margin: float = MARGIN
-    color: Color | None = field(default=None, converter=_color)
-    material: Material = field(factory=lambda: Material("flat", 0.3, 0.75, 0.3, 24))
-    lights: Sequence[Light] | None = None
-    background: Background = field(default=BACKGROUND, converter=background_of)
-    ambient_light: Color = field(default=WHITE, converter=checks.color)
-    cull: bool | None = None
-    wireframe: bool = False
-    invert: bool = False
+    aspect: float = 1.0
 
 
-def stage(mesh: Mesh, look: Look | None = None) -> Scene:
-    """Return a scene of one mesh: scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
+def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, width: int, height: int) -> Scene:
+    """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
 
     The mesh keeps its coordinates; position and scale of the object do the rest.
     """
-    look = look or Look()
-    Scene([], width=look.width, height=look.height)  # a wrong size is told before anything is divided by it
     positions = mesh.positions
     with np.errstate(over="ignore"):
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
@@ -85,26 +65,14 @@ def stage(mesh: Mesh, look: Look | None = None) -> Scene:
     scale = 1 / radius if radius > 0 else 1.0
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
-    turned = rotate(look.rotation, (positions - center) * scale)
+    turned = rotate(rotation, (positions - center) * scale)
     return Scene(
-        objects=[
-            Object(
-                mesh if look.color is None else painted(mesh, look.color),
-                position=-rotate(look.rotation, center * scale),
-                rotation=look.rotation,
-                scale=scale,
-                material=look.material,
-                cull=is_closed(mesh) if look.cull is None else look.cull,
-                wireframe=look.wireframe,
-            )
-        ],
-        camera=frame(turned, look),
-        lights=[key_light(look)] if look.lights is None else look.lights,
-        background=look.background,
-        ambient_light=look.ambient_light,
-        invert=look.invert,
-        width=look.width,
-        height=look.height,
+        [Object(mesh, -rotate(rotation, center * scale), rotation, scale, cull=is_closed(mesh))],
+        frame(turned, view),
+        key_light(view),
+        BACKGROUND,
+        width=width,
+        height=height,
     )
 
 
@@ -113,14 +81,14 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
 
     InputError where a float does not hold their coordinates, or those of the camera.
     """
-    look = Look(width=width, height=height)
+    view = Viewpoint(aspect=width / height)
     # of any size: squares of its lengths stay within floats
     largest = float(np.abs(points).max()) or 1.0
     if not largest < LARGEST:
         raise InputError("the coordinates of the objects are too large for a camera to be placed")
-    camera = frame(points / largest, look)
+    camera = frame(points / largest, view)
     camera = evolve(camera, eye=largest * camera.eye, target=largest * camera.target)
-    return camera, (key_light(look),), BACKGROUND
+    return camera, (key_light(view),), BACKGROUND
 
 
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
@@ -128,21 +96,20 @@ def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
     return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
 
 
-def frame(points: NDArray[np.float64], look: Look) -> Camera:
-    """Return the camera that looks from `azimuth` and `elevation`, as near as all points, (n, 3), fit the picture."""
-    right, up, back = view_axes(look)
+def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
+    """Return the camera of a view, as near as all points, (n, 3), fit the picture."""
+    right, up, back = view_axes(view.azimuth, view.elevation)
     x, y, z = points @ right, points @ up, points @ back
-    free = 1 - checks.number(look.margin, "the margin around the mesh", 0, 0.9)
-    aspect = look.width / look.height
-    if look.projection == "orthographic":
+    free = 1 - view.margin
+    if view.projection == "orthographic":
         middle = np.array([x.max() + x.min(), y.max() + y.min(), z.max() + z.min()]) / 2
-        half_height = float(max((x.max() - x.min()) / 2 / aspect, (y.max() - y.min()) / 2) / free) or 1.0
+        half_height = float(max((x.max() - x.min()) / 2 / view.aspect, (y.max() - y.min()) / 2) / free) or 1.0
         distance = float(z.max() - middle[2]) + half_height
     else:
         # a point is in the picture if |x - x0| <= slope * (z0 - z): both sides are tight for the nearest z0, and
         # likewise for y
-        half_height = look.half_height
-        slopes = checks.number(half_height, "half_height", 2**-10, 2**10) * free * np.array([aspect, 1])
+        half_height = view.half_height
+        slopes = number(half_height, "half_height", 2**-10, 2**10) * free * np.array([view.aspect, 1])
         sides = [((a / slope + z).max(), (z - a / slope).max(), slope) for a, slope in ((x, slopes[0]), (y, slopes[1]))]
         z0 = max((high + low) / 2 for high, low, _ in sides)
         x0, y0 = (slope * (high - low) / 2 for high, low, slope in sides)
@@ -152,19 +119,18 @@ def frame(points: NDArray[np.float64], look: Look) -> Camera:
         distance = z0 - middle[2]
     target = middle[0] * right + middle[1] * up + middle[2] * back
     return Camera(
-        target + distance * back, target, (0, 1, 0) if abs(back[1]) < 0.999 else up, look.projection, half_height
+        target + distance * back, target, (0, 1, 0) if abs(back[1]) < 0.999 else up, view.projection, half_height
     )
 
 
-def key_light(look: Look) -> Light:
+def key_light(view: Viewpoint) -> Light:
     """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(look)))
+    return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(view.azimuth, view.elevation)))
 
 
-def view_axes(look: Look) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return unit vectors to the right, upward, and toward the viewer."""
-    azimuth = np.radians(checks.number(look.azimuth, "the azimuth in degrees"))
-    elevation = np.radians(checks.number(look.elevation, "the elevation in degrees", -90, 90))
+def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return unit vectors to the right, upward, and toward a viewer, of angles in degrees."""
+    azimuth, elevation = np.radians(azimuth), np.radians(elevation)
     right = np.array([np.cos(azimuth), 0, -np.sin(azimuth)])
     back = np.array([np.sin(azimuth) * np.cos(elevation), np.sin(elevation), np.cos(azimuth) * np.cos(elevation)])
     return right, np.cross(back, right), back

@@ -1,4 +1,4 @@
-"""A scene turned about its middle."""
+"""Rotation of scenes about their centre."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._scene import Scene
 Points = NDArray[np.float64]
 
 MOST_FRAMES = 720
-#: The part of the half width and half height of the picture that may be filled.
+#: The share of the half width and half height of the picture that may be filled.
 FILLED = 0.92
 
 
@@ -25,7 +25,7 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
     """Return the scene with all objects turned together about their middle; camera and lights stay.
 
     rotation: degrees about x, then y, then z; a quaternion (x, y, z, w); or a (3, 3) matrix.
-    The meshes are left as they are: the contract turns them, by the rotations of the objects.
+    The meshes do not change: the contract applies the rotations of the objects.
     """
     rotation, center = rotation_of(rotation), middle(scene)
     return evolve(
@@ -44,25 +44,19 @@ def turn(scene: Scene, rotation: ArrayLike) -> Scene:
 def full_turn(scene: Scene, frames: int) -> list[Scene]:
     """Return the scene in equal steps of a full turn about the vertical axis, counter-clockwise as seen from above.
 
-    Background, lights and camera stand still. Where a scene that was wholly in the picture would not stay there, the
-    camera is moved back for all frames.
+    Background, lights and camera stand still. If a scene that is completely in the picture would leave it, the camera
+    is moved back for all frames.
     """
     if number(frames, "the number of frames of a turntable", 2, MOST_FRAMES) != int(frames):
         raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
     turned = [scene, *(turn(scene, (0, 360 * step / frames, 0)) for step in range(1, int(frames)))]
-    camera = _holding(scene.camera, [_points(each) for each in turned], scene.width / scene.height)
+    camera = _holding(scene.camera, [each.world_positions() for each in turned], scene.width / scene.height)
     return [evolve(each, camera=camera) for each in turned]
 
 
 def middle(scene: Scene) -> Points:
     """Return the middle of the box around all objects."""
     return np.asarray(scene.bounds.mean(axis=0))
-
-
-def _points(scene: Scene) -> Points:
-    """Return all vertices, (n, 3), in the world."""
-    placed = [o.world_positions() for o in scene.objects]
-    return np.concatenate(placed) if placed else np.zeros((0, 3))
 
 
 def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:

@@ -17,7 +17,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
-from ..json_text import read_json
+from ..untrusted import read_json
 
 FORMAT = "standard-v1"
 ENCODING = ["address", "uint256"]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from ..ethereum import checksum_address, parse_address, to_hex
-from ..json_text import read_json
+from ..untrusted import read_json
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount

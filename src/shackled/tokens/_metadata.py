@@ -18,8 +18,7 @@ from PIL import Image as PillowImage
 
 from ..errors import VerificationError
 from ..image import Image
-from ..json_text import read_json
-from ..plain import plain
+from ..untrusted import plain, read_json
 from ..whole_file import write_output
 
 #: Maximum size of a `tokenURI` in bytes; marketplaces do not show longer ones.

@@ -98,8 +98,8 @@ def test_picture_is_that_of_the_scene(number: int) -> None:
     piece = generate(seed_of(number))
     image, expected = picture_on_chain(piece), render(piece.scene())
     assert image.bmp == expected.bmp
-    assert (image.triangles, image.lit_pixels) == (expected.triangles, expected.lit_pixels)
-    assert (image.lit_pixels or 0) > 300
+    assert (image.triangles, image.covered_pixels) == (expected.triangles, expected.covered_pixels)
+    assert (image.covered_pixels or 0) > 300
     assert image.gas is not None
     assert expected.gas is not None
     assert image.gas > expected.gas

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from shackled import Scene, render
-from shackled.datasets.icons import ICONS, Icon, find
+from shackled.datasets.icons import ICONS, IconModel, find
 from shackled.datasets.icons import pieces as icons
 from shackled.scene import Mesh, is_closed, signed_volume
 
@@ -69,7 +69,7 @@ def test_finding() -> None:
 
 
 @pytest.mark.parametrize("icon", ICONS, ids=lambda icon: icon.name)
-def test_model(icon: Icon) -> None:
+def test_model(icon: IconModel) -> None:
     scene = icon.scene()
     mesh = whole(scene)
     positions, faces = mesh.positions, mesh.faces
@@ -88,20 +88,20 @@ def test_model(icon: Icon) -> None:
 
 
 @pytest.mark.parametrize("icon", ICONS, ids=lambda icon: icon.name)
-def test_picture(icon: Icon) -> None:
+def test_picture(icon: IconModel) -> None:
     image = render(icon.scene(), size=128)
     assert image.gas is not None
     assert image.intrinsic_gas is not None
-    assert image.lit_pixels is not None
+    assert image.covered_pixels is not None
     assert image.gas + image.intrinsic_gas <= TRANSACTION_GAS
-    assert 0.08 < image.lit_pixels / 128**2 < 0.85
+    assert 0.08 < image.covered_pixels / 128**2 < 0.85
     # it fills the picture in one direction, leaves a margin in all, and stands out from the background
     covered = np.abs(image.pixels.astype(int) - image.pixels[:, :1]).max(axis=2) > 24
     rows, columns = np.flatnonzero(covered.any(axis=1)), np.flatnonzero(covered.any(axis=0))
     assert max(np.ptp(rows), np.ptp(columns)) > 112
     assert 2 <= rows.min() <= rows.max() <= 125
     assert 2 <= columns.min() <= columns.max() <= 125
-    assert covered.sum() > 0.9 * image.lit_pixels
+    assert covered.sum() > 0.9 * image.covered_pixels
 
 
 def test_splitting_and_sorting_do_not_change_a_picture() -> None:

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from original_scenes import documents, wrong_documents
+from shackled import Scene
 from shackled.errors import InputError
-from shackled.scene import DEFAULT_HALF_HEIGHT, Scene, original_scene, rotate
+from shackled.scene import DEFAULT_HALF_HEIGHT, original_scene, rotate
 
 LIGHTING = {
     "applyLighting": True,

@@ -5,22 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.errors import InputError
-from shackled.scene import (
-    BACKGROUND,
-    DEFAULT_HALF_HEIGHT,
-    Background,
-    Camera,
-    Light,
-    Look,
-    Material,
-    Mesh,
-    Object,
-    Scene,
-    load,
-    rotate,
-    write_scene,
-)
+from shackled.scene import BACKGROUND, DEFAULT_HALF_HEIGHT, rotate, write_scene
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
@@ -95,7 +82,7 @@ def test_every_key_in_toml(folder: Path) -> None:
     assert (scene.width, scene.height, scene.invert, scene.ambient_light) == (320, 200, True, (16, 32, 48))
     assert (scene.background.top, scene.background.bottom) == ((1, 2, 3), (255, 255, 255))
     camera = scene.camera
-    assert [np.asarray(v).tolist() for v in (camera.eye, camera.target, camera.up)] == [
+    assert [v.tolist() for v in (camera.eye, camera.target, camera.up)] == [
         [0, 2, 5],
         [0, 0.5, 0],
         [0, 0, -1],
@@ -109,21 +96,21 @@ def test_every_key_in_toml(folder: Path) -> None:
     ]
     assert scene.lights[2] == Light("spot", (7, 8, 9), (255, 255, 255), (0, -1, 0), 0, 30)
     first, second = scene.objects
-    assert np.asarray(first.position).tolist() == [1, 2, 3]
+    assert first.position.tolist() == [1, 2, 3]
     np.testing.assert_allclose(rotate(first.rotation, [0, 1, 0]), [0, 0, 1], atol=1e-12)
     np.testing.assert_allclose(rotate(second.rotation, [1, 0, 0]), [0, 1, 0], atol=1e-12)
     assert first.mesh.colors.tolist() == [[9, 8, 7]] * 3
     assert (first.scale, first.cull, first.wireframe) == (2.5, False, True)
     assert first.material == Material("smooth", 0.1, 0.2, 0.3, 44)
     assert (first.opacity, second.opacity) == (0.25, 1)
-    assert (second.scale, second.cull, second.wireframe, second.material) == (1, True, False, Look().material)
+    assert (second.scale, second.cull, second.wireframe, second.material) == (1, True, False, Material())
 
 
 def test_json_has_the_same_keys(folder: Path) -> None:
     import tomllib
 
     (folder / "scene.toml").write_text(TOML)
-    same(load(folder / "scene.toml"), scene_of(folder, **tomllib.loads(TOML)))
+    assert load(folder / "scene.toml") == scene_of(folder, **tomllib.loads(TOML))
 
 
 def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
@@ -147,23 +134,9 @@ def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
         19,
     )
     write_scene(scene, tmp_path / "scene.json")
-    same(load(tmp_path / "scene.json"), scene)
+    assert load(tmp_path / "scene.json") == scene
     write_scene(Scene([]), tmp_path / "empty.json")
-    same(load(tmp_path / "empty.json"), Scene([]))
-
-
-def same(left: Any, right: Any) -> None:
-    """Whether two scenes or parts of them are equal, arrays and all."""
-    if hasattr(left, "__dataclass_fields__"):
-        assert type(left) is type(right)
-        for name in left.__dataclass_fields__:
-            same(getattr(left, name), getattr(right, name))
-    elif isinstance(left, tuple) and left and hasattr(left[0], "__dataclass_fields__"):
-        assert len(left) == len(right)
-        for one, other in zip(left, right, strict=True):
-            same(one, other)
-    else:
-        np.testing.assert_array_equal(left, right)
+    assert load(tmp_path / "empty.json") == Scene([])
 
 
 def test_defaults_show_all_that_is_there(folder: Path) -> None:
@@ -192,27 +165,27 @@ def test_orthographic_cameras(folder: Path) -> None:
     placed = scene_of(folder, objects=[thing()], camera={"projection": "orthographic"}).camera
     assert (placed.projection, placed.half_height < 1) == ("orthographic", True)
     wide = scene_of(folder, objects=[thing()], camera={"projection": "orthographic", "half_height": 7}).camera
-    assert (wide.half_height, np.asarray(wide.target).tolist()) == (7, np.asarray(placed.target).tolist())
+    assert (wide.half_height, wide.target.tolist()) == (7, placed.target.tolist())
 
 
 def test_rotation_as_quaternion(folder: Path) -> None:
     rotation = scene_of(folder, objects=[thing(rotation={"quaternion": [0, 0, 3, 4]})]).objects[0].rotation
-    assert np.asarray(rotation).tolist() == [0, 0, 3, 4]
+    assert rotation.tolist() == [0, 0, 3, 4]
 
 
 @pytest.mark.parametrize(
     ("document", "message"),
     [
         ({"object": []},
-         "unknown key 'object'; known are size, invert, ambient_light, background, camera, lights, objects"),
+         "unknown key 'object'; known are background, invert, lights, ambient_light, size, camera, objects"),
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
-         "objects[0] must be a table with keys of mesh, position, rotation, scale, color, material, cull, "
-         "wireframe, opacity, not 3"),
+         "objects[0] must be a table with keys of color, cull, wireframe, opacity, mesh, position, rotation, "
+         "scale, material, not 3"),
         ({"objects": [{}]}, "objects[0] needs a mesh: the path of a file, relative to the scene file"),
         ({"objects": [thing(colour="#fff")]},
-         "unknown key 'colour' in objects[0]; known are mesh, position, rotation, scale, "
-         "color, material, cull, wireframe, opacity"),
+         "unknown key 'colour' in objects[0]; known are color, cull, wireframe, opacity, "
+         "mesh, position, rotation, scale, material"),
         ({"objects": [thing(color="#fff")]},
          "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not '#fff'"),
         ({"objects": [thing(color=[1, 2, 256])]},
@@ -232,7 +205,7 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"objects": [thing(material={"shading": "gouraud"})]},
          "objects[0].material.shading must be one of unlit, flat, smooth, not 'gouraud'"),
         ({"objects": [thing(material={"diffuse": 5})]},
-         "objects[0].material: the diffuse coefficient of a material must be a finite number from 0 to 4, not 5.0"),
+         "objects[0].material.diffuse must be a finite number from 0 to 4, not 5.0"),
         ({"objects": [thing(cull="yes")]}, "objects[0].cull must be true or false, not 'yes'"),
         ({"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 1]]}}]},
          "objects[0].mesh: face 0 names the vertices [0, 0, 1], but they are numbered 0 to 0"),
@@ -253,7 +226,7 @@ def test_rotation_as_quaternion(folder: Path) -> None:
             "lights[0]: the inner_angle of a spot light, 50, must not be above its outer_angle, 45",
         ),
         ({"lights": [{"kind": "point", "direction": [1, 0, 0]}]},
-         "lights[0] must have a position, and no direction, as its kind is point"),
+         "lights[0] must have a position, as its kind is point"),
         ({"lights": [{"kind": "directional", "direction": [0, 0, 0]}]},
          "lights[0]: the direction of a light must not be zero"),
         ({"lights": [{"kind": "point", "position": [0, 0, 0]}] * 5}, "a scene has up to 4 lights, not 5"),
@@ -261,16 +234,17 @@ def test_rotation_as_quaternion(folder: Path) -> None:
          "camera.eye needs a camera.target; without both the camera is placed so that all is seen"),
         ({"camera": {"eye": [0, 0, 5], "target": [0, 0, 5]}}, "camera: eye and target are the same point"),
         ({"camera": {"eye": [0, 0, 5], "target": [0, 0, 0], "up": [0, 0, 0]}}, "camera: up must not be (0, 0, 0)"),
-        ({"camera": {"fov": 50, "half_height": 1}}, "camera.fov and half_height exclude each other"),
+        ({"camera": {"fov": 50, "half_height": 1}},
+         "camera.fov and camera.half_height exclude each other: give one of them"),
         ({"camera": {"fov": 180}},
-         "camera: the field of view in degrees must be a finite number from 0.2 to 179.8, not 180.0"),
+         "camera.fov must be a finite number from 0.2 to 179.8, not 180.0"),
         ({"camera": {"projection": "fisheye"}},
          "camera.projection must be one of perspective, orthographic, not 'fisheye'"),
         ({"camera": {"near": 0}},
          "camera: the camera's near distance must be above 0 for a perspective camera, not 0.0"),
         ({"camera": {"zoom": 2}},
          "unknown key 'zoom' in camera; known are eye, target, up, azimuth, elevation, margin, "
-         "projection, fov, half_height, near"),
+         "fov, half_height, near, projection"),
         ({"background": {"middle": 3}}, "unknown key 'middle' in background; known are top, bottom"),
     ],
 )  # fmt: skip

@@ -1,8 +1,7 @@
 from ._clean import MAX_TRIANGLES, capped, clean, creased, parts, placed, prepare, reduce, without_crumbs
 from ._cornell_box import EYE, HEIGHT, cornell_box
 from ._fetch import checksum, fetch, take
-from ._find import find, pieces
-from ._models import Model, model, models
+from ._models import Model, find, model, models, pieces
 
 __all__ = [
     "EYE",

@@ -1,4 +1,4 @@
-"""Cleaning and simplification of scanned or modelled meshes."""
+"""Cleaning and simplification of scanned or modelled meshes, so that a contract draws them for little gas."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
-from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld
+from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld, without_slivers
 
-#: As many triangles as the largest object of the Shackled paper has.
+#: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198
 #: Parts of fewer triangles are crumbs of a scan, if they are also a small share of the whole.
 CRUMB = 12
@@ -33,13 +33,10 @@ def prepare(
     turn_inside_out: bool = False,
     max_triangles: int = MAX_TRIANGLES,
 ) -> Mesh:
-    """Return the mesh cleaned, upright, centred, scaled to a radius of 1, and simplified to `max_triangles`.
+    """Return the mesh cleaned, turned, centred, scaled to a radius of 1, and simplified to `max_triangles`.
 
-    rotation: degrees about x, then y, then z.
-    cap: whether to close its holes.
-    turn_inside_out: whether its faces point inward.
-
-    Colours are kept, normals are not.
+    rotation: degrees about x, then y, then z. cap: whether to close holes. turn_inside_out: whether its faces are seen
+    from inside. Colours are kept, normals are not.
     """
     mesh = clean(mesh)
     if cap:
@@ -52,22 +49,25 @@ def prepare(
 
 
 def clean(mesh: Mesh) -> Mesh:
-    """Merge equal positions; remove duplicate triangles, triangles back to back, and triangles without area."""
+    """Return the mesh with one vertex per position, without degenerate and duplicate triangles.
+
+    Triangles back to back with each other are removed, too.
+    """
     positions, first, number = np.unique(mesh.positions + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
-    faces = _without_doubles(faces)
+    # by their indices too, because the area of a sliver may be rounded to more than zero
+    faces = without_slivers(_without_doubles(faces))
     a, b, c = positions[faces].transpose(1, 0, 2)
-    # of the indices too, for the area of a sliver may be rounded to more than zero
-    different = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = faces[different & np.cross(b - a, c - a).any(axis=1)]
+    faces = faces[np.cross(b - a, c - a).any(axis=1)]
     if not len(faces):
         raise InputError("the mesh has no triangle with an area")
     return _compact(positions, faces, mesh.colors[first])
 
 
 def _without_doubles(faces: Faces) -> Faces:
-    """Return one of several triangles with the same corners; none if equally many face either way, since such a fold
-    bounds nothing.
+    """Return the faces with one of all triangles with the same corners.
+
+    None is kept if as many of them face one way as the other: they are a fold that bounds nothing.
     """
     corners = np.sort(faces, axis=1)
     # the sign of the permutation that sorts the corners
@@ -81,7 +81,7 @@ def _without_doubles(faces: Faces) -> Faces:
 
 
 def capped(mesh: Mesh) -> Mesh:
-    """Close each simple hole of a mesh with a fan of triangles."""
+    """Return the mesh with each simple hole closed by a fan of triangles."""
     positions, faces = mesh.positions, mesh.faces
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     inner = set(map(tuple, edges[:, ::-1].tolist()))
@@ -106,7 +106,7 @@ def capped(mesh: Mesh) -> Mesh:
 
 
 def without_crumbs(mesh: Mesh) -> Mesh:
-    """Remove unconnected parts of a few triangles."""
+    """Return the mesh without unconnected parts of a few triangles."""
     faces = mesh.faces
     part = parts(faces, len(mesh.positions))[faces[:, 0]]
     count = np.bincount(part)[part]
@@ -116,7 +116,7 @@ def without_crumbs(mesh: Mesh) -> Mesh:
 
 
 def parts(faces: Faces, count: int) -> NDArray[np.int64]:
-    """Return, (count,), for each vertex the lowest number of the vertices connected with it by faces."""
+    """Return, for each vertex, the least number among those that faces connect it with, (count,)."""
     label = np.arange(count)
     while True:
         least = label[faces].min(axis=1)
@@ -130,10 +130,9 @@ def parts(faces: Faces, count: int) -> NDArray[np.int64]:
 
 
 def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
-    """Simplify a mesh.
+    """Simplify a mesh; a closed mesh stays closed if possible, since its back faces need not be drawn.
 
-    A closed mesh stays closed if possible, since half of it can then be culled. If the collapse of edges stalls, near
-    vertices are merged first, on increasingly coarse grids.
+    Where edge collapse fails, near vertices are merged first, on grids that grow coarser.
     """
     try:
         first = clean(simplify(mesh, max_triangles))
@@ -151,16 +150,16 @@ def reduce(mesh: Mesh, max_triangles: int) -> Mesh:
 
 
 def placed(mesh: Mesh, rotation: ArrayLike = (0, 0, 0)) -> Mesh:
-    """Rotate a mesh, centre its bounding box at the origin, and scale its farthest vertex to distance 1."""
+    """Return the mesh turned, centred, and scaled such that its farthest vertex is at the distance 1."""
     positions = rotate(from_euler(rotation), mesh.positions)
     positions = positions - (positions.min(axis=0) + positions.max(axis=0)) / 2
     return Mesh(positions / np.linalg.norm(positions, axis=1).max(), mesh.faces, mesh.colors)
 
 
 def creased(mesh: Mesh, degrees: float) -> Mesh:
-    """Return the mesh with normals that are smooth except across edges at which its faces turn by more than `degrees`.
+    """Return the mesh with smooth normals, except across edges at which it turns by more than `degrees`.
 
-    The normal of a corner is the mean, weighted by area, of the adjacent faces that differ by less.
+    The normal of a corner is the mean, weighted by area, of the faces around it that turn away from its own by less.
     """
     positions, faces = mesh.positions, mesh.faces
     a, b, c = positions[faces].transpose(1, 0, 2)
@@ -182,7 +181,7 @@ def creased(mesh: Mesh, degrees: float) -> Mesh:
 
 
 def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return, for each face, the size of its part as a share of the whole mesh."""
+    """Return, for each face, the extent of its part as a share of that of the mesh."""
     corners = mesh.positions[mesh.faces]
     low = np.full((part.max() + 1, 3), np.inf)
     high = -low
@@ -193,7 +192,7 @@ def _size_of_parts(mesh: Mesh, part: NDArray[np.int64]) -> NDArray[np.float64]:
 
 
 def _clustered(mesh: Mesh, cells: int) -> Mesh:
-    """Merge the vertices in each cell of a grid, with `cells` cells along its longest side, at their mean position."""
+    """Merge the vertices in each cell of a grid, `cells` along the longest side, at their mean."""
     positions = mesh.positions
     cell = np.floor((positions - positions.min(axis=0)) / (np.ptp(positions, axis=0).max() / cells))
     _, first, number = np.unique(cell, axis=0, return_index=True, return_inverse=True)

@@ -38,7 +38,10 @@ HALF_HEIGHT = 0.025 / 2 / 0.035
 
 
 def cornell_box() -> Scene:
-    """Return the box with its lamp in the ceiling, seen by the published camera. The renderer casts no shadows."""
+    """Return the box with its lamp in the ceiling, seen by the published camera.
+
+    There are no shadows: nothing in the pipeline casts any.
+    """
     room = [(FLOOR, WHITE), *((part, WHITE) for part in _ceiling()), (BACK_WALL, WHITE)]
     room += [(RIGHT_WALL, GREEN), (LEFT_WALL, RED)]
     material = Material("flat", ambient=0.35, diffuse=0.75, specular=0, shininess=1)
@@ -65,7 +68,7 @@ def _ceiling() -> list[Quad]:
 
 
 def _block(height: float, corners: Sequence[tuple[float, float]]) -> list[Quad]:
-    """Return the top and the four sides, seen from outside."""
+    """Return the top and the four sides of a block, seen from outside."""
     top = [(x, height, z) for x, z in corners]
     bottom = [(x, 0.0, z) for x, z in corners]
     sides: list[Quad] = [(top[k], bottom[k], bottom[(k + 1) % 4], top[(k + 1) % 4]) for k in range(4)]

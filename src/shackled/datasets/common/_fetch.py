@@ -1,7 +1,7 @@
 """Download and preparation of models.
 
-A download is written beside its destination, under a name that ends in .part, and moved there if its checksum is right.
-Interrupted downloads are resumed if the server supports it. Files in the cache are therefore always complete.
+A file is downloaded under a name that ends in .part, and renamed if its checksum is right, so that files in the cache
+are always complete. An interrupted download continues where it stopped, if the server can do that.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from ._clean import prepare
 from ._models import Model, save_mesh
 from ._unpack import read_model
 
-#: Seconds to wait for a connection, and for more of the file.
+#: Timeouts in seconds: of a connection, and between parts of the file.
 TIMEOUT = (10, 30)
-#: Bytes that are read and written at once; what came of the last of them is lost when a connection is cut.
+#: Bytes that are read and written at a time.
 CHUNK = 1 << 13
 
-#: Called with the bytes that are here, and those that there will be, None if nobody knows.
+#: Called with the bytes downloaded so far, and the size of the file, None if it is not known.
 Progress = Callable[[int, int | None], None]
 
 
@@ -35,11 +35,9 @@ def _no_progress(here: int, whole: int | None) -> None:
 
 
 def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) -> bool:
-    """Download a model unless it is in the cache, and prepare it; return whether there was anything to do.
+    """Download a model unless it is in the cache, and prepare it; return whether anything was done.
 
-    again: prepare it again, and replace a model from a local file.
-
-    FetchError if it cannot be downloaded or stored.
+    again: prepare it again, replacing a file of the user. FetchError if it cannot be downloaded or written.
     """
     prepared = model.prepared()
     if not again and model.kept() is not None:
@@ -50,7 +48,10 @@ def fetch(model: Model, again: bool = False, progress: Progress = _no_progress) 
 
 
 def take(model: Model, path: Path) -> bool:
-    """Prepare a model from a local file; return whether it is the published file. InputError if it cannot be read."""
+    """Prepare a model from a local file instead of a download; return whether it is the published file.
+
+    InputError if it is not a readable mesh.
+    """
     if not path.is_file():
         raise InputError(
             f"{path} {'is no file' if path.exists() else 'does not exist'}; a mesh file or archive is needed"
@@ -86,7 +87,7 @@ def _keep(model: Model, path: Path, prepared: Path) -> None:
 
 
 def download(model: Model, progress: Progress = _no_progress) -> Path:
-    """Return the published file of a model, from the cache or the first of its addresses that works."""
+    """Return the path of the published file, from the cache or from the first address that has it."""
     import pooch
 
     pooch.get_logger().setLevel(logging.ERROR)
@@ -109,7 +110,7 @@ def download(model: Model, progress: Progress = _no_progress) -> Path:
 
 
 class _Downloader:
-    """The downloader for pooch, which checks the checksum and moves the file."""
+    """A downloader for pooch, which also verifies the checksum and moves the file."""
 
     def __init__(self, model: Model, progress: Progress) -> None:
         self._model = model
@@ -210,7 +211,7 @@ def _host(address: str) -> str:
 
 @contextmanager
 def _on_disk(model: Model) -> Iterator[None]:
-    """Raise FetchError for an error of the disk."""
+    """Raise a FetchError for errors of the disk."""
     try:
         yield
     except OSError as error:

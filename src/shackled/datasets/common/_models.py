@@ -1,4 +1,4 @@
-"""Models of other people: what is known of them, and the pieces that they become once they are fetched."""
+"""Third-party models: their metadata, and their pieces."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import Background, Look, Material, Mesh, Scene, painted, stage
+from ...scene import Background, Material, Mesh, Scene, painted, stage
 from .. import Piece, cache_folder, keep
+from . import builtin
 from ._clean import creased
 
-#: Raised when `prepare` or what is kept changes, so that what is in caches is not taken for it.
+#: Incremented when `prepare` or the format of its files changes, so that caches are not reused.
 VERSION = 1
 
 MATERIAL = Material("smooth", 0.3, 0.8, 0.35, 24)
@@ -26,7 +27,7 @@ OWN_LICENCE = "that of your own file"
 
 @dataclass(frozen=True)
 class Model:
-    """An entry of models.toml, which says what the fields mean; `size` is its `bytes`, None where it is not known."""
+    """An entry of models.toml, which documents the fields; `size` is its `bytes`, None if it is not known."""
 
     name: str
     title: str
@@ -48,24 +49,24 @@ class Model:
 
     @property
     def original(self) -> Path:
-        """Where the file is kept as it was downloaded."""
+        """The path of the downloaded file."""
         suffix = Path(self.addresses[0]).suffix
         return cache_folder() / "originals" / f"{self.name}-{self.checksum.partition(':')[2][:12]}{suffix}"
 
     def prepared(self, own: bool = False) -> Path:
-        """Where the cleaned and simplified mesh is kept; `own`: the one from a file of the user."""
+        """Return the path of the cleaned and simplified mesh. own: of the one from the user's own file."""
         return cache_folder() / "models" / f"{self.name}{'.own' if own else ''}.v{VERSION}.npz"
 
     def kept(self) -> Path | None:
-        """The prepared mesh, that of the user's own file before the downloaded one; None if there is none yet."""
+        """Return the path of the prepared mesh, the user's own before the downloaded one; None if there is none."""
         return next((path for path in (self.prepared(own=True), self.prepared()) if path.is_file()), None)
 
     def is_own(self) -> bool:
-        """Whether a file of the user stands in the place of the download."""
+        """Return whether a file of the user replaces the download."""
         return self.prepared(own=True).is_file()
 
     def piece(self) -> Piece:
-        """The piece, fetched or not."""
+        """Return the piece, whether it has been fetched or not."""
         own = self.is_own()
         return Piece(
             self.name,
@@ -73,39 +74,37 @@ class Model:
             self.title,
             OWN_LICENCE if own else self.licence,
             self.scene,
-            # what is allowed with a file of which nothing is known is for its owner to say
+            # the terms of a file of the user are not known
             commercial=self.commercial and not own,
             credit="" if own else self.author,
             ready=lambda: self.kept() is not None,
         )
 
     def scene(self) -> Scene:
-        """The scene; InputError if the model has not been fetched yet."""
+        """Return the scene; InputError if the model has not been fetched."""
         path = self.kept()
         if path is None:
-            raise InputError(f"{self.name} is not here yet; run: shackled datasets fetch {self.name}")
+            raise InputError(f"{self.name} has not been fetched; run: shackled datasets fetch {self.name}")
         return self.staged(load_mesh(path, self.name))
 
     def staged(self, mesh: Mesh) -> Scene:
-        """The scene of a prepared mesh, in the colours of its file if there are any."""
+        """Return the scene of a prepared mesh, in the colours of its file if there are any."""
         if self.color is not None and len(np.unique(mesh.colors, axis=0)) == 1:
             mesh = painted(mesh, self.color)
         return stage(
             mesh if self.crease is None else creased(mesh, self.crease),
-            Look(
-                azimuth=self.azimuth,
-                elevation=self.elevation,
-                material=MATERIAL,
-                background=BACKGROUND,
-                half_height=0.3,
-                cull=self.cull,
-            ),
+            material=MATERIAL,
+            background=BACKGROUND,
+            azimuth=self.azimuth,
+            elevation=self.elevation,
+            half_height=0.3,
+            cull=self.cull,
         )
 
 
 @cache
 def models() -> dict[str, Model]:
-    """All models, by their names."""
+    """Return all models by name."""
     text = files(__package__).joinpath("models.toml").read_text("utf-8")
     return {
         name: Model(name=name, size=entry.pop("bytes", None), **entry) for name, entry in tomllib.loads(text).items()
@@ -113,35 +112,42 @@ def models() -> dict[str, Model]:
 
 
 def model(name: str) -> Model:
-    """The model of that name; InputError if there is none."""
+    """Return the model of that name; InputError if there is none."""
     if name not in models():
         raise InputError(f"there is no model {name!r} to fetch; there are {', '.join(models())}")
     return models()[name]
 
 
 def pieces() -> list[Piece]:
-    """All models, whether they have been fetched or not."""
-    return [each.piece() for each in models().values()]
+    """Return the built-in pieces, then all models, whether they have been fetched or not."""
+    return [*builtin.pieces(), *(each.piece() for each in models().values())]
+
+
+def find(name: str) -> Piece | None:
+    """Return the piece of that name; None if there is none."""
+    if name in models():
+        return models()[name].piece()
+    return next((piece for piece in builtin.pieces() if piece.name == name), None)
 
 
 def save_mesh(mesh: Mesh, path: Path) -> None:
-    """Keeps a prepared mesh. OSError if it cannot be written."""
+    """Write a prepared mesh. OSError if it cannot be written."""
     stream = io.BytesIO()
     np.savez_compressed(
         stream,
-        positions=np.asarray(mesh.positions, dtype=np.float32),
-        faces=np.asarray(mesh.faces, dtype=np.uint16),
-        colors=np.asarray(mesh.colors, dtype=np.uint8),
+        positions=mesh.positions.astype(np.float32),
+        faces=mesh.faces.astype(np.uint16),
+        colors=mesh.colors,
     )
     keep(path, stream.getvalue())
 
 
 def load_mesh(path: Path, name: str) -> Mesh:
-    """The mesh that `save_mesh` wrote."""
+    """Load a mesh that `save_mesh` wrote."""
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
             return Mesh(data["positions"], data["faces"], data["colors"])
-    except Exception as error:  # what is made of a broken file may be of any class
+    except Exception as error:  # broken files raise errors of any class
         raise InputError(
             f"{path} cannot be read ({type(error).__name__}); run: shackled datasets fetch --again {name}"
         ) from None

@@ -35,11 +35,11 @@ class _Readable(Protocol):
 
 
 def read_model(path: Path, member: str | None = None) -> Mesh:
-    """Return the mesh of a mesh file, a 3MF file, a gzip file, or a zip or tar archive.
+    """Read the mesh of a mesh file, a 3MF, a gzipped mesh file, or a mesh file in a zip or tar archive.
 
-    member: the file in the archive; None takes the largest mesh file.
-
-    Materials and textures are ignored without a note. InputError, beginning with the path, if the file is wrong.
+    member: the file in the archive; None for the largest mesh file of a known kind. Materials and textures are ignored
+    without a warning, since only the mesh of a model is fetched. InputError, one line that begins with the path, for
+    anything that is wrong with the file.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InputWarning)
@@ -125,7 +125,7 @@ def _limited(file: _Readable, path: Path) -> bytes:
 
 
 def _read_3mf(path: Path, model: bytes) -> Mesh:
-    """Return all meshes of a 3MF file, in their own coordinates."""
+    """Read all meshes of a 3MF, each in its own coordinates."""
     positions: list[tuple[float, float, float]] = []
     faces: list[tuple[int, int, int]] = []
     first = 0

@@ -1,12 +1,11 @@
-"""The common objects that need no file, each with the light and the pose that suit it."""
+"""Common objects that need no file, each with a suitable pose and look."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
-from ...scene import Background, Camera, Look, Material, Mesh, Object, Scene, painted, stage
+from ...scene import Background, Camera, Material, Mesh, Object, Scene, painted, stage
 from .. import Piece, teapot
 from . import shapes
 from ._cornell_box import cornell_box
@@ -24,19 +23,8 @@ MIST = Background((222, 229, 236), (162, 176, 192))
 BLACK = Background((0, 0, 0))
 
 
-@dataclass(frozen=True)
-class _Staged:
-    """A mesh in a `Look`, as a function that makes the scene."""
-
-    mesh: Callable[[], Mesh]
-    look: Look
-
-    def __call__(self) -> Scene:
-        return stage(self.mesh(), self.look)
-
-
 def pieces() -> list[Piece]:
-    """All of them, the scenes of the paper first."""
+    """Return all built-in pieces, the scenes of the paper first."""
     return [
         _piece(
             "teapot",
@@ -75,7 +63,7 @@ def pieces() -> list[Piece]:
 
 
 def first_render() -> Scene:
-    """The first picture that the contracts of 2021 made: the two triangles in the appendix of their paper."""
+    """Return the first picture of the contracts of 2021: the two triangles in the appendix of their paper."""
     points = [(-1, 0, 0), (-1, 2, 0), (0, 2, 0), (1, 0, 5), (1, -2, 5), (0, -2, 5)]
     colors = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (0, 255, 255), (255, 0, 255)]
     return Scene(
@@ -91,7 +79,7 @@ def _piece(name: str, title: str, make: Callable[[], Scene]) -> Piece:
 
 def _posed(mesh: Callable[[], Mesh], material: Material, background: Background, **look: Any) -> Callable[[], Scene]:
     chosen = {"margin": 0.12, "half_height": 0.3, **look}
-    return _Staged(mesh, Look(material=material, background=background, **chosen))
+    return lambda: stage(mesh(), material=material, background=background, **chosen)
 
 
 def _solid(mesh: Callable[[], Mesh], color: str, **look: Any) -> Callable[[], Scene]:

@@ -1,4 +1,4 @@
-"""Meshes of formulas. All are centred and about 2 wide, with y up; faces are seen from outside."""
+"""Meshes from formulas, about the origin and about 2 across, with y up; faces are seen from outside."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...checks import color as checked_color
-from ...scene import Mesh, vertex_normals
+from ...scene import Mesh, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
@@ -22,20 +22,21 @@ TURN = 2 * np.pi
 
 
 def patch(surface: Surface, across: int, down: int) -> Mesh:
-    """Return a surface of 2 * across * down triangles, seen from where du x dv points.
+    """Return a surface of 2 * across * down triangles, seen from where d/du x d/dv points.
 
     Equal points are one vertex, so seams and poles are smooth. Triangles without area are left out.
     """
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     points, faces = surface(u, v).reshape(-1, 3), _grid(across, down)
     positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
-    return _smooth(positions, _with_area(number.reshape(-1)[faces]))
+    return _smooth(positions, without_slivers(number.reshape(-1)[faces]))
 
 
 def one_sided(surface: Surface, across: int, down: int) -> Mesh:
-    """Return a surface without inside and outside, as in `patch`, with the faces of both sides.
+    """Return a surface without inside and outside, as in `patch`, with faces on both sides.
 
-    Vertices where it closes upon itself are not merged, since their normals may be opposite.
+    Each face is lit and seen from its own side. Vertices where the surface closes upon itself are not merged, because
+    their normals may point opposite ways.
     """
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     step = 1e-5
@@ -52,12 +53,12 @@ def one_sided(surface: Surface, across: int, down: int) -> Mesh:
 
 
 def sphere(across: int = 32, down: int = 16) -> Mesh:
-    """Return a sphere of radius 1, of circles of longitude and latitude."""
+    """Return a sphere of radius 1, divided by longitude and latitude."""
     return patch(lambda u, v: _around(TURN * u, -np.cos(np.pi * v), np.sin(np.pi * v)), across, down)
 
 
 def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down: int = 16) -> Mesh:
-    """Return a torus about the y axis."""
+    """Return a ring about the y axis."""
 
     def surface(u: Array, v: Array) -> Array:
         return _around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
@@ -76,7 +77,7 @@ def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84
 
 
 def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: int = 8) -> Mesh:
-    """Return a tube along a helix about the y axis, with closed ends."""
+    """Return a tube along a helix about the y axis, its ends closed."""
 
     def center(u: Array) -> Array:
         return np.stack([0.6 * np.cos(TURN * turns * u), 1.6 * u - 0.8, -0.6 * np.sin(TURN * turns * u)], axis=-1)
@@ -107,7 +108,7 @@ def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 
 
 
 def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
-    """Return a band with half a twist: one side, one edge."""
+    """Return a band that is half a turn twisted: one side, one edge."""
 
     def surface(u: Array, v: Array) -> Array:
         angle, offset = TURN * u, width * (2 * v - 1)
@@ -118,7 +119,7 @@ def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
 
 
 def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
-    """Return a closed surface with one side: a bottle whose neck passes through its wall to meet the bottom."""
+    """Return a closed surface with one side, a bottle whose neck goes through its wall to its bottom."""
 
     def surface(u: Array, v: Array) -> Array:
         # the middle line goes up inside the belly, over the top, down through the neck: a closed curve in x and y, with
@@ -152,7 +153,7 @@ def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: in
 
 
 def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
-    """Return a tube that widens as it winds down about the y axis, open at its end."""
+    """Return a tube that grows as it winds down about the y axis, open at its end."""
 
     def surface(u: Array, v: Array) -> Array:
         angle, growth = TURN * turns * u, np.exp(0.62 * turns * (u - 1))
@@ -172,12 +173,12 @@ def cylinder(around: int = 40) -> Mesh:
 
 
 def cone(around: int = 40) -> Mesh:
-    """Return a cone of radius 0.85 and height 1.8, with its tip at the top."""
+    """Return a cone of radius 0.85 and height 1.8 that points upward."""
     return _lathe([0, 0.85, 0], [-0.9, -0.9, 0.9], around)
 
 
 def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
-    """Return what a polyline sweeps about the y axis, from the bottom up; smooth around, with edges between parts."""
+    """Return the surface of a polyline turned about the y axis, smooth around, with edges between its parts."""
     parts = []
     k, top = np.arange(around), around + 1
     angle = TURN * np.arange(around + 1) / around
@@ -197,37 +198,38 @@ def _lathe(radii: list[float], heights: list[float], around: int) -> Mesh:
 
 
 def cube() -> Mesh:
-    """Return a cube with sides of 1.2; red varies along x, green along y, blue along z."""
+    """Return a cube of side 1.2 with its position as colour: red along x, green along y, blue along z."""
     corners = np.array(list(product((0, 1), repeat=3)))
     return Mesh(1.2 * corners - 0.6, _faces_of(corners), colors=255 * corners)
 
 
 def tetrahedron() -> Mesh:
-    """Return a tetrahedron, 4 triangles."""
+    """Return a regular tetrahedron, 4 triangles."""
     return hull([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
 
 
 def octahedron() -> Mesh:
-    """Return an octahedron, 8 triangles."""
+    """Return a regular octahedron, 8 triangles."""
     return hull(np.concatenate([np.eye(3), -np.eye(3)]))
 
 
 def icosahedron() -> Mesh:
-    """Return an icosahedron, 20 triangles."""
+    """Return a regular icosahedron, 20 triangles."""
     phi = (1 + 5**0.5) / 2
     return hull([np.roll((0, s, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)])
 
 
 def dodecahedron() -> Mesh:
-    """Return a dodecahedron, 12 pentagons."""
+    """Return a regular dodecahedron, 12 pentagons."""
     phi = (1 + 5**0.5) / 2
     corners = [np.roll((0, s / phi, t * phi), turn) for turn in range(3) for s in (1, -1) for t in (1, -1)]
     return hull(np.array([*corners, *product((-1, 1), repeat=3)]))
 
 
 def icosphere(halvings: int = 2) -> Mesh:
-    """Return a sphere of radius 1: an icosahedron with edges halved `halvings` times, 20 * 4^halvings triangles."""
-    positions, faces = np.asarray(icosahedron().positions), np.asarray(icosahedron().faces)
+    """Return a sphere of radius 1: an icosahedron, subdivided into 20 * 4^halvings triangles."""
+    start = icosahedron()
+    positions, faces = start.positions, start.faces
     for _ in range(halvings):
         a, b, c = positions[faces].transpose(1, 0, 2)
         ab, bc, ca = _unit(a + b), _unit(b + c), _unit(c + a)
@@ -238,13 +240,16 @@ def icosphere(halvings: int = 2) -> Mesh:
 
 
 def hull(points: ArrayLike) -> Mesh:
-    """Return the convex polyhedron of points that are all its corners, scaled to the unit sphere."""
+    """Return the convex polyhedron of corners that all lie on it, normalized to the unit sphere."""
     corners = _unit(np.asarray(points, dtype=np.float64))
     return Mesh(corners, _faces_of(corners))
 
 
 def menger_sponge(depth: int = 2) -> Mesh:
-    """Return a Menger sponge, without hidden faces: 12, 144, 2,112 triangles for depth 0, 1, 2."""
+    """Return a Menger sponge: a cube with square tunnels, recursively. Only visible faces are included.
+
+    It has 12, 144, 2,112 triangles for depth 0, 1, 2.
+    """
     side = 3**depth
     place = np.indices((side,) * 3)
     solid = np.ones((side,) * 3, dtype=bool)
@@ -271,7 +276,7 @@ def menger_sponge(depth: int = 2) -> Mesh:
 
 
 def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Mesh:
-    """Return the mesh with colours from `low` to `high` along an axis."""
+    """Return the mesh in colours from `low` to `high` along an axis."""
     height = mesh.positions @ np.asarray(axis, dtype=np.float64)
     share = ((height - height.min()) / (np.ptp(height) or 1))[:, None]
     ends = np.array([checked_color(low, "a colour"), checked_color(high, "a colour")], dtype=np.float64)
@@ -280,7 +285,7 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
 
 
 def joined(*meshes: Mesh) -> Mesh:
-    """Return meshes as one mesh, with normals if all have some."""
+    """Return several meshes as one, with normals if all have some."""
     starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
     return Mesh(
@@ -310,17 +315,12 @@ def _grid(across: int, down: int) -> NDArray[np.int64]:
     return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
 
 
-def _with_area(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    a, b, c = faces.T
-    return np.asarray(faces[(a != b) & (b != c) & (c != a)])
-
-
 def _smooth(positions: Array, faces: NDArray[np.int64]) -> Mesh:
     return Mesh(positions, faces, normals=vertex_normals(positions, faces))
 
 
 def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
-    """Return the faces, (m, 3), of the convex polyhedron with these corners, seen from outside."""
+    """Return the faces of the convex polyhedron with these corners, (m, 3), seen from outside."""
     corners = np.asarray(points, dtype=np.float64)
     corners = corners - corners.mean(axis=0)
     count = len(corners)

@@ -14,14 +14,14 @@ COUNT = 1024
 
 
 def seed_of(number: int) -> bytes:
-    """Return the seed of a piece of the collection, 0 to 1023."""
+    """Return the seed of a piece of the collection, from 0 to 1023."""
     if not 0 <= number < COUNT:
         raise InputError(f"the pieces of the collection are numbered from 0 to {COUNT - 1}, not {number}")
     return keccak256(f"shackled-{number}".encode("ascii"))
 
 
 def parse_seed(text: str) -> bytes:
-    """Return the seed for 64 hexadecimal digits, with or without 0x, or for a number of the collection."""
+    """Return the seed of 64 hexadecimal digits, with or without 0x, or of the number of a piece."""
     if re.fullmatch(r"(0[xX])?[0-9a-fA-F]{64}", text):
         return bytes.fromhex(text[-64:])
     if re.fullmatch(r"0|[1-9][0-9]{0,3}", text) and int(text) < COUNT:
@@ -37,7 +37,7 @@ def pieces() -> Iterator[Piece]:
 
 
 def find(name: str) -> Piece | None:
-    """Return the piece of a number or seed, as in `parse_seed`; None if it is neither."""
+    """Return the piece of a number or seed, as `parse_seed` reads it; None if it is neither."""
     try:
         seed = parse_seed(name)
     except InputError:

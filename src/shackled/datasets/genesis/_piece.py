@@ -11,7 +11,7 @@ from ...scene import Background, Light, Material, Mesh, Object, Scene
 #: A vertex, a colour, or the corners of a face.
 Point3 = tuple[int, int, int]
 
-#: Every piece is lit alike: its colours show in full, and light comes from the left.
+#: Every piece has full ambient light, and a light from the left.
 MATERIAL = Material("flat", ambient=1, diffuse=0.8, specular=1.2, shininess=10)
 LIGHT = Light("directional", (-50, 0, 0))
 POSITION = (0, 0, -2500)
@@ -19,7 +19,7 @@ POSITION = (0, 0, -2500)
 
 @dataclass(frozen=True)
 class GenesisPiece:
-    """A piece of a seed.
+    """The piece of a seed.
 
     background: the colours of the top and the bottom.
     prisms: number of prisms.
@@ -43,7 +43,7 @@ class GenesisPiece:
     faces: Sequence[Point3]
 
     def document(self) -> dict[str, Any]:
-        """Return the piece as a JSON object; `seed` as 64 hexadecimal digits."""
+        """Return the piece as a JSON object; `seed` is 64 hexadecimal digits."""
         return {
             "seed": self.seed.hex(),
             "structure": self.structure,

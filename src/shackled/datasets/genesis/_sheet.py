@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 
 from ...checks import number as check_number
 from ...errors import InputError
-from ...whole_file import write_output
+from ...whole_file import check_output_file, write_output
 from .. import SIZE, draw_all
 from . import COUNT, pieces
 
@@ -20,18 +20,6 @@ Progress = Callable[[int, int], None]
 
 def _no_progress(done: int, total: int) -> None:
     pass
-
-
-def check_sheet(path: str | Path) -> Path:
-    """Return the path. InputError if a sheet cannot be written there."""
-    path = Path(path)
-    if path.suffix.lower() != ".png":
-        raise InputError(f"the sheet {path} must end in .png")
-    if path.is_dir():
-        raise InputError(f"{path} is a folder, not the file of a sheet")
-    if not path.parent.is_dir():
-        raise InputError(f"the folder {path.parent} of the sheet {path.name} does not exist")
-    return path
 
 
 def render_sheet(
@@ -43,12 +31,14 @@ def render_sheet(
 ) -> None:
     """Render the first `count` pieces, size x size pixels each, in rows, into one PNG.
 
-    workers: number of worker processes; None for one per core.
-    progress: receives the number of finished pieces, and their total.
-
-    Finished pictures are cached, so an interrupted run resumes. InputError if the file cannot be written.
+    workers: number of worker processes; None for one per core. progress: called with the number of finished pieces and
+    of all. Finished drawings are kept in the cache folder, so that an interrupted run continues. InputError or
+    OutputError if the file cannot be written.
     """
-    path = check_sheet(path)
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise InputError(f"the sheet {path} must end in .png")
+    check_output_file(path, "sheet")
     check_number(count, "the number of pieces of a sheet", 1, COUNT)
     check_number(size, "the size of a piece in pixels", 1, 1024)
     shown = [piece for piece, _ in zip(pieces(), range(count), strict=False)]

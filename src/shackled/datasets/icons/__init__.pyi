@@ -1,4 +1,4 @@
 from ._collection import ICONS, find, pieces
-from ._icon import Icon
+from ._icon import IconModel
 
-__all__ = ["ICONS", "Icon", "find", "pieces"]
+__all__ = ["ICONS", "IconModel", "find", "pieces"]

@@ -1,4 +1,4 @@
-"""What chains are about: coins, locks and keys, links and blocks."""
+"""Icons of chains: coins, locks and keys, links and blocks."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ STEEL = "#b4bfcc"
 
 @icon("Ether", "#0f0b2e", "#32277a", SPARKLING, view=(24, 8))
 def ethereum() -> Solid:
-    """An octahedron, cut in two below its waist."""
+    """Model an octahedron, cut in two below its waist."""
     square = regular(4)
     upper = [(0.0, 1.15), (0.74, 0.07), (0.74, 0.02), (0.0, -0.34)]
     lower = [(0.0, -0.56), (0.74, -0.16), (0.74, -0.21), (0.0, -1.15)]
@@ -44,7 +44,7 @@ def ethereum() -> Solid:
 
 @icon("Coin", "#123c3a", "#2f8f7f", METAL, view=(0, 0), turn=(-14, -28, 0))
 def coin() -> Solid:
-    """A gold coin with a B of two strokes."""
+    """Model a gold coin with a B of two strokes."""
     profile = [(0, -0.09), (0.8, -0.09), (0.86, -0.15), (1, -0.15), (1, 0.15), (0.86, 0.15), (0.8, 0.09), (0, 0.09)]
     disc = revolve(profile, 30).turned(x=90).painted(GOLD)
     disc = disc.painted("#c47f0c", lambda at: np.hypot(at[:, 0], at[:, 1]) < 0.79)
@@ -59,7 +59,7 @@ def coin() -> Solid:
 
 @icon("Chain", "#3a1418", "#a8483c", METAL, view=(0, 0), turn=(0, 0, 40))
 def chain() -> Solid:
-    """Three links of steel, the middle one of gold."""
+    """Model three links of steel, the middle one of gold."""
     one = link(1.15, 0.56, 0.15, 4, 8)
     side = one.turned(x=52).painted(STEEL)
     return side.moved(x=-0.98) + one.turned(x=-38).painted(GOLD) + side.moved(x=0.98)
@@ -67,7 +67,7 @@ def chain() -> Solid:
 
 @icon("Ball and shackle", "#5c2f18", "#e0b070", METAL, view=(0, 12))
 def shackle() -> Solid:
-    """A ball of iron, a chain, and the shackle for an ankle."""
+    """Model a ball of iron, a chain, and the shackle for an ankle."""
     ball = sphere(0.66, 11, 8).painted("#343944").moved(x=-0.5, y=-0.24)
     small = link(0.5, 0.3, 0.088, 3, 5).painted(STEEL)
     places = [(-0.36, 0.5, 84, 60), (-0.12, 0.84, 34, -30), (0.28, 0.88, -26, 60), (0.58, 0.58, -64, -30)]
@@ -79,7 +79,7 @@ def shackle() -> Solid:
 
 @icon("Padlock", "#20324f", "#6f93bd", METAL, view=(20, 10))
 def padlock() -> Solid:
-    """A brass padlock, shut."""
+    """Model a brass padlock, shut."""
     body = prism(chamfered(1.5, 1.2, 0.16), 0.62, 0.08).painted(GOLD).moved(y=-0.45)
     bow = arc(0.47, 0, 180, 8, (0, 0.52))
     path = np.vstack([[(0.47, -0.1)], bow, [(-0.47, -0.1)]])
@@ -93,7 +93,7 @@ def padlock() -> Solid:
 
 @icon("Key", "#4a1e3c", "#c77a9a", METAL, view=(0, 0), turn=(0, -22, 45))
 def key() -> Solid:
-    """An old key of gold."""
+    """Model an old key of gold."""
     bow = torus(0.42, 0.12, 18, 7).turned(x=90).moved(x=-0.86)
     shaft = cylinder(0.115, 1.5, 10).turned(z=90).moved(x=0.3)
     collars = [cylinder(0.19, 0.12, 10).turned(z=90).moved(x=x) for x in (-0.36, -0.12)]
@@ -104,7 +104,7 @@ def key() -> Solid:
 
 @icon("Block", "#0f2a33", "#3c8f86", FACETED, view=(36, 24), light=(0, 0.4, 1))
 def block() -> Solid:
-    """A block with a face on each side."""
+    """Model a block with a face on each side."""
     cube = bevelled_box(2, 2, 2, 0.14).painted("#ffb52e")
     cube = cube.painted("#ff7a5c", lambda at: np.abs(at[:, 0]) > 0.99)
     cube = cube.painted("#5bd1c4", lambda at: np.abs(at[:, 1]) > 0.99)
@@ -121,7 +121,7 @@ def block() -> Solid:
 
 @icon("Candlesticks", "#0c1220", "#26344f", FACETED, view=(-24, 10))
 def candles() -> Solid:
-    """Five days of a market, and most of them good."""
+    """Model five days of a market."""
     days = [(-0.9, -0.35), (-0.3, -0.75), (-0.7, 0.1), (-0.05, 0.75), (0.45, 1.15)]
     sticks = []
     for day, (opened, closed) in enumerate(days):

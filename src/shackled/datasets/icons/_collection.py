@@ -48,5 +48,5 @@ def pieces() -> Iterable[Piece]:
 
 
 def find(name: str) -> Piece | None:
-    """Return the icon of a name without the dataset, such as "diamond", or None."""
+    """Return the icon of that name, without the name of the dataset, such as "diamond"; None if there is none."""
     return next((icon.piece() for icon in ICONS if icon.name == name), None)

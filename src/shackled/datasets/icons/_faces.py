@@ -1,4 +1,4 @@
-"""What looks back."""
+"""Icons with faces."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ INK = "#1a1420"
 
 
 def socket(radius: float, depth: float, segments: int) -> Solid:
-    """A lens that lies in the x-y plane, for eyes."""
+    """Return a lens in the x-y plane, for eyes."""
     return revolve([(0, -depth), (radius, 0), (0, depth)], segments).turned(x=90)
 
 
 @icon("Skull", "#3a0d2e", "#a02f5f", DULL, view=(18, 4))
 def skull() -> Solid:
-    """A skull."""
+    """Model a skull."""
     bone = "#f3ead2"
     cranium = icosphere(1, 2).scaled(0.92, 0.84, 1.0).moved(y=0.32, z=-0.12).painted(bone)
     cheeks = bevelled_box(1.16, 0.62, 0.9, 0.14).painted(bone).moved(y=-0.34, z=0.36)
@@ -44,7 +44,7 @@ def skull() -> Solid:
 
 @icon("Pixel head", "#2b5fb0", "#9fd0f0", FACETED, view=(26, 10))
 def head() -> Solid:
-    """A head in pixels, with a cap and headphones."""
+    """Model a head in pixels, with a cap and headphones."""
     palette = {"s": "#c98a5e", "d": "#a86a44", "c": "#e8413c", "w": "#ffffff", "k": INK, "m": "#7a2f2a"}
     skull = pixels(["ssssssssss"] * 9, palette, 8)
     features = pixels(
@@ -72,7 +72,7 @@ def head() -> Solid:
 
 @icon("Glasses", "#f0e0b8", "#d8b06a", FACETED, view=(30, 14), margin=0.04, licence="CC0")
 def glasses() -> Solid:
-    """Square glasses in pixels, after the noggles, which are in the public domain."""
+    """Model square glasses in pixels, after the noggles, which are in the public domain."""
     front = pixels(
         [
             "rrrrrr rrrrrr",
@@ -92,7 +92,7 @@ def glasses() -> Solid:
 
 @icon("Cat", "#e8a04a", "#f7d9a0", DULL, view=(22, 10))
 def cat() -> Solid:
-    """A black cat that sits and waits."""
+    """Model a black cat that sits and waits."""
     fur, light = "#3a3f52", "#f2f2f2"
     body = revolve([(0, -1.1), (0.5, -1.08), (0.62, -0.8), (0.46, -0.2), (0.28, 0.2), (0, 0.3)], 12).painted(fur)
     chest = sphere(0.3, 6, 5).scaled(0.8, 1.3, 0.6).moved(y=-0.28, z=0.3).painted(light)
@@ -112,7 +112,7 @@ def cat() -> Solid:
 
 @icon("Robot", "#24304a", "#c8703c", METAL, view=(22, 8))
 def robot() -> Solid:
-    """A robot that waves."""
+    """Model a robot that waves."""
     shell, dark = "#9fd4e0", "#3a4a5f"
     skull = bevelled_box(1.3, 0.96, 0.96, 0.12).painted(shell).moved(y=0.62)
     screen = prism(chamfered(1.02, 0.62, 0.1), 0.08).painted("#14202e").moved(y=0.62, z=0.47)

@@ -1,4 +1,4 @@
-"""An icon: a solid, and how it is shown."""
+"""Icons: solids with a pose, a light and a background."""
 
 from __future__ import annotations
 
@@ -14,12 +14,11 @@ from ...scene import (
     Background,
     Camera,
     Light,
-    Look,
+    LookOptions,
     Material,
     Mesh,
     Object,
     Scene,
-    from_euler,
     stage,
     view_axes,
 )
@@ -32,35 +31,36 @@ METAL = Material("smooth", ambient=0.42, diffuse=0.68, specular=0.6, shininess=2
 FACETED = Material("flat", ambient=0.44, diffuse=0.68, specular=0.3, shininess=16)
 SPARKLING = Material("flat", ambient=0.58, diffuse=0.54, specular=0.4, shininess=10)
 
-#: Toward the light, right, up and toward the viewer: from the upper left, low enough for what stands upright.
+#: Toward the light, right, up and toward the viewer: from the upper left, low enough for upright objects.
 LIGHT = (-0.45, 0.5, 0.9)
 
-#: `half_height` of the camera: a long lens, so that what is near does not look large.
+#: `half_height` of the camera: a long lens, with little perspective distortion.
 LENS = 0.2
 
-#: Edges at which a surface turns by more degrees than this are seen.
+#: Edges are sharp where a surface turns by more than these degrees.
 CREASE = 42.0
 
 
 @dataclass(frozen=True)
-class Icon:
+class IconModel:
     """A model with its pose, light and background."""
 
     name: str
     title: str
     model: Callable[[], Solid]
-    look: Look
+    material: Material
+    look: LookOptions
     licence: str = "MIT"
     crease: float = CREASE
 
     def scene(self) -> Scene:
-        """The scene, 128 x 128 pixels unless it is rendered otherwise."""
-        smooth = self.look.material.shading == "smooth"
-        scene = stage(self.model().mesh(self.crease if smooth else None), self.look)
+        """Return the scene, 128 x 128 pixels."""
+        mesh = self.model().mesh(self.crease if self.material.shading == "smooth" else None)
+        scene = stage(mesh, material=self.material, **self.look)
         return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
 
     def piece(self) -> Piece:
-        """The icon as a piece of the dataset."""
+        """Return the icon as a piece of the dataset."""
         return Piece(f"icons/{self.name}", "icons", self.title, self.licence, self.scene)
 
 
@@ -76,30 +76,31 @@ def icon(
     margin: float = 0.06,
     licence: str = "MIT",
     crease: float = CREASE,
-) -> Callable[[Callable[[], Solid]], Icon]:
-    """Makes an icon, named as the function is that models it.
+) -> Callable[[Callable[[], Solid]], IconModel]:
+    """Declare an icon, named as the function that models it.
 
-    title: for people. top, bottom: the colours of the background. view: azimuth and elevation of the viewer, and turn:
-    of the model about x, y and z, in degrees. light: toward the only light, right, up and toward the viewer.
-    margin: as in `Look`. crease: as in `Solid.mesh`.
+    top, bottom: the colours of the background. view: azimuth and elevation of the viewer; turn: of the model about x, y
+    and z; all in degrees. light: direction toward the only light, in the directions right, up and toward the viewer.
+    margin: as in `load`. crease: as in `Solid.mesh`.
     """
-    look = Look(
-        rotation=from_euler(turn),
+    look = LookOptions(
+        rotate=turn,
         azimuth=view[0],
         elevation=view[1],
         half_height=LENS,
         margin=margin,
-        material=material,
         background=Background(top, bottom),
+        lights=Light("directional", np.asarray(light) @ np.stack(view_axes(*view))),
         cull=True,
     )
-    look = evolve(look, lights=[Light("directional", np.asarray(light) @ np.stack(view_axes(look)))])
-    return lambda model: Icon(model.__name__, title, model, look, licence, crease)
+    return lambda model: IconModel(model.__name__, title, model, material, look, licence, crease)
 
 
 def _cheaper(o: Object, camera: Camera) -> list[Object]:
-    """Objects that look the same and cost less: the nearest triangles first, for what they hide is not lit; and those
-    that are flat apart from the others, for they need no normals.
+    """Return objects that look the same and cost less gas.
+
+    The nearest triangles come first, since what they hide is not lit; flat parts are separated, since they need no
+    normals.
     """
     faces = o.mesh.faces
     distance = np.linalg.norm(o.world_positions() - camera.eye, axis=1)[faces].mean(axis=1)
@@ -119,7 +120,7 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
 
 
 def _part(mesh: Mesh, faces: NDArray[np.int64], smooth: bool) -> Mesh:
-    """Some of the faces, in that order, with the vertices that they need."""
+    """Return some of the faces, in that order, with the vertices that they need."""
     columns: list[NDArray[np.float64]] = [mesh.positions, mesh.colors.astype(np.float64)]
     if smooth and mesh.normals is not None:
         columns.append(mesh.normals)

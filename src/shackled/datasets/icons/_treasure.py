@@ -1,4 +1,4 @@
-"""What is kept in chests, and won, and rung."""
+"""Icons of treasures and prizes."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ GOLD = "#f5b324"
 
 
 def ring(sides: int, radius: float, y: float, start: float = 0) -> Points:
-    """(sides, 3): a regular polygon around the y axis."""
+    """Return a regular polygon around the y axis, (sides, 3)."""
     corners = regular(sides, radius, start)
     return np.column_stack([corners[:, 0], np.full(sides, y), corners[:, 1]])
 
 
 @icon("Diamond", "#2a1a4a", "#8a4fa0", SPARKLING, view=(0, 18), turn=(0, 8, 0))
 def diamond() -> Solid:
-    """A cut stone."""
+    """Model a cut stone."""
     rings = [
         ring(8, 0.62, 0.62, 22.5),
         ring(8, 1.0, 0.22),
@@ -53,13 +53,13 @@ def diamond() -> Solid:
 
 
 def _facets(number: int, top: float = 1) -> Where:
-    """Every fourth of the sixteen facets around a stone, up to that height."""
+    """Select every fourth of the sixteen facets around a stone, up to that height."""
     return lambda at: (np.rint(np.arctan2(at[:, 2], at[:, 0]) * 8 / np.pi) % 4 == number) & (at[:, 1] < top)
 
 
 @icon("Crystals", "#0d2430", "#2f6f78", FACETED, view=(0, 10))
 def crystals() -> Solid:
-    """A cluster of crystals on a rock."""
+    """Model a cluster of crystals on a rock."""
 
     def crystal(height: float, radius: float) -> Solid:
         rings = [ring(6, 0.8 * radius, 0), ring(6, radius, 0.72 * height), ring(6, 0, height)]
@@ -79,7 +79,7 @@ def crystals() -> Solid:
 
 @icon("Crown", "#1d1450", "#5f50b8", FACETED, view=(0, 16))
 def crown() -> Solid:
-    """A crown of seven points."""
+    """Model a crown of seven points."""
     points, zigzag = 7, np.tile([0.62, 0.08], 7)
 
     def wall(radius: float, top: float) -> list[Points]:
@@ -100,7 +100,7 @@ def crown() -> Solid:
 
 @icon("Trophy", "#16233f", "#4c6a9c", METAL, view=(0, 18))
 def trophy() -> Solid:
-    """A cup of gold."""
+    """Model a cup of gold."""
     profile = [(0, 0.1), (0.34, 0.14), (0.56, 0.42), (0.64, 1.15), (0.7, 1.2), (0.62, 1.2), (0.5, 0.5), (0, 0.3)]
     cup = revolve(profile, 16).painted(GOLD)
     stem = revolve([(0.34, -0.5), (0.3, -0.42), (0.1, -0.3), (0.1, 0.02), (0.2, 0.16)], 12).painted("#d98c12")
@@ -113,7 +113,7 @@ def trophy() -> Solid:
 
 @icon("Bell", "#3a2a5c", "#9a7fc4", METAL, view=(0, -6), turn=(0, 0, 14))
 def bell() -> Solid:
-    """A bell that swings."""
+    """Model a bell that swings."""
     profile = [
         (0.0, 0.74),
         (0.26, 0.7),
@@ -134,7 +134,7 @@ def bell() -> Solid:
 
 @icon("Hourglass", "#1c3a3a", "#79a89a", GLOSSY, view=(20, 10))
 def hourglass() -> Solid:
-    """An hourglass, half run down."""
+    """Model an hourglass, half run down."""
     half = [(0.07, 0.0), (0.16, 0.12), (0.5, 0.46), (0.56, 0.6), (0.5, 0.98)]
     glass = revolve([(r, -y) for r, y in half[:0:-1]] + half, 14).painted("#cfeef5")
     glass = glass.painted("#f2b84b", lambda at: (at[:, 1] < 0.47) & (at[:, 1] > -0.02) | (at[:, 1] < -0.5))
@@ -145,7 +145,7 @@ def hourglass() -> Solid:
 
 @icon("Sword", "#2b1414", "#8a3b2e", METAL, view=(0, 0), turn=(0, 24, -42), margin=0.04, crease=30)
 def sword() -> Solid:
-    """A sword with a gem in its pommel."""
+    """Model a sword with a gem in its pommel."""
     section = np.array([(0.21, 0.0), (0.0, 0.06), (-0.21, 0.0), (0.0, -0.06)])
     levels = [(1.0, -0.3), (0.86, 1.35), (0.0, 1.75)]
     blade = loft([np.column_stack([s * section[:, 0], np.full(4, y), s * section[:, 1]]) for s, y in levels])

@@ -1,4 +1,4 @@
-"""What grows, burns, beats and flies."""
+"""Icons of plants, vehicles and other things."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from .outlines import regular, star
 
 @icon("Heart", "#ffe3e6", "#f2a9b4", GLOSSY, view=(18, 6), crease=60)
 def heart() -> Solid:
-    """A heart, as on playing cards, but round."""
+    """Model a heart, as on playing cards, but round."""
     # without the thin end of the curve
     t = np.linspace(0, 2 * np.pi, 32, endpoint=False)[np.r_[:14, 16, 19:32]]
     x = 16 * np.sin(t) ** 3
@@ -41,14 +41,14 @@ def heart() -> Solid:
 
 @icon("Lightning", "#1c1440", "#5d3fb0", FACETED, view=(24, 6))
 def lightning() -> Solid:
-    """A bolt of lightning."""
+    """Model a bolt of lightning."""
     bolt = [(0.1, 1.2), (-0.62, -0.12), (-0.08, -0.12), (-0.3, -1.2), (0.64, 0.28), (0.08, 0.28), (0.52, 1.2)]
     return prism(bolt, 0.36, 0.07).painted("#ffd52e").painted("#ff9d1e", lambda at: at[:, 2] < 0.17)
 
 
 @icon("Rocket", "#0b1030", "#3d2f7a", GLOSSY, view=(0, 6), turn=(0, 30, -32))
 def rocket() -> Solid:
-    """A rocket on its way."""
+    """Model a rocket on its way."""
     profile = [(0.26, -0.72), (0.42, -0.4), (0.47, 0.0), (0.4, 0.5), (0.24, 0.9), (0.0, 1.25)]
     hull = revolve(profile, 14).painted("#f2f4f8").painted("#f0383c", above(0.6))
     hull = hull.painted("#f0383c", lambda at: (at[:, 1] < -0.45) & (at[:, 1] > -0.7))
@@ -63,7 +63,7 @@ def rocket() -> Solid:
 
 @icon("Mushroom", "#2f5a2f", "#a8cf6a", DULL, view=(14, 14))
 def mushroom() -> Solid:
-    """A red mushroom with white spots; not for eating."""
+    """Model a red mushroom with white spots; not for eating."""
     cap = revolve([(0.0, 0.02), (0.7, 0.0), (0.98, 0.04), (1.0, 0.18), (0.86, 0.56), (0.52, 0.84), (0.0, 0.95)], 16)
     cap = cap.painted("#e02a2a").painted("#f2e2c4", below(0.03))
     stem = revolve([(0.4, -1.0), (0.36, -0.8), (0.26, -0.3), (0.3, 0.1)], 10).painted("#f7ecd4")
@@ -77,7 +77,7 @@ def mushroom() -> Solid:
 
 @icon("Cactus", "#f2b06a", "#fbe0b0", DULL, view=(0, 12))
 def cactus() -> Solid:
-    """A cactus in a pot, in bloom."""
+    """Model a cactus in a pot, in bloom."""
     section = star(8, 0.34, 0.25, 0)
     trunk = [(0, y, 0) for y in (-0.6, 0.5, 0.78, 0.94, 1.0)]
     stem = sweep(section, trunk, scales=[1, 1, 0.86, 0.5, 0.12]).painted("#2f9a4a")
@@ -99,7 +99,7 @@ def cactus() -> Solid:
 
 @icon("Ringed planet", "#050816", "#1d2350", DULL, view=(0, 16), turn=(0, 0, -22))
 def planet() -> Solid:
-    """A planet with a ring."""
+    """Model a planet with a ring."""
     globe = sphere(0.72, 16, 10).painted("#c8743c")
     # from circle to circle of the sphere
     bands = ((-54, "#e8a45a"), (-36, "#f5cf8f"), (-18, "#d9884a"), (0, "#f5cf8f"), (18, "#e8a45a"), (54, "#c8743c"))
@@ -112,7 +112,7 @@ def planet() -> Solid:
 
 @icon("Flying saucer", "#0a1a24", "#23566a", METAL, view=(0, 10), turn=(8, 0, -10))
 def saucer() -> Solid:
-    """A visitor."""
+    """Model a flying saucer."""
     profile = [(0.0, -0.3), (0.45, -0.26), (1.15, -0.02), (1.18, 0.06), (0.6, 0.24), (0.0, 0.26)]
     hull = revolve(profile, 20).painted("#b0bccb").painted("#6f7d92", below(-0.03))
     dome = revolve([(0.56, 0.2), (0.52, 0.42), (0.36, 0.62), (0.0, 0.72)], 14).painted("#7ff0e0")
@@ -123,7 +123,7 @@ def saucer() -> Solid:
 
 @icon("Die", "#0f3d2a", "#2f9a63", FACETED, view=(36, 26), light=(-0.15, 0.4, 1))
 def die() -> Solid:
-    """A die; opposite faces add up to seven."""
+    """Model a die; opposite faces add up to seven."""
     cube = bevelled_box(2, 2, 2, 0.2).painted("#f5f2ea")
     pip = prism(regular(7, 0.19), 0.04).painted("#c8182a")
     one, two, four = [(0.0, 0.0)], [(-0.5, 0.5), (0.5, -0.5)], [(-0.5, 0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, -0.5)]

@@ -44,41 +44,38 @@ class Solid:
     # ---- moving ----
 
     def moved(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
-        """Return the solid, moved."""
+        """Return the solid moved."""
         return replace(self, corners=self.corners + np.array((x, y, z)))
 
     def turned(self, x: float = 0, y: float = 0, z: float = 0) -> Solid:
-        """Return the solid, rotated about the x, then the y, then the z axis, counter-clockwise seen from its positive
-        end.
-        """
+        """Return the solid turned about the x, then the y, then the z axis, by degrees, counter-clockwise."""
         return replace(self, corners=rotate(from_euler((x, y, z)), self.corners.reshape(-1, 3)).reshape(-1, 3, 3))
 
     def scaled(self, x: float = 1, y: float = 1, z: float = 1) -> Solid:
-        """Return the solid, scaled about the origin; a negative factor mirrors it, and the triangles still face
-        outward.
-        """
+        """Return the solid scaled about the origin; a negative factor mirrors it, and faces still point outward."""
         return self.bent(lambda points: points * (x, y, z))
 
     def mirrored(self) -> Solid:
-        """Return the mirror image, with left and right exchanged."""
+        """Return the mirror image, left and right exchanged."""
         return self.scaled(x=-1)
 
     def bent(self, function: Callable[[Array], Array]) -> Solid:
-        """Return the solid with each point, (n, 3), mapped by `function`, which must not turn it inside out except by
-        mirroring.
+        """Return the solid with a function applied to its points, (n, 3).
+
+        The function may mirror the solid, but not turn it inside out in any other way.
         """
         return _outward(replace(self, corners=function(self.corners.reshape(-1, 3)).reshape(-1, 3, 3)))
 
     # ---- colouring ----
 
     def painted(self, color: ArrayLike, where: Where | None = None) -> Solid:
-        """Return the solid in one colour, or only the triangles for whose centres, (m, 3), `where` returns true."""
+        """Return the solid in one colour, or only the triangles whose centres, (m, 3), `where` selects."""
         mask = np.ones(len(self.corners), dtype=bool) if where is None else where(self.corners.mean(axis=1))
         channels = np.array(checks.color(color, "the colour of a solid"), dtype=np.uint8)
         return replace(self, colors=np.where(mask[:, None, None], channels, self.colors))
 
     def shaded(self, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1, 0)) -> Solid:
-        """Return the solid in a gradient along an axis, over its whole extent."""
+        """Return the solid in a gradient along an axis, from its lowest to its highest point."""
         along = self.corners @ np.asarray(axis, dtype=np.float64)
         part = ((along - along.min()) / np.ptp(along))[..., None]
         start, end = (np.array(checks.color(color, "the colour of a solid")) for color in (low, high))
@@ -92,11 +89,10 @@ class Solid:
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
     def mesh(self, crease: float | None = None) -> Mesh:
-        """Return the mesh, with `STEPS` integer coordinates per unit, for flat or smooth shading.
+        """Return the mesh in whole coordinates, `STEPS` per unit, for flat shading, or with normals for smooth shading.
 
-        crease: adds normals; edges at which the surface turns by fewer degrees look round, all others are sharp.
-
-        Vertices of equal position, colour and normal are shared.
+        crease: the angle in degrees up to which edges look round; None for no normals. Vertices are shared where
+        position, colour and normal are the same.
         """
         corners = np.rint(self.corners * STEPS)
         kept = _distinct(corners)
@@ -110,22 +106,22 @@ class Solid:
 
 
 def union(*solids: Solid) -> Solid:
-    """Return solids as one; overlapping parts are not cut."""
+    """Return all solids as one; where they overlap, nothing is cut away."""
     return Solid(np.concatenate([s.corners for s in solids]), np.concatenate([s.colors for s in solids]))
 
 
 def above(y: float) -> Where:
-    """Return a condition for `painted`: points above a height."""
+    """Select what is higher, for `painted`."""
     return lambda at: at[:, 1] > y
 
 
 def below(y: float) -> Where:
-    """Return a condition for `painted`: points below a height."""
+    """Select what is lower, for `painted`."""
     return lambda at: at[:, 1] < y
 
 
 def from_axis(at: Array) -> Array:
-    """Return the distances of points, (n, 3), from the y axis, (n,)."""
+    """Return the distances of points (n, 3) from the y axis, (n,)."""
     return np.asarray(np.hypot(at[:, 0], at[:, 2]))
 
 
@@ -135,7 +131,7 @@ def both(solid: Solid) -> Solid:
 
 
 def around(solid: Solid, count: int, start: float = 0) -> Solid:
-    """Return copies of the solid around the y axis, the first rotated by `start` degrees."""
+    """Return copies of a solid around the y axis, the first turned by `start` degrees."""
     return union(*(solid.turned(y=start + 360 * i / count) for i in range(count)))
 
 
@@ -143,10 +139,9 @@ def around(solid: Solid, count: int, start: float = 0) -> Solid:
 
 
 def loft(rings: ArrayLike, closed: bool = False) -> Solid:
-    """Return a skin over rings of points, (k, n, 3), with flat ends; if `closed`, back to the first ring and without
-    ends.
+    """Return a skin over rings of points, (k, n, 3), with flat ends; if `closed`, back to the first ring.
 
-    The points of a ring go around the solid. Equal points are merged; a ring of equal points is a tip.
+    The points of a ring go around the solid; equal points are merged, and a ring of equal points is a tip.
     """
     points = np.asarray(rings, dtype=np.float64)
     here = points if closed else points[:-1]
@@ -161,9 +156,9 @@ def loft(rings: ArrayLike, closed: bool = False) -> Solid:
 
 
 def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
-    """Return a polygon, (n, 2), of the x-y plane, extruded by half of `depth` on either side.
+    """Return a polygon (n, 2) of the x-y plane, `depth` thick, half of it on either side of the plane.
 
-    bevel: width that is cut off the rims of both faces, at 45 degrees.
+    bevel: the width by which the rims of both faces are cut off at 45 degrees.
     """
     points, z = np.asarray(outline, dtype=np.float64), depth / 2
     if bevel == 0:
@@ -173,10 +168,9 @@ def prism(outline: ArrayLike, depth: float, bevel: float = 0) -> Solid:
 
 
 def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
-    """Return a profile of (radius, y) points, (k, 2), revolved about the y axis.
+    """Return a profile of (radius, y) points, (k, 2), turned about the y axis.
 
-    It has flat ends where the profile does not begin or end on the axis. If `closed`, it is a ring with the polygon as
-    section.
+    Its ends are flat where it does not begin or end on the axis. closed: whether the profile is the section of a ring.
     """
     circle = regular(segments, 1.0, 180 / segments)
     radius, y = np.asarray(profile, dtype=np.float64).T
@@ -188,9 +182,9 @@ def revolve(profile: ArrayLike, segments: int, closed: bool = False) -> Solid:
 
 
 def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Sequence[float] | None = None) -> Solid:
-    """Return a polygon, (n, 2), swept along a path, (k, 3), perpendicular to it, and scaled by factors, (k,).
+    """Return a polygon (n, 2) swept along a path (k, 3), perpendicular to it, and scaled by (k,) factors.
 
-    closed: the path, which must be planar, returns to its first point; otherwise the ends are flat.
+    closed: whether the path, then in a plane, returns to its first point; otherwise the ends are flat.
     """
     points, section = np.asarray(path, dtype=np.float64), np.asarray(outline, dtype=np.float64)
     factors = np.ones(len(points)) if scales is None else np.asarray(scales, dtype=np.float64)
@@ -212,12 +206,12 @@ def sweep(outline: ArrayLike, path: ArrayLike, closed: bool = False, scales: Seq
 
 
 def box(width: float, height: float, depth: float) -> Solid:
-    """Return a box about the origin: 12 triangles."""
+    """Return a box about the origin, 12 triangles."""
     return prism(rectangle(width, height), depth)
 
 
 def bevelled_box(width: float, height: float, depth: float, bevel: float) -> Solid:
-    """Return a box about the origin with edges cut off, `bevel` from each: 44 triangles."""
+    """Return a box about the origin with its edges cut off by `bevel`, 44 triangles."""
     z = depth / 2
     # each corner twice, for the two corners of the ring beside it
     small = np.repeat(rectangle(width - 2 * bevel, height - 2 * bevel), 2, axis=0)
@@ -226,7 +220,7 @@ def bevelled_box(width: float, height: float, depth: float, bevel: float) -> Sol
 
 
 def cylinder(radius: float, height: float, segments: int, top: float | None = None) -> Solid:
-    """Return a cylinder about the origin along y, or a truncated cone if it has another radius at the top."""
+    """Return a cylinder about the origin along y, or, with another radius at the top, a truncated cone."""
     return revolve([(radius, -height / 2), (radius if top is None else top, height / 2)], segments)
 
 
@@ -236,7 +230,7 @@ def cone(radius: float, height: float, segments: int) -> Solid:
 
 
 def sphere(radius: float, segments: int, rings: int) -> Solid:
-    """Return a sphere about the origin of 2 * segments * (rings - 1) triangles, with poles at top and bottom."""
+    """Return a sphere about the origin of 2 * segments * (rings - 1) triangles."""
     angles = np.linspace(-90, 90, rings + 1)
     profile = np.stack([np.cos(np.radians(angles)), np.sin(np.radians(angles))], axis=1) * radius
     profile[[0, -1], 0] = 0
@@ -266,22 +260,21 @@ def icosphere(radius: float, divisions: int) -> Solid:
 
 
 def torus(radius: float, thickness: float, segments: int, sides: int) -> Solid:
-    """Return a torus about the y axis of 2 * segments * sides triangles; `thickness` is the radius of its section."""
+    """Return a ring about the y axis of 2 * segments * sides triangles. thickness: the radius of its section."""
     return revolve(regular(sides, thickness) + np.array((radius, 0)), segments, closed=True)
 
 
 def tube(
     path: ArrayLike, radius: float, sides: int, closed: bool = False, scales: Sequence[float] | None = None
 ) -> Solid:
-    """Return a round rod along a path, (k, 3): `sweep` of a regular polygon."""
+    """Return a round rod along a path (k, 3): `sweep` of a regular polygon."""
     return sweep(regular(sides, radius), path, closed, scales)
 
 
 def link(length: float, width: float, thickness: float, steps: int, sides: int) -> Solid:
-    """Return a chain link in the x-y plane, along x: two half circles of `steps` parts each, joined by straight rods.
+    """Return a chain link in the x-y plane, along x: two half circles of `steps` parts, joined by straight rods.
 
-    length, width: distances between opposite centre lines of the rod.
-    thickness: radius of the rod.
+    length, width: between the centres of opposite rods. thickness: the radius of the rod.
     """
     radius = width / 2
     angles = np.radians(np.linspace(-90, 90, steps + 1))
@@ -326,7 +319,7 @@ def _at(outline: Array, z: float) -> Array:
 
 
 def _distinct(corners: Array) -> NDArray[np.bool_]:
-    """Return which triangles have three different corners."""
+    """Return which triangles have three different corners, (m,) bool."""
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     return np.asarray(sides.min(axis=1) > SAME)
 
@@ -338,7 +331,7 @@ def _outward(solid: Solid) -> Solid:
 
 
 def _cap(ring: Array) -> Array:
-    """Return the triangles, (m, 3, 3), of a flat ring, in its orientation; none for a tip or a line."""
+    """Return the triangles of a flat ring, (m, 3, 3), in its orientation; none for a tip or a line."""
     points = ring[np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1) > SAME]
     if len(points) < 3:
         return np.empty((0, 3, 3))
@@ -352,7 +345,7 @@ def _cap(ring: Array) -> Array:
 def _normals(corners: Array, crease: float) -> Array:
     """Return unit normals of the corners, (m, 3, 3).
 
-    Each is the mean, weighted by angle, of the adjacent faces that differ by less than `crease` degrees.
+    Each is the mean, weighted by angle, of the faces that meet there and differ by less than `crease` degrees.
     """
     sides = np.roll(corners, -1, axis=1) - corners
     faces = np.cross(sides[:, 0], sides[:, 1])

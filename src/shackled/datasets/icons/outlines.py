@@ -13,26 +13,26 @@ Outline = NDArray[np.float64]
 
 
 def regular(sides: int, radius: float = 1.0, start: float = 0.0) -> Outline:
-    """Return a regular polygon about the origin, (sides, 2); its first corner is `start` degrees from the x axis."""
+    """Return a regular polygon, (sides, 2), about the origin, its first corner `start` degrees from the x axis."""
     angles = np.radians(start) + np.arange(sides) * 2 * np.pi / sides
     return np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)
 
 
 def rectangle(width: float, height: float) -> Outline:
-    """Return a rectangle about the origin, (4, 2)."""
+    """Return a rectangle, (4, 2), about the origin."""
     x, y = width / 2, height / 2
     return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
 
 
 def chamfered(width: float, height: float, cut: float) -> Outline:
-    """Return a rectangle about the origin, (8, 2), with corners cut off by `cut` on either side."""
+    """Return a rectangle, (8, 2), about the origin, with `cut` removed from both sides at each corner."""
     x, y = width / 2, height / 2
     a, b = x - cut, y - cut
     return np.array([(-a, -y), (a, -y), (x, -b), (x, b), (a, y), (-a, y), (-x, b), (-x, -b)])
 
 
 def star(points: int, outer: float, inner: float, start: float = 90.0) -> Outline:
-    """Return a star about the origin, (2 points, 2), with its first point `start` degrees from the x axis."""
+    """Return a star, (2 points, 2), about the origin, its first point `start` degrees from the x axis."""
     corners = regular(2 * points, 1.0, start)
     corners[::2] *= outer
     corners[1::2] *= inner
@@ -40,13 +40,13 @@ def star(points: int, outer: float, inner: float, start: float = 90.0) -> Outlin
 
 
 def arc(radius: float, start: float, end: float, steps: int, center: tuple[float, float] = (0, 0)) -> Outline:
-    """Return points of a circle from `start` to `end` degrees, (steps + 1, 2): a path, not a polygon."""
+    """Return points of a circle from `start` to `end` degrees, (steps + 1, 2); a path, not a polygon."""
     angles = np.radians(np.linspace(start, end, steps + 1))
     return np.stack([center[0] + radius * np.cos(angles), center[1] + radius * np.sin(angles)], axis=1)
 
 
 def stroke(path: ArrayLike, width: float) -> Outline:
-    """Return the outline of an open path, (n, 2), drawn with a width: (2 n, 2), with square ends and mitred corners."""
+    """Return the outline of an open path (n, 2) drawn with a width, (2 n, 2), with square ends and mitred corners."""
     points = np.asarray(path, dtype=np.float64)
     along = np.diff(points, axis=0)
     along /= np.linalg.norm(along, axis=1, keepdims=True)
@@ -57,9 +57,7 @@ def stroke(path: ArrayLike, width: float) -> Outline:
 
 
 def inset(outline: ArrayLike, distance: float) -> Outline:
-    """Return the polygon with each side moved inward and mitred corners; the distance must be small: no side may
-    vanish.
-    """
+    """Return the polygon with each side moved inward, the corners mitred; no side may vanish."""
     points = counter_clockwise(outline)
     along = np.roll(points, -1, axis=0) - points
     along /= np.linalg.norm(along, axis=1, keepdims=True)
@@ -69,22 +67,22 @@ def inset(outline: ArrayLike, distance: float) -> Outline:
 
 
 def area(outline: ArrayLike) -> float:
-    """Return the area of a polygon, negative if it is clockwise."""
+    """Return the area of a polygon, negative if it runs clockwise."""
     points = np.asarray(outline, dtype=np.float64)
     x, y = (points - points[0]).T
     return float((x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2)
 
 
 def counter_clockwise(outline: ArrayLike) -> Outline:
-    """Return the polygon, reversed if it is clockwise."""
+    """Return the polygon, reversed if it runs clockwise."""
     points = np.array(outline, dtype=np.float64)
     return points if area(points) > 0 else points[::-1]
 
 
 def triangulate(outline: ArrayLike) -> list[tuple[int, int, int]]:
-    """Return the n - 2 triangles, by corner numbers, of a simple polygon, in its orientation.
+    """Return the n - 2 triangles of a polygon that does not cross itself, as corner numbers, in its orientation.
 
-    Ears are cut off; the ear whose smallest angle is largest goes first, to avoid slivers.
+    Ears are cut; the ear that is farthest from a sliver goes first.
     """
     points = np.asarray(outline, dtype=np.float64)
     turn = 1.0 if area(points) > 0 else -1.0

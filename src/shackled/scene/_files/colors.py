@@ -1,11 +1,19 @@
-"""Colours as files write them: bytes, larger integers, or fractions of 1."""
+"""Colours of files: bytes, larger integers, fractions of 1, and those of textures at the vertices of a mesh."""
 
 from __future__ import annotations
 
+import warnings
+from pathlib import Path
+from typing import IO
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image
 
 from ...errors import InputError
+
+#: The warning for a mesh whose textures have more than one colour.
+TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
 
 
 def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.float64]:
@@ -22,3 +30,43 @@ def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.floa
     if largest is None:
         largest = 1 if channels.size == 0 or channels.max() <= 1 else 255
     return np.clip(np.rint(channels * (255 / largest)), 0, 255)
+
+
+def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
+    """Return the image, as RGB. InputError, with its name, if there is none."""
+    try:
+        with (
+            warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
+            Image.open(source) as image,
+        ):
+            return image.convert("RGB")
+    except FileNotFoundError:
+        raise InputError(f"{name} does not exist") from None
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise InputError(f"{name} is not an image that can be read") from None
+
+
+def is_varied(image: Image.Image) -> bool:
+    """Return whether an RGB image has more than one colour."""
+    return any(np.ptp(np.asarray(image), axis=(0, 1)))
+
+
+def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
+    """Return the colours of an image, (n, 3), 0..255, interpolated between the nearest four texels.
+
+    coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.
+    """
+    texels = np.asarray(image.convert("RGB"), dtype=np.float64)
+    height, width = texels.shape[:2]
+    uv = np.nan_to_num(np.asarray(coordinates, dtype=np.float64)[:, :2], posinf=0, neginf=0)
+    # the far border belongs to the image itself, not to its first repetition
+    uv = np.where((uv >= 0) & (uv <= 1), uv, uv % 1)
+    x = np.clip(uv[:, 0] * width - 0.5, 0, width - 1)
+    y = np.clip((1 - uv[:, 1]) * height - 0.5, 0, height - 1)
+    left, top = np.floor(x).astype(int), np.floor(y).astype(int)
+    right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
+    fx, fy = (x - left)[:, None], (y - top)[:, None]
+    upper = texels[top, left] * (1 - fx) + texels[top, right] * fx
+    lower = texels[bottom, left] * (1 - fx) + texels[bottom, right] * fx
+    result: NDArray[np.float64] = np.rint(upper * (1 - fy) + lower * fy)
+    return result

@@ -1,4 +1,4 @@
-"""Getting at what is in a file, with one clear line when it cannot be had."""
+"""Reading of files, with one-line errors."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InputError, InputWarning
-from ...json_text import read_json, read_toml
+from ...untrusted import read_json, read_toml
 
-#: No mesh that a contract takes comes near this size; beyond it a file would only fill the memory.
+#: No mesh for a contract is nearly as large; a larger file would only fill the memory.
 MAX_BYTES = 256 * 2**20
 
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
@@ -21,7 +21,7 @@ _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 def read_bytes(path: Path) -> bytes:
     """Return everything in a file that exists, is not empty and not above `MAX_BYTES`."""
     try:
-        # opened before anything is asked about it, so that a guard of opening guards all; without waiting for a pipe
+        # opened before its status is read, so that an audit hook sees every file; without waiting for a pipe
         with open(path, "rb", buffering=0, opener=lambda name, flags: os.open(name, flags | _AT_ONCE)) as file:
             status = os.fstat(file.fileno())
             if stat.S_ISREG(status.st_mode) and status.st_size <= MAX_BYTES:
@@ -33,7 +33,7 @@ def read_bytes(path: Path) -> bytes:
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path
         raise InputError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}") from None
     if not stat.S_ISREG(status.st_mode):
-        raise InputError(f"{path} is no regular file; a mesh or scene file is needed")
+        raise InputError(f"{path} is not a regular file; a mesh or scene file is needed")
     if status.st_size > MAX_BYTES:
         raise InputError(f"{path} has {status.st_size / 2**20:.0f} MB; files up to {MAX_BYTES >> 20} MB are read")
     if not data.strip():
@@ -53,7 +53,7 @@ def read_text(path: Path) -> str:
 
 
 def unix_lines(text: str) -> str:
-    """Return the text with lines that end with \\n, be it from Unix, Windows or an old Mac."""
+    """Return the text with line ends of Unix."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -69,5 +69,5 @@ def parse(path: Path, text: str, kind: str) -> Mapping[str, Any]:
 
 
 def warn(message: str) -> None:
-    """Warn of something that is left out; the message is one line that begins with the path."""
+    """Warn of a part of a file that is ignored; the message is one line that begins with the path."""
     warnings.warn(message, InputWarning, stacklevel=2)

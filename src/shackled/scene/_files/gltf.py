@@ -23,10 +23,9 @@ from PIL import Image
 from ...errors import InputError
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._rotation import rotate
-from .colors import to_bytes
+from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
 from .content import parse, read_bytes, warn
 from .table import Table, about
-from .texture import TEXTURED, is_varied, open_image, sample
 from .weld import weld
 
 Array = NDArray[np.float64]
@@ -123,9 +122,9 @@ class _Gltf:
         return Table(items[number], f"{kind}[{number}]")
 
     def numbers(self, keys: Table, key: str, *types: str) -> NDArray[Any]:
-        """(n, width): the elements of the accessor that a key names; normalized integers as fractions."""
+        """Return the elements of the accessor that a key names, (n, width); normalized integers as fractions."""
         accessor = self.item(keys, key, "accessors")
-        width = _WIDTHS[accessor.choice("type", "", types)]
+        width = _WIDTHS[accessor.choice("type", types)]
         count = accessor.whole("count")
         if "bufferView" in accessor:
             values = self._rows(accessor, self._component(accessor), count, width)
@@ -266,7 +265,7 @@ def _links(keys: Table, key: str, count: int) -> list[int]:
 
 
 def _matrix(node: Table) -> Array:
-    """(4, 4), for columns."""
+    """Return the matrix of a node, (4, 4), for columns."""
     if "matrix" in node:
         return np.array(node.numbers("matrix", _IDENTITY)).reshape(4, 4).T
     matrix = np.eye(4)
@@ -311,7 +310,7 @@ def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Part]:
 
 
 def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:
-    """(m, 3): which of so many corners make each triangle."""
+    """Return the triangles of a mode, (m, 3), as numbers of so many corners."""
     if mode == _TRIANGLES:
         if count % 3:
             raise InputError(f"{place} is that of separate triangles, but there are {count} corners, no multiple of 3")
@@ -345,7 +344,7 @@ class _Vertices:
 
 
 def _colors(vertices: _Vertices, primitive: Table) -> Array:
-    """(n, 3) colours 0..255."""
+    """Return the colours of vertices, (n, 3), 0..255."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if "material" not in primitive and vertex_colors is None:
         return np.full((len(vertices.used), 3), DEFAULT_COLOR, dtype=np.float64)
@@ -367,7 +366,7 @@ def _colors(vertices: _Vertices, primitive: Table) -> Array:
 
 
 def _texture_colors(vertices: _Vertices, info: Table) -> Array:
-    """(n, 3) colours 0..255; white without an image or coordinates."""
+    """Return the colours of a texture, (n, 3), 0..255; white without an image or coordinates."""
     transform = info.table("extensions").table("KHR_texture_transform")
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")

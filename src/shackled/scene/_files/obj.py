@@ -18,10 +18,9 @@ from PIL import Image
 
 from ...errors import InputError
 from .._mesh import DEFAULT_COLOR, Mesh
-from .colors import to_bytes
+from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
 from .content import read_text, warn
 from .polygons import cut
-from .texture import TEXTURED, is_varied, open_image, sample
 from .weld import weld
 
 ABSENT = -1
@@ -149,8 +148,9 @@ def _add_face(obj: _Obj, corners: list[str]) -> None:
 
 
 def _number(word: str, count: int) -> int:
-    """Counted from 0; the file counts from 1, or back from the latest with -1. What is out of range becomes `count` or
-    more.
+    """Return the number of a vertex from 0; files count from 1, or back from the latest with -1.
+
+    A number out of range becomes `count` or more.
     """
     number = int(word)
     if number > 0:
@@ -186,7 +186,7 @@ def _colors(
     corners: NDArray[np.int64],
     material: NDArray[np.int64],
 ) -> NDArray[np.float64]:
-    """(m, 3, 3): a colour for each corner of each triangle."""
+    """Return a colour for each corner of each triangle, (m, 3, 3)."""
     colors = np.empty((len(corners), 3, 3))
     colors[:] = DEFAULT_COLOR
     textured = False

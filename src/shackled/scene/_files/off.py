@@ -106,7 +106,7 @@ def _faces(lines: list[_Line]) -> tuple[list[list[int]], list[list[float]]]:
 
 
 def _table(rows: list[list[float]]) -> NDArray[np.float64]:
-    """(n, 3) colours 0..255; light grey for rows of less than three numbers."""
+    """Return colours, (n, 3), 0..255; light grey for rows of fewer than three numbers."""
     table = np.empty((len(rows), 3))
     table[:] = DEFAULT_COLOR
     colored = [number for number, row in enumerate(rows) if len(row) >= 3]

@@ -1,6 +1,6 @@
 """Scenes of the original Shackled contracts, as JSON.
 
-What carries over exactly: geometry, place and scale, camera, culling, wireframe, background, invert. The original's
+Exact: geometry, position and scale, camera, culling, wireframe, background, invert. The original's
 light is one directional light, purely additive: the colour of the surface shows in full, and a highlight and a diffuse
 term are added to it. Here the ambient coefficient is 1, so that the colour shows in full; the highlight is that of the
 original; the diffuse term is multiplied by the colour of the surface, as it should be, and with `k = lightDiffPower /

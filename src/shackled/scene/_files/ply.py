@@ -173,13 +173,13 @@ class _Text:
     """Lines of numbers, a line for each row of an element."""
 
     def __init__(self, data: bytes, before: int) -> None:
-        """`before`: how many lines of the file come before."""
+        """Take the lines after the header. before: the number of lines of the header."""
         self.lines = unix_lines(data.decode("ascii", errors="replace")).split("\n")
         self.before = before
         self.at = 0
 
     def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """`count` rows of these fields (name, type, how many numbers), or None if the lines are not of that form."""
+        """Return `count` rows of these fields (name, type, count of numbers), or None if the data has another form."""
         self._skip_blank()
         try:
             table = np.loadtxt(self.lines[self.at : self.at + count], ndmin=2, comments=None)
@@ -238,7 +238,7 @@ class _Binary:
         self.at = 0
 
     def table(self, fields: list[_Field], count: int) -> dict[str, NDArray[Any]] | None:
-        """`count` rows of these fields (name, type, how many numbers), or None if so many are not there."""
+        """Return `count` rows of these fields (name, type, count of numbers), or None if the data is too short."""
         row = np.dtype([(name, self.order + kind, (size,)) for name, kind, size in fields])
         if self.at + row.itemsize * count > len(self.data):
             return None

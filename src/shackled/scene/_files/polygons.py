@@ -17,11 +17,12 @@ _ROUNDING = 1e-9
 
 
 def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[np.int64]:
-    """(k, 4) int: the triangles of polygons, each as the numbers of three corners and of its polygon.
+    """Cut polygons into triangles, (k, 4) int: the numbers of three corners, and of the polygon.
 
-    positions: (n, 3) float. sizes: (m,) how many corners each polygon has. vertices: (sum of sizes,) the number of the
-    position of each corner; the corners of all polygons are numbered one after the other. A polygon is cut as a fan
-    about its first corner where that fills it, as it does a convex one, else by ear clipping. InputError as in `Mesh`.
+    positions: (n, 3) float. sizes: (m,) the number of corners of each polygon. vertices: (sum of sizes,) the number of
+    the position of each corner; the corners of all polygons are numbered in sequence. A polygon is cut as a fan about
+    its first corner where that fills it, as it does for a convex one, and otherwise by ear clipping. InputError as in
+    `Mesh`.
     """
     triangles, vertices = fans(sizes), np.asarray(vertices)
     points = Mesh(positions, vertices[triangles[:, :3]]).positions
@@ -66,7 +67,7 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
 
 
 def fans(sizes: ArrayLike) -> NDArray[np.int64]:
-    """(k, 4) int as in `cut`: polygons of so many corners, cut as fans about their first corner."""
+    """Cut polygons of so many corners as fans about their first corner; (k, 4) int as in `cut`."""
     corners = np.asarray(sizes, dtype=np.int64)
     triangles = np.maximum(corners - 2, 0)
     polygon = np.repeat(np.arange(len(corners)), triangles)
@@ -76,7 +77,7 @@ def fans(sizes: ArrayLike) -> NDArray[np.int64]:
 
 
 def _flat(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 2): points seen along the axis nearest to their normal, from where their outline runs counter-clockwise."""
+    """Return points, (n, 2), seen along the axis nearest to their normal, such that outlines run counter-clockwise."""
     rows = np.arange(len(points))
     axis = np.abs(normals).argmax(axis=1)
     forward = normals[rows, axis] > 0

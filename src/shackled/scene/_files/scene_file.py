@@ -1,12 +1,15 @@
-"""Scene files of our own: TOML, or JSON with the same keys. `docs/scene-files.md` tells the keys and their defaults."""
+"""Scene files: TOML, or JSON with the same keys. docs/scene-files.md documents the keys and their defaults.
+
+Keys that are settings of a look come from its table, with their kinds and ranges.
+"""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -15,62 +18,68 @@ from numpy.typing import ArrayLike
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
 from .._background import Background
-from .._camera import DEFAULT_HALF_HEIGHT, Camera, half_height_of
-from .._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, Light, LightKind
-from .._material import Material, Shading
+from .._camera import PROJECTIONS, Camera
+from .._light import LIGHT_KINDS, WHITE, Light
+from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, view_of
+from .._material import Material
 from .._mesh import Mesh
 from .._object import Object
-from .._rotation import from_axis_angle, from_euler
+from .._rotation import IDENTITY, from_axis_angle, from_euler
 from .._scene import DEFAULT_SIDE, Scene
-from .._staging import AZIMUTH, BACKGROUND, ELEVATION, MARGIN, Look, frame, key_light, painted
-from .mesh_file import read_mesh
+from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted
+from .content import parse, read_text
+from .mesh_file import READERS, read_mesh
+from .original import is_original, original_scene
 from .table import Table, about
 
-_SCENE = ("size", "invert", "ambient_light", "background", "camera", "lights", "objects")
+SCENES = (".toml", ".json")
+
+
+def _keys(part: Part, *more: str) -> tuple[str, ...]:
+    return (*(setting.name for setting in settings_of(part)), *more)
+
+
+_SCENE = _keys("scene", "size", "camera", "objects")
+_CAMERA = _keys("camera", "projection")
+_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material")
 _BACKGROUND = ("top", "bottom")
-_CAMERA = ("eye", "target", "up", "azimuth", "elevation", "margin", "projection", "fov", "half_height", "near")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle")
-_OBJECT = ("mesh", "position", "rotation", "scale", "color", "material", "cull", "wireframe", "opacity")
 _MESH = ("positions", "faces", "colors", "normals")
-_MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
 _ROTATION = ("quaternion", "axis", "angle")
 
-_WHITE = (255, 255, 255)
-_NO_ROTATION = (0.0, 0.0, 0.0, 1.0)
 
+def read_scene(path: str | os.PathLike[str]) -> Scene:
+    """Return the scene of a scene file.
 
-def scene_of(document: Mapping[str, Any], folder: Path) -> Scene:
-    """Return the scene of a document whose meshes are files relative to `folder`.
-
-    InputError says where in the document it is wrong.
+    A JSON file with the key `canvasDim` is a scene of the original contracts. InputError, one line that begins with the
+    path, if anything is wrong.
     """
+    path = Path(path)
+    extension = path.suffix.lower()
+    if extension not in SCENES:
+        known = ", ".join((*READERS, *SCENES))
+        if path.is_dir():
+            raise InputError(f"{path} is a directory; a mesh or scene file is needed: {known}")
+        raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")
+    document = parse(path, read_text(path), extension)
+    with about(str(path)):
+        if extension == ".json" and is_original(document):
+            return original_scene(document)
+        return _scene(document, path.parent)
+
+
+def _scene(document: Mapping[str, Any], folder: Path) -> Scene:
+    """Return the scene of a document whose meshes are files relative to `folder`."""
     table = Table(document, "", _SCENE)
     width, height = _size(table)
     objects = [_object(part, where, folder) for where, part in table.rows("objects")]
-    keys = table.table("camera", _CAMERA)
-    look = Look(
-        width=width,
-        height=height,
-        azimuth=keys.number("azimuth", AZIMUTH),
-        elevation=keys.number("elevation", ELEVATION),
-        margin=keys.number("margin", MARGIN),
-    )
-    return Scene(
-        objects=objects,
-        camera=_camera(keys, look, objects),
-        lights=[_light(part, where) for where, part in table.rows("lights")]
-        if "lights" in table
-        else [key_light(look)],
-        background=_background(table),
-        ambient_light=table.color("ambient_light", _WHITE),
-        invert=table.flag("invert", False),
-        width=width,
-        height=height,
-    )
+    view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
+    given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
+    return Scene(objects, camera, width=width, height=height, **given)
 
 
 def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
-    """Write a scene as JSON, with its meshes inside, such that loading it gives the same scene.
+    """Write a scene as JSON, including its meshes, such that loading it gives the same scene.
 
     InputError where the path is wrong, OutputError where the disk is full or fails.
     """
@@ -85,48 +94,54 @@ def encode_scene_file(scene: Scene) -> bytes:
     camera = scene.camera
     document = {
         "size": [scene.width, scene.height],
-        "invert": scene.invert,
-        "ambient_light": scene.ambient_light,
-        "background": {"top": scene.background.top, "bottom": scene.background.bottom},
+        **_fields(scene, "scene"),
         "camera": {
-            "eye": camera.eye,
-            "target": camera.target,
-            "up": camera.up,
-            "projection": camera.projection,
-            "half_height": camera.half_height,
+            **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
             **({} if camera.near is None else {"near": camera.near}),
         },
-        "lights": [_lamp(light) for light in scene.lights],
         "objects": [
             {
-                "mesh": {
-                    "positions": thing.mesh.positions,
-                    "faces": thing.mesh.faces,
-                    "colors": thing.mesh.colors,
-                    **({} if thing.mesh.normals is None else {"normals": thing.mesh.normals}),
-                },
+                "mesh": {name: value for name in _MESH if (value := getattr(thing.mesh, name)) is not None},
                 "position": thing.position,
                 "rotation": {"quaternion": thing.rotation},
                 "scale": thing.scale,
-                "material": {key: getattr(thing.material, key) for key in _MATERIAL},
-                "cull": thing.cull,
-                "wireframe": thing.wireframe,
-                "opacity": thing.opacity,
+                "material": _fields(thing.material, "material"),
+                **_fields(thing, "object"),
             }
             for thing in scene.objects
         ],
     }
-    text = json.dumps(document, default=lambda array: array.tolist())
-    return f"{text}\n".encode("ascii")
+    return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
 
 
-def _lamp(light: Light) -> dict[str, Any]:
-    """Return the keys of a light."""
-    place = "direction" if light.kind == "directional" else "position"
-    keys = {"kind": light.kind, place: light.vector, "color": light.color}
-    if light.kind == "spot":
-        keys |= {name: getattr(light, name) for name in ("direction", "inner_angle", "outer_angle")}
+def _fields(value: object, part: Part) -> dict[str, Any]:
+    """Return the settings that are fields of a value; an object has no colour of its own."""
+    return {name: getattr(value, name) for name in _keys(part) if hasattr(value, name)}
+
+
+def _plain(value: Any) -> Any:
+    """Return what JSON has for an array, a background or a light."""
+    if isinstance(value, Background):
+        return {"top": value.top, "bottom": value.bottom}
+    if not isinstance(value, Light):
+        return value.tolist()
+    place = "direction" if value.kind == "directional" else "position"
+    keys = {"kind": value.kind, place: value.vector, "color": value.color}
+    if value.kind == "spot":
+        keys |= {name: getattr(value, name) for name in ("direction", "inner_angle", "outer_angle")}
     return keys
+
+
+# ---- reading ----
+
+
+def _settings(keys: Table, part: Part) -> dict[str, Any]:
+    """Return the settings of a part of a scene that a table has."""
+    return {
+        setting.name: setting.check(_READ[setting.kind](keys, setting), keys.place(setting.name))
+        for setting in settings_of(part)
+        if setting.name in keys
+    }
 
 
 def _size(table: Table) -> tuple[int, int]:
@@ -141,94 +156,90 @@ def _size(table: Table) -> tuple[int, int]:
     return sides[0], sides[1]
 
 
-def _background(table: Table) -> Background:
-    value = table.get("background")
-    if value is None:
-        return BACKGROUND
+def _background(keys: Table, setting: Setting) -> Background:
+    value = keys.get(setting.name)
     if not isinstance(value, Mapping):
-        return Background(table.color("background", (0, 0, 0)))
-    keys = table.table("background", _BACKGROUND)
-    top = keys.color("top", (0, 0, 0))
-    return Background(top, keys.color("bottom", top))
+        return Background(keys.color(setting.name))
+    inside = keys.table(setting.name, _BACKGROUND)
+    top = inside.color("top", (0, 0, 0))
+    return Background(top, inside.color("bottom", top))
 
 
-def _camera(keys: Table, look: Look, objects: list[Object]) -> Camera:
-    keys.only_one_of("fov", "half_height")
-    keys.only_one_of("eye", "azimuth")
-    keys.only_one_of("eye", "elevation")
-    keys.only_one_of("eye", "margin")
-    if ("eye" in keys) != ("target" in keys):
-        there, missing = ("eye", "target") if "eye" in keys else ("target", "eye")
+#: How the values of kinds are read, besides the range.
+_READ: dict[Kind, Callable[[Table, Setting], Any]] = {
+    "whole": lambda keys, setting: round(keys.number(setting.name)),
+    "number": lambda keys, setting: keys.number(setting.name),
+    "vector": lambda keys, setting: keys.numbers(setting.name, (0, 0, 0)),
+    "flag": lambda keys, setting: keys.flag(setting.name),
+    "color": lambda keys, setting: keys.color(setting.name),
+    "background": _background,
+    "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
+    "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
+}
+
+
+def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tuple[Viewpoint, Camera]:
+    given = _settings(keys, "camera")
+    exclude(given, keys.place)
+    if ("eye" in given) != ("target" in given):
+        there, missing = ("eye", "target") if "eye" in given else ("target", "eye")
         raise InputError(
             f"camera.{there} needs a camera.{missing}; without both the camera is placed so that all is seen"
         )
-    if "up" in keys and "eye" not in keys:
+    if "up" in given and "eye" not in given:
         raise InputError("camera.up needs a camera.eye and a camera.target")
-    orthographic = keys.choice("projection", "perspective", ("perspective", "orthographic")) == "orthographic"
-    if orthographic and "fov" in keys:
+    projection = keys.choice("projection", PROJECTIONS, "perspective")
+    orthographic = projection == "orthographic"
+    if orthographic and "fov" in given:
         raise InputError(
             "camera.fov is for the perspective projection; the orthographic one has half_height, in world units"
         )
     with about("camera"):
-        half_height = keys.number("half_height", DEFAULT_HALF_HEIGHT)
-        if "fov" in keys:
-            half_height = half_height_of(keys.number("fov", 50))
-        if "eye" in keys:
-            if orthographic and "half_height" not in keys:
+        half_height = half_height_in(given, orthographic)
+        view = view_of(given, width, height, orthographic)
+        if "eye" in given:
+            if orthographic and half_height is None:
                 raise InputError("an orthographic camera with an eye needs half_height, in world units")
-            camera = Camera(
-                keys.numbers("eye", (0, 0, 0)),
-                keys.numbers("target", (0, 0, 0)),
-                keys.numbers("up", (0, 1, 0)),
-                "orthographic" if orthographic else "perspective",
-                half_height,
-            )
+            places = {name: given[name] for name in ("eye", "target", "up") if name in given}
+            camera = Camera(**places, projection=projection)
             if not camera.up.any():
                 raise InputError("up must not be (0, 0, 0)")
             if np.array_equal(camera.eye, camera.target):
                 raise InputError("eye and target are the same point")
         else:
-            placed = evolve(look, projection="orthographic" if orthographic else "perspective", half_height=half_height)
-            points = [thing.world_positions() for thing in objects]
-            camera = frame(np.concatenate(points) if points else np.zeros((1, 3)), placed)
-            if orthographic and "half_height" in keys:
-                camera = evolve(camera, half_height=half_height)
-        return evolve(camera, near=keys.number("near", 0)) if "near" in keys else camera
+            points = [np.zeros((0 if objects else 1, 3)), *(thing.world_positions() for thing in objects)]
+            camera = frame(np.concatenate(points), view)
+        half_height = camera.half_height if half_height is None else half_height
+        return view, evolve(camera, half_height=half_height, near=given.get("near"))
 
 
 def _light(value: object, where: str) -> Light:
     keys = Table(value, where, _LIGHT)
-    kind = cast(LightKind, keys.choice("kind", "", LIGHT_KINDS))
-    color = keys.color("color", _WHITE)
-    if kind == "spot":
-        for needed in ("position", "direction"):
-            if needed not in keys:
-                raise InputError(f"{where} must have a {needed}, as its kind is spot")
-        place, direction = keys.numbers("position", (0, 0, 0)), keys.numbers("direction", (0, 0, 0))
-        inner, outer = keys.number("inner_angle", INNER_ANGLE), keys.number("outer_angle", OUTER_ANGLE)
-        with about(where):
-            return Light(kind, place, color, direction, inner, outer)
-    needed, other = ("direction", "position") if kind == "directional" else ("position", "direction")
-    if needed not in keys or other in keys:
-        raise InputError(f"{where} must have a {needed}, and no {other}, as its kind is {kind}")
-    for name in ("inner_angle", "outer_angle"):
-        if name in keys:
+    kind = keys.choice("kind", LIGHT_KINDS)
+    color = keys.color("color", WHITE)
+    vectors = {"directional": ("direction",), "point": ("position",), "spot": ("position", "direction")}[kind]
+    angles = ("inner_angle", "outer_angle") if kind == "spot" else ()
+    for name in ("position", "direction", "inner_angle", "outer_angle"):
+        if name in vectors and name not in keys:
+            raise InputError(f"{where} must have a {name}, as its kind is {kind}")
+        if name in keys and name not in (*vectors, *angles):
             raise InputError(f"{where} must have no {name}, as its kind is {kind}")
+    place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
+    given = {name: keys.number(name) for name in angles if name in keys}
     with about(where):
-        return Light(kind, keys.numbers(needed, (0, 0, 0)), color)
+        return Light(kind, place, color, *direction, **given)
 
 
 def _object(value: object, where: str, folder: Path) -> Object:
     keys = Table(value, where, _OBJECT)
     mesh = _mesh(keys, where, folder)
-    if "color" in keys:
-        mesh = painted(mesh, keys.color("color", _WHITE))
+    given = _settings(keys, "object")
+    if "color" in given:
+        mesh = painted(mesh, given.pop("color"))
+    material = Material(**_settings(keys.table("material", _keys("material")), "material"))
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
-    material = _material(keys)
-    cull, wireframe = keys.flag("cull", True), keys.flag("wireframe", False)
-    opacity = keys.number("opacity", 1)
     with about(where):
-        return Object(mesh, position, rotation, scale, material, cull, wireframe, opacity)
+        return Object(mesh, position, rotation, scale, material, **given)
 
 
 def _mesh(keys: Table, where: str, folder: Path) -> Mesh:
@@ -251,29 +262,15 @@ def _mesh(keys: Table, where: str, folder: Path) -> Mesh:
 def _rotation(keys: Table) -> ArrayLike:
     value = keys.get("rotation")
     if value is None:
-        return _NO_ROTATION
+        return IDENTITY
     if not isinstance(value, Mapping):
         return from_euler(keys.numbers("rotation", (0, 0, 0)))
     inside = keys.table("rotation", _ROTATION)
     inside.only_one_of("quaternion", "axis")
     inside.only_one_of("quaternion", "angle")
     if "quaternion" in inside:
-        return inside.numbers("quaternion", _NO_ROTATION)
+        return inside.numbers("quaternion", (0, 0, 0, 1))
     if "axis" not in inside or "angle" not in inside:
         raise InputError(f"{inside.where} must have a quaternion, or an axis and an angle in degrees")
     with about(inside.where):
-        return from_axis_angle(inside.numbers("axis", (0, 0, 0)), inside.number("angle", 0))
-
-
-def _material(keys: Table) -> Material:
-    inside = keys.table("material", _MATERIAL)
-    default = Look().material
-    shading = inside.choice("shading", default.shading, ("unlit", "flat", "smooth"))
-    with about(inside.where):
-        return Material(
-            cast(Shading, shading),
-            ambient=inside.number("ambient", default.ambient),
-            diffuse=inside.number("diffuse", default.diffuse),
-            specular=inside.number("specular", default.specular),
-            shininess=round(inside.number("shininess", default.shininess)),
-        )
+        return from_axis_angle(inside.numbers("axis", (0, 0, 0)), inside.number("angle"))

@@ -32,7 +32,7 @@ def read_stl(path: Path) -> Mesh:
 
 
 def _vertices(text: str) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """(n, 3): the vertices of all solids of a text, three for each facet."""
+    """Return the vertices of all solids of a text, (n, 3), three for each facet."""
     # names may be of any words
     text = re.sub(r"(?im)^[ \t]*(end)?solid\b.*", "", text)
     rows = []

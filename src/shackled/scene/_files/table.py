@@ -1,27 +1,30 @@
-"""Tables of a TOML or JSON document, read with care: every message says where it is about and what would be right."""
+"""Checked access to tables of a TOML or JSON document; every message says where the error is."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...checks import color
+from ...checks import Color, color
 from ...errors import InputError
+
+Word = TypeVar("Word", bound=str)
 
 
 class Table:
-    """A table, and what its keys hold.
+    """A table of a document.
 
     where: its place in the document for messages, such as `objects[1].material`, empty for the document itself. Each
-    reading method gives the default where the key is absent, and raises InputError where its value is of another kind.
+    reading method returns the default where the key is absent, and raises InputError where its value is of another
+    kind, or absent without a default.
     """
 
     def __init__(self, value: object, where: str, known: tuple[str, ...] | None = None) -> None:
-        """`known` are the keys that it may have, None for any."""
+        """Take a table. known: the keys that it may have; None for any."""
         if not isinstance(value, Mapping):
             keys = f" with keys of {', '.join(known)}" if known else ""
             raise InputError(f"{where} must be a table{keys}, not {value!r:.60}")
@@ -33,7 +36,7 @@ class Table:
         self.where = where
 
     def __contains__(self, key: str) -> bool:
-        """Whether the key is there."""
+        """Return whether the key is there."""
         return key in self.values
 
     def place(self, key: str) -> str:
@@ -54,15 +57,15 @@ class Table:
         if len(given) > 1:
             raise InputError(f"{self.place(given[0])} and {given[1]} exclude each other")
 
-    def number(self, key: str, default: float) -> float:
+    def number(self, key: str, default: float | None = None) -> float:
         """Return a finite number."""
-        value = self.values.get(key, default)
+        value: Any = self.values.get(key, default)
         if not is_number(value):
             raise InputError(f"{self.place(key)} must be a number, not {value!r:.60}")
         return float(value)
 
     def whole(self, key: str, default: int | None = None) -> int:
-        """Return a whole number that is not negative; it must be there if there is no default."""
+        """Return a whole number that is not negative."""
         value: Any = self.values.get(key, default)
         if not is_number(value) or value < 0 or value % 1:
             raise InputError(f"{self.place(key)} must be a whole number, at least 0, not {value!r:.60}")
@@ -70,17 +73,13 @@ class Table:
 
     def numbers(self, key: str, default: tuple[float, ...]) -> tuple[float, ...]:
         """Return as many numbers as the default has."""
-        value = self.values.get(key, default)
-        if (
-            not isinstance(value, list | tuple)
-            or len(value) != len(default)
-            or not all(is_number(part) for part in value)
-        ):
-            raise InputError(f"{self.place(key)} must be {len(default)} numbers, not {value!r:.60}")
+        value, count = self.values.get(key, default), len(default)
+        if not isinstance(value, list | tuple) or len(value) != count or not all(is_number(part) for part in value):
+            raise InputError(f"{self.place(key)} must be {count} numbers, not {value!r:.60}")
         return tuple(float(part) for part in value)
 
     def matrix(self, key: str, whole: bool = False) -> NDArray[Any]:
-        """(n, 3): rows of three numbers, none if the key is absent; integers if they must be whole."""
+        """Return rows of three numbers, (n, 3), none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
         for place, row in rows:
             if not isinstance(row, list) or len(row) != 3 or not all(is_number(value) for value in row):
@@ -90,21 +89,21 @@ class Table:
         table: NDArray[Any] = np.array([row for _, row in rows], dtype=np.int64 if whole else np.float64)
         return table.reshape(-1, 3)
 
-    def flag(self, key: str, default: bool) -> bool:
+    def flag(self, key: str, default: bool | None = None) -> bool:
         """Return true or false."""
         value = self.values.get(key, default)
         if not isinstance(value, bool):
             raise InputError(f"{self.place(key)} must be true or false, not {value!r:.60}")
         return value
 
-    def choice(self, key: str, default: str, choices: tuple[str, ...]) -> str:
+    def choice(self, key: str, choices: tuple[Word, ...], default: Word | None = None) -> Word:
         """Return one of some words."""
         value = self.values.get(key, default)
         if value not in choices:
             raise InputError(f"{self.place(key)} must be one of {', '.join(choices)}, not {value!r:.60}")
-        return str(value)
+        return cast(Word, value)
 
-    def color(self, key: str, default: tuple[int, int, int]) -> tuple[int, int, int]:
+    def color(self, key: str, default: Color | None = None) -> Color:
         """Return red, green and blue from 0 to 255, or "#rrggbb"."""
         value = self.values.get(key, default)
         if isinstance(value, str):
@@ -125,7 +124,7 @@ class Table:
 
 @contextmanager
 def about(where: str) -> Iterator[None]:
-    """Put a place before the messages of what happens inside."""
+    """Prefix the messages of InputErrors with a place."""
     try:
         yield
     except InputError as error:
@@ -133,5 +132,5 @@ def about(where: str) -> Iterator[None]:
 
 
 def is_number(value: object) -> bool:
-    """Return whether it is a finite number, and no truth value."""
+    """Return whether a value is a finite number, and not a truth value."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e300

@@ -1,4 +1,4 @@
-"""JSON and TOML of strangers."""
+"""Untrusted text: JSON, TOML, and lines for a terminal."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import re
 import tomllib
 from typing import Any
 
-#: Brackets within brackets.
+#: Levels of brackets within brackets.
 MAX_NESTING = 200
-#: Strings, whole or cut off, and brackets outside of them.
+#: Strings, complete or not, and brackets outside of them.
 JSON_TOKENS = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"?|[\[\]{}]', re.DOTALL)
-#: The same with the other strings of TOML, and with comments.
+#: The same for TOML, which has other strings and comments.
 TOML_TOKENS = re.compile(
     r"""
     \"{3} [^"\\]* (?: (?: \\. | "(?!"") ) [^"\\]* )* (?: "{3,5} | \Z )
@@ -26,16 +26,16 @@ TOML_TOKENS = re.compile(
 
 
 def read_json(text: str, **options: Any) -> Any:
-    """As `json.loads`. ValueError too where brackets are nested too deep.
+    """Parse JSON as `json.loads` does. ValueError also where brackets are nested too deep.
 
-    Some packages raise Python's limit of recursion so far that such a text would end the process.
+    Some packages raise Python's recursion limit so far that such a text would crash the process.
     """
     _check_nesting(text, JSON_TOKENS)
     return json.loads(text, **options)
 
 
 def read_toml(text: str) -> dict[str, Any]:
-    """As `tomllib.loads`. ValueError too where brackets or tables are nested too deep."""
+    """Parse TOML as `tomllib.loads` does. ValueError also where brackets or tables are nested too deep."""
     _check_nesting(text, TOML_TOKENS)
     document = tomllib.loads(text)
     level: list[Any] = [document]
@@ -45,6 +45,11 @@ def read_toml(text: str) -> dict[str, Any]:
     if level:
         raise ValueError(f"its tables are nested more than {MAX_NESTING} deep")
     return document
+
+
+def plain(text: str) -> str:
+    """Return the text with a question mark for every character that could be a command to a terminal."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def _check_nesting(text: str, tokens: re.Pattern[str]) -> None:

@@ -1,4 +1,4 @@
-"""A bar on stderr, for what may take a while."""
+"""Progress bars on stderr."""
 
 from __future__ import annotations
 
@@ -8,18 +8,21 @@ import threading
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-#: Seconds that something may take without a bar.
+from ..parallel import Listener, Outline
+from .option import with_options
+
+#: Seconds before a bar is shown.
 PATIENCE = 1.0
 
 
 class LateBar:
-    """Appears on a terminal as soon as something takes longer than a second, and is gone when it is over.
+    """A bar that appears on a terminal when a task takes longer than a second, and is removed at its end.
 
-    Several threads may use it. As a context it ends with what is in it.
+    It is thread-safe, and a context manager.
     """
 
     def __init__(self, what: str, patience: float = PATIENCE) -> None:
-        """what: is done, for people."""
+        """Start the timer. what: the label of the bar."""
         self._what = what
         self._console = Console(stderr=True)
         self._bar: Progress | None = None
@@ -32,14 +35,14 @@ class LateBar:
             self._timer.start()
 
     def set(self, done: int, total: int) -> None:
-        """How far it is; before, only that it goes on is shown."""
+        """Set how far the task is; before that, the bar shows activity only."""
         with self._lock:
             self._done, self._total = done, total
             if self._bar is not None:
                 self._bar.update(self._bar.tasks[0].id, completed=done, total=total)
 
     def print(self, line: str) -> None:
-        """Prints a line on stderr, above the bar if there is one."""
+        """Print a line on stderr, above the bar if there is one."""
         with self._lock:
             if self._bar is not None:
                 self._bar.console.print(line, markup=False, highlight=False, soft_wrap=True)
@@ -47,7 +50,7 @@ class LateBar:
                 print(line, file=sys.stderr, flush=True)
 
     def end(self) -> None:
-        """Takes the bar away; it does not come again."""
+        """Remove the bar for good."""
         with self._lock:
             timer, self._timer = self._timer, None
             bar, self._bar = self._bar, None
@@ -76,3 +79,39 @@ class LateBar:
             )
             self._bar.add_task(self._what, total=self._total or None, completed=self._done)
             self._bar.start()
+
+
+class JobProgress(Listener):
+    """Prints the estimated cost of a job of several parts, and shows a bar while it runs."""
+
+    def __init__(self) -> None:
+        """Start the timer of the bar."""
+        self._bar = LateBar("rendering")
+        self._done, self._total = 0, 0
+
+    def planned(self, outline: Outline) -> None:
+        """Print the number of calls and their estimated gas."""
+        self._total = outline.pixels
+        if outline.parts > 1:
+            frames = f"{outline.frames} frames, " if outline.frames > 1 else ""
+            cost = "" if outline.gas is None else f", about {_rounded(outline.gas):,} gas"
+            self._bar.print(f"{frames}{outline.parts} calls{cost}")
+
+    def advanced(self, pixels: int) -> None:
+        """Count finished pixels."""
+        self._done += pixels
+        self._bar.set(self._done, self._total)
+
+    def warned(self, text: str) -> None:
+        """Print a warning above the bar."""
+        self._bar.print(f"shackled: {with_options(text)}")
+
+    def ended(self) -> None:
+        """Remove the bar."""
+        self._bar.end()
+
+
+def _rounded(gas: int) -> int:
+    """Return a number rounded to two significant digits."""
+    unit: int = 10 ** max(0, len(str(gas)) - 2)
+    return round(gas / unit) * unit

@@ -1,21 +1,45 @@
-"""What the values of a scene have in common: checked fields, and arrays that are compared number by number."""
+"""What values have in common: checked fields, arrays that are compared and stay read-only, and counts in words."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from attrs import Attribute
 
 
+class Value:
+    """A base of frozen attrs classes with arrays.
+
+    Unpickling calls the constructor, because NumPy does not restore that an array is read-only.
+    """
+
+    __slots__ = ()
+    __attrs_attrs__: ClassVar[tuple[Attribute[Any], ...]]
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[type, dict[str, Any]]]:
+        values = {each.name: getattr(self, each.name) for each in self.__attrs_attrs__}
+        return _rebuild, (type(self), values)
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, _: dict[int, Any]) -> Self:
+        return self
+
+
+def _rebuild(kind: Callable[..., Any], values: dict[str, Any]) -> Any:
+    return kind(**values)
+
+
 def checked(name: str, *limits: object) -> dict[str, Any]:
-    """Return the metadata of a field whose converter is called with this name, for its messages, and the limits."""
+    """Return the metadata of a field whose converter takes a name, for its messages, and limits."""
     return {"checked": (name, *limits)}
 
 
 def with_names(_: type, fields: list[Attribute[Any]]) -> list[Attribute[Any]]:
-    """Hand the names and limits of `checked` to the converters of fields; a transformer of fields for attrs."""
+    """Hand the names and limits of `checked` to the converters of the fields; a `field_transformer` of attrs."""
     return [_named(field) if "checked" in field.metadata else field for field in fields]
 
 
