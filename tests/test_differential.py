@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from attrs import evolve
+from benchmarks.shared import FOLDER
 
 from differential import LEAST_DRAWN, compare, compare_broken, contract_answer, difference, reference_answer
 from original_scenes import documents
 from pictures import call_data, chain
 from random_scenes import KINDS, Kind, random_case
-from shackled import Camera, Light, Material, Mesh, Object, Scene
+from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.reference import selector
 from shackled.scene import Rectangle, encode, original_scene, rotate
 
@@ -109,3 +110,12 @@ def test_large_canvases(width: int, height: int, shading: str) -> None:
     tile = Rectangle(width // 3, height // 3, width // 2, height // 2)
     for data in (call_data("renderCounted", scene), call_data("renderTile", scene, tile)):
         assert difference(contract_answer(chain(), data), reference_answer(data)) is None
+
+
+def test_models_of_the_original() -> None:
+    paths = sorted(FOLDER.glob("obj_*.json"))
+    if not paths:
+        pytest.skip(f"there are no scenes of the original in {FOLDER}: set SHACKLED_SHARED")
+    for path in paths:
+        data = encode(selector("renderCounted"), load(path))
+        assert not difference(contract_answer(chain(), data), reference_answer(data)), path.stem

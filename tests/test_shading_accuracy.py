@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from attrs import evolve
+from benchmarks.shared import FOLDER
 
 import float64
-from accuracy import LEVELS, MEAN_BOUND, SHARE_WITHIN, Accuracy, interior, made_scenes, measure, scenes_of_the_original
+from accuracy import (
+    LEVELS,
+    MEAN_BOUND,
+    SHARE_WITHIN,
+    Accuracy,
+    interior,
+    made_scenes,
+    measure,
+    scenes_of_the_original,
+    smooth,
+    solid,
+    unlit,
+)
 from pictures import call_data, draw
 from random_scenes import Kind, random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
@@ -29,6 +44,15 @@ def test_scenes_made_by_hand(name: str) -> None:
 @pytest.mark.parametrize("name", ORIGINAL)
 def test_scenes_of_the_original(name: str) -> None:
     check(measure(ORIGINAL[name]()))
+
+
+@pytest.mark.parametrize("change", [solid, smooth, unlit])
+def test_models_of_the_original(change: Callable[[Scene], Scene]) -> None:
+    paths = sorted(FOLDER.glob("obj_*.json"))
+    if not paths:
+        pytest.skip(f"there are no scenes of the original in {FOLDER}: set SHACKLED_SHARED")
+    for path in paths:
+        check(measure(change(load(path))))
 
 
 def test_faces_that_a_lamp_and_the_eye_meet_at_small_angles() -> None:
