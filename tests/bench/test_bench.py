@@ -295,7 +295,7 @@ def test_without_names_they_are_listed(capsys: pytest.CaptureFixture[str]) -> No
     ("arguments", "message"),
     [
         (["canvass", "-o", "x"], "there is no experiment 'canvass'; the experiments are canvas, triangles,"),
-        (["canvas"], "the experiments need a folder to write to: -o DIR"),
+        (["canvas"], "the experiments need an output folder: -o DIR"),
         (["canvas", "-o", "file"], "file is a file, not a folder to write to"),
     ],
 )
