@@ -55,7 +55,7 @@ test: lint checks unit ## all checks and tests
 	@echo "all checks and tests passed"
 
 checks: $(DEV) $(NODE)
-	@$(MAKE) CHECKS=1 --jobs 2 --output-sync --no-print-directory types contracts docs
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts docs
 
 lint: $(DEV) ## style of the Python code
 	$(BIN)/ruff check

@@ -9,6 +9,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +70,25 @@ def test_the_commands_of_a_page_exist(page: Path) -> None:
             command = command.commands[words.pop(0)]
         known = {option for parameter in command.params for option in (*parameter.opts, *parameter.secondary_opts)}
         assert {word for word in words if word.startswith("-")} - {"--help"} <= known, line
+
+
+@pytest.mark.parametrize(
+    "page",
+    [*sorted(DOCS.glob("*.md")), *(ROOT / name / "README.md" for name in (".", "contracts", "benchmarks"))],
+    ids=lambda page: page.relative_to(ROOT).as_posix(),
+)
+def test_the_files_that_a_page_names_exist(page: Path) -> None:
+    """By their paths, or the ends of these."""
+    named = set(re.findall(r"`([\w./-]*\w\.(?:py|sol|toml))`", page.read_text("utf-8")))
+    assert [name for name in sorted(named) if not any(path.endswith(f"/{name}") for path in sources())] == []
+
+
+@cache
+def sources() -> list[str]:
+    folders = ("src", "contracts/src", "tests", "tools", "benchmarks", "docs", "examples")
+    files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml")]
+    files += [path for folder in folders for path in (ROOT / folder).rglob("*.*")]
+    return [path.as_posix() for path in files]
 
 
 def test_the_reference_has_every_name_with_an_example() -> None:

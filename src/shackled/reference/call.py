@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..artifacts import artifact
-from ..errors import RenderError
+from ..chain import revert_error
 from .checks import check_layout
 from .structs import Rectangle, Scene, parameters, read_value, size_of, word
 
@@ -19,7 +19,8 @@ def read_call(data: bytes) -> tuple[Scene, Rectangle]:
     base = 4 + word(data, 4)
     head = 4 + 32 + (size_of(tile_type) if is_tile else 0)
     if len(data) < head or base + size_of(scene_type) > len(data):
-        raise RenderError("the contract refused: the data of the call is not a scene that is encoded correctly")
+        # the contract reverts without data
+        raise revert_error(b"", 0)
     check_layout(data, base, scene_type)
     scene: Scene = read_value(data, base, scene_type)
     if not is_tile:
