@@ -150,6 +150,12 @@ def test_a_phase_that_there_is_not_is_told(node: Node, address: str, monkeypatch
         collection.state()
 
 
+def test_what_a_node_says_does_not_hide_its_failure(address: str) -> None:
+    """Only an answer of another contract means that there is no collection."""
+    with serving(lambda _: failure("0x is not a known tag")) as url, pytest.raises(NodeError, match="a known tag"):
+        open_collection(Connection(url), address)
+
+
 def test_the_owner_changes_in_two_steps(node: Node, address: str, shackled: Shackled) -> None:
     contract = node.contract("GenesisCollection", address)
     assert "is offered to nobody" in shackled("token", "take-over", "--yes", user=ALICE, expect=2).error
