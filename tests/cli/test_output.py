@@ -33,6 +33,15 @@ def test_a_narrow_terminal_does_not_shorten_values(monkeypatch: pytest.MonkeyPat
     assert "0.00123456789" in lines[1]
 
 
+def test_numbers_are_aligned_to_the_right(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [("Engine", ADDRESS, "1,234", "12"), ("total", "", "12,345", "")]
+    print_table(("contract", "address", "gas", "estimate"), rows)
+    head, first, last = capsys.readouterr().out.splitlines()
+    assert head.index("address") == first.index(ADDRESS)
+    assert first.index("1,234") == last.index("12,345") + 1
+    assert len(head.rstrip()) == len(first.rstrip())
+
+
 def test_json_has_no_characters_that_a_terminal_obeys_or_cannot_encode(capsys: pytest.CaptureFixture[str]) -> None:
     document = {"name": "\x9b31m \udcff é"}
     print_json(document)
