@@ -35,7 +35,8 @@ MaxFee = Annotated[
     option(
         "--max-fee",
         "Maximum price of a unit of gas, in gwei. Without it: twice the base fee and a tip of at most 3, and the "
-        "command stops if the node suggests a higher tip, reports no base fee, or estimates 10 times the usual gas.",
+        "command stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the "
+        "usual gas.",
         "GWEI",
     ),
 ]
