@@ -71,7 +71,7 @@ def test_an_answer() -> None:
         (
             Reply(b"", 429),
             NodeBusyError,
-            "(HTTP status 429); try again later, or use another node",
+            "limits the rate of requests (HTTP status 429); try again later, or use another node",
         ),
         (Reply(b"", 503), NodeBusyError, "HTTP status 503: it is not available now"),
         (Reply(b"<h1>no</h1>", 413), TooLargeError, "of this size (no): use a smaller `size`"),
@@ -368,7 +368,8 @@ def test_a_key_that_is_a_part_of_the_host() -> None:
     ],
 )
 def test_addresses_that_are_none(url: str) -> None:
-    with pytest.raises(InputError, match=r"must be the address of a node, such as http://127\.0\.0\.1:8545") as error:
+    words = r"`rpc` must be the address of a node, such as http://127\.0\.0\.1:8545"
+    with pytest.raises(InputError, match=words) as error:
         Connection(url)
     assert "key0123456" not in str(error.value)
 

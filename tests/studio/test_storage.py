@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -34,6 +36,11 @@ STUDIO = b"\x11" * 20
 @pytest.fixture(scope="module")
 def world() -> World:
     return World()
+
+
+def vertices(parts: Any, numbers: Iterable[int]) -> list[tuple[object, ...]]:
+    """Positions and colours of some vertices, in no order."""
+    return sorted((*parts.positions[number], parts.colors[number]) for number in numbers)
 
 
 def happens(world: World, storings: list[StoreTransaction]) -> None:
@@ -81,8 +88,11 @@ def test_a_large_mesh(world: World) -> None:
     world.chain._codes.update(world.codes)
     stored = b"".join(world.codes[storing.pointer][1:] for storing in storings[:3])
     assert storings[-1].pointer == storage_address(stored, world.address("Studio"))
-    there = split_mesh(world.chain.ask("Studio", "mesh", storings[-1].pointer))
-    assert sorted(there.positions) == sorted(split_mesh(packed).positions)
+    there, whole = split_mesh(world.chain.ask("Studio", "mesh", storings[-1].pointer)), split_mesh(packed)
+    assert vertices(there, range(n)) == vertices(whole, range(n))
+    assert sorted(vertices(there, each) for each in there.faces) == sorted(
+        vertices(whole, each) for each in whole.faces
+    )
 
 
 def test_a_thousand_triangles_are_stored_for_what_is_promised() -> None:

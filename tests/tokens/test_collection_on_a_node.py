@@ -84,7 +84,8 @@ def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, sha
 def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
     before = node.web3.eth.block_number
     said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
-    assert re.search("about .* gas as the node estimates, .* as counted here; at most .* ether in all", said.err)
+    words = "it costs about .* gas as the node estimates, .* as counted here; at most .* ether in all"
+    assert re.search(words, said.err)
     assert "nothing was sent" in said.error
     assert node.web3.eth.block_number == before
 
@@ -148,6 +149,12 @@ def test_a_phase_that_there_is_not_is_told(node: Node, address: str, monkeypatch
     monkeypatch.setattr(collection.contract, "call", lambda name, *rest: 7 if name == "phase" else ask(name, *rest))
     with pytest.raises(NodeError, match="returned an unknown phase of its sale, 7"):
         collection.state()
+
+
+def test_what_a_node_says_does_not_hide_its_failure(address: str) -> None:
+    """Only an answer of another contract means that there is no collection."""
+    with serving(lambda _: failure("0x is not a known tag")) as url, pytest.raises(NodeError, match="a known tag"):
+        open_collection(Connection(url), address)
 
 
 def test_the_owner_changes_in_two_steps(node: Node, address: str, shackled: Shackled) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -86,6 +87,12 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
         return int(said.err.partition("storing it: ")[2].partition(" gas")[0].replace(",", ""))
 
     assert price("--position-bits", 8) < price("--position-bits", 11) < price()
+
+
+def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> None:
+    said = shackled("mint", "icons/trophy", expect=2)
+    assert re.search("it costs about .* gas as the node estimates, .*; at most .* ether in all", said.err)
+    assert "nothing was sent: name an account" in said.error
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,8 @@ MaxFee = Annotated[
     option(
         "--max-fee",
         "Maximum price of a unit of gas, in gwei. Without it: twice the base fee and a tip of at most 3, and the "
-        "command stops if the node suggests a higher tip, reports no base fee, or estimates 10 times the usual gas.",
+        "command stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the "
+        "usual gas.",
         "GWEI",
     ),
 ]
@@ -49,14 +50,18 @@ class NodeOptions:
     rpc: Annotated[str | None, option("--rpc", "URL of a node of the chain.", "URL", envvar="SHACKLED_RPC")] = None
     chain_id: Annotated[int | None, option("--chain-id", "Stop unless the node belongs to this chain.", "N")] = None
 
+    def check(self) -> str:
+        """Return the URL of the node. InputError without --rpc."""
+        if self.rpc is None or not self.rpc.strip():
+            raise InputError("--rpc is missing: the URL of a node of the chain, such as http://127.0.0.1:8545")
+        return self.rpc.split()[0]
+
     def connect(self, timeout: float = PATIENCE) -> Connection:
         """Return a connection to the node. timeout: seconds for an answer. InputError without --rpc.
 
         WrongChainError if the node belongs to another chain than --chain-id.
         """
-        if self.rpc is None or not self.rpc.strip():
-            raise InputError("--rpc is missing: the URL of a node of the chain, such as http://127.0.0.1:8545")
-        connection = Connection(self.rpc.split()[0], timeout, attempts=4)
+        connection = Connection(self.check(), timeout, attempts=4)
         connection.expect_chain(self.chain_id)
         return connection
 
@@ -129,7 +134,7 @@ class PayerOptions(SignerOptions):
         InputError if there is no terminal to ask at, typer.Abort for no.
         """
         if quotes:
-            print_note(f"it costs {price(quotes)}")
+            print_price(quotes)
         if self.yes:
             return
         if not sys.stdin.isatty():
@@ -169,13 +174,14 @@ def parse_max_fee(gwei: float | None) -> int | None:
     return None if gwei is None else max(1, round(number(gwei, "--max-fee", 1e-9, 1e9) * 10**9))
 
 
-def price(quotes: Sequence[Quote]) -> str:
-    """Return a sentence with the value, the estimated gas and the maximum cost of transactions."""
+def print_price(quotes: Sequence[Quote]) -> None:
+    """Print the value, the estimated gas and the maximum cost of transactions."""
     value = sum(each.call.value for each in quotes)
     likely = sum(each.likely for each in quotes) - value
     gas, counted = sum(each.expected for each in quotes), sum(each.call.gas for each in quotes)
-    return (
-        (f"{ether(value)} and " if value else "")
+    print_note(
+        "it costs "
+        + (f"{ether(value)} and " if value else "")
         + f"about {roughly(likely)} for {gas:,} gas as the node estimates, {counted:,} as counted here; "
         + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in all"
     )
@@ -189,8 +195,8 @@ def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: boo
 
 
 def print_json(document: Any) -> None:
-    """Print a JSON document in one line."""
-    print(json.dumps(document, ensure_ascii=False))
+    """Print a JSON document in one line, in ASCII, which every terminal and encoding can show."""
+    print(json.dumps(document))
 
 
 def parse_checksum_address(text: str, name: str) -> str:

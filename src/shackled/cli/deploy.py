@@ -39,6 +39,7 @@ def deploy(
     """Deploy the contracts, at the same addresses on every chain. Contracts that are there already are skipped."""
     from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments, write_verification
 
+    node.check()
     payer.check()
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
     if not names:

@@ -6,9 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..errors import InputError
 from ..image import FORMATS, one_of
-from .chain_options import NodeOptions, PayerOptions, print_json, print_step, with_groups
+from .chain_options import NodeOptions, PayerOptions, print_json, print_price, print_step, with_groups
 from .option import option, parse_size
 from .output import print_line, print_note
 
@@ -44,8 +43,7 @@ def mint(
     pixels = None if size is None else parse_size(size)
     source = locate(input)
     terms = licence_of(source, licence)
-    if node.rpc is None:
-        raise InputError("--rpc is missing: the URL of a node of the chain, such as http://127.0.0.1:8545")
+    node.check()
     scene = load(source, pixels, max_triangles=max_triangles)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
@@ -64,8 +62,10 @@ def mint(
             names = ", ".join(step.name for step in storage.parts.missing)
             print_note(f"deploying {names} first: {storage.parts.gas:,} gas")
         print_note(f"storing it: {storage.gas:,} gas; it cannot be undone")
+        # before the account is opened, so that nobody needs one to see the price
+        print_price([*storage.parts.quotes, *storage.quotes])
         transactor = payer.transactor(connection)
-        payer.confirm(transactor, [*storage.parts.quotes, *storage.quotes])
+        payer.confirm(transactor)
         gas = sum(receipt.gas for receipt in store(storage, transactor, print_step))
     else:
         print_note(f"{input} is on chain {connection.chain_id} already: nothing was sent")

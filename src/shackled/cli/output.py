@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Sequence
 
@@ -19,7 +20,7 @@ def print_note(text: str) -> None:
 
 
 def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, to_stderr: bool = False) -> None:
-    """Print a table. Columns whose last cell begins with a digit are aligned to the right."""
+    """Print a table, never shortened. Columns with numbers, except the first, are aligned to the right."""
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
@@ -27,9 +28,9 @@ def print_table(head: Sequence[str], rows: Sequence[Sequence[str]], *, to_stderr
     stream = sys.stderr if to_stderr else sys.stdout
     table = Table(box=None, pad_edge=False, header_style="bold")
     for number, title in enumerate(head):
-        is_number = number > 0 and bool(rows) and rows[-1][number][:1].isdigit()
-        table.add_column(title, justify="right" if is_number else "left")
+        is_number = number > 0 and any(re.match(r"\d(?!x)", row[number]) for row in rows)
+        table.add_column(Text(plain(title)), justify="right" if is_number else "left")
     for row in rows:
         table.add_row(*(Text(plain(cell)) for cell in row))
-    # in a file, a row is as wide as it needs to be
-    Console(file=stream, width=None if stream.isatty() else 1000).print(table)
+    # a narrow terminal breaks lines: in a narrow table, addresses and prices would lose digits
+    Console(file=stream, width=1000).print(table)

@@ -119,7 +119,7 @@ def _packed_fields(fields: list[tuple[int, tuple[int, ...]]], count: int) -> byt
 
 
 class _Recent:
-    """State that encoder and decoder share: edges of recent faces, reversed; recent vertices; number of vertices."""
+    """State that the decoder has too: edges of recent faces, reversed; recent vertices; number of vertices."""
 
     def __init__(self) -> None:
         self.edges: deque[Edge] = deque(maxlen=EDGES)

@@ -190,7 +190,8 @@ def open_collection(connection: Connection, address: str) -> Collection:
         except RevertError:
             continue
         except NodeError as error:
-            if "is not a " in str(error):
+            # what a node says may contain anything, so the whole phrase of `Contract.call`
+            if f"the address {address} is not a {kind.contract} " in str(error):
                 continue
             raise
     raise InputError(f"there is no Shackled collection at {address} on chain {connection.chain_id}")

@@ -25,7 +25,7 @@ from ._gallery import (
     page,
     tokens_json,
 )
-from ._icons import SCALE, add_call, chosen_pieces, icons_of
+from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of
 from ._launch import CollectionTerms, launch, plan_launch
 from ._metadata import read_token_uri
 from ._minting import MintCall, mint_call
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 
 GALLERY, LISTING = "gallery.html", "tokens.json"
 CLOSED, ALLOW_LIST, PUBLIC = range(3)
-#: The price of an icon, in wei.
-ICON_PRICE = 2 * 10**16
 INTRODUCTION = (
     "Each picture was computed entirely by contracts on a chain, and read through tokenURI: one call per token, within "
     "the gas limit of the node. Nothing is stored anywhere else."

@@ -18,6 +18,8 @@ from ._licence import licence_of
 
 #: Side of the square that each pixel becomes in the picture of a token: 128 pixels become 512.
 SCALE = 4
+#: The default price of a token, in wei.
+ICON_PRICE = 2 * 10**16
 
 
 @dataclass(frozen=True)

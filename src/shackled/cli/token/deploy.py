@@ -11,7 +11,7 @@ import typer
 from ...checks import choice, number
 from ...errors import InputError
 from ...ethereum import parse_ether
-from ...tokens import KINDS, SCALE
+from ...tokens import ICON_PRICE, KINDS, SCALE
 from ...whole_file import check_output_folder
 from ..chain_options import (
     Json,
@@ -29,9 +29,6 @@ from ..output import print_line, print_note, print_table
 
 if TYPE_CHECKING:
     from ...deploy import DeploymentStep, Receipt
-
-#: The price of an icon, in wei.
-ICON_PRICE = 2 * 10**16
 
 
 @with_groups

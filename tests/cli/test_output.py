@@ -1,0 +1,50 @@
+"""Tables and JSON of commands are safe for any terminal, and complete."""
+
+from __future__ import annotations
+
+import io
+import json
+import sys
+
+import pytest
+
+from shackled.cli.chain_options import print_json
+from shackled.cli.output import print_table
+
+ADDRESS = "0x" + "5b" * 20
+
+
+def test_a_table_shows_untrusted_text_as_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    print_table(("name", "[red]a[/b]", "\x1b[2Jb"), [("[bold]c", "\x9b31m", "d\ne")])
+    head, row = capsys.readouterr().out.splitlines()
+    assert head.split() == ["name", "[red]a[/b]", "?[2Jb"]
+    assert row.split() == ["[bold]c", "?31m", "d?e"]
+
+
+def test_a_narrow_terminal_does_not_shorten_values(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = io.StringIO()
+    monkeypatch.setattr(stream, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "stdout", stream)
+    monkeypatch.setenv("COLUMNS", "40")
+    print_table(("contract", "address", "at most"), [("Renderer", ADDRESS, "0.00123456789")])
+    lines = stream.getvalue().splitlines()
+    assert len(lines) == 2
+    assert ADDRESS in lines[1]
+    assert "0.00123456789" in lines[1]
+
+
+def test_numbers_are_aligned_to_the_right(capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [("Engine", ADDRESS, "1,234", "12"), ("total", "", "12,345", "")]
+    print_table(("contract", "address", "gas", "estimate"), rows)
+    head, first, last = capsys.readouterr().out.splitlines()
+    assert head.index("address") == first.index(ADDRESS)
+    assert first.index("1,234") == last.index("12,345") + 1
+    assert len(head.rstrip()) == len(first.rstrip())
+
+
+def test_json_has_no_characters_that_a_terminal_obeys_or_cannot_encode(capsys: pytest.CaptureFixture[str]) -> None:
+    document = {"name": "\x9b31m \udcff é"}
+    print_json(document)
+    out = capsys.readouterr().out
+    assert out.isascii()
+    assert json.loads(out) == document
