@@ -299,7 +299,7 @@ def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) 
     faces = "\n".join(f"f {a} {b} {c}" for a, b, c in rng.permutation(70000)[:69999].reshape(-1, 3) + 1)
     Path("large.obj").write_text(f"{vertices}\n{faces}\n", "utf-8")
     assert run(["render", "large.obj"]) == 2
-    assert "simplify them with --max-triangles" in capsys.readouterr().err
+    assert "simplify it with --max-triangles" in capsys.readouterr().err
 
 
 def test_refusals_and_interrupts_exit_with_1(

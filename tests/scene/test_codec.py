@@ -138,7 +138,7 @@ def test_unused_vertices_are_dropped_in_order() -> None:
 def test_too_large_a_mesh_says_its_size_and_the_way_out(vertices: int, faces: int) -> None:
     indices = np.arange(3 * faces).reshape(faces, 3) % vertices
     mesh = Mesh(np.arange(3 * vertices).reshape(vertices, 3) % 1000, indices)
-    with pytest.raises(InputError, match=rf"{vertices:,} vertices and {faces:,} triangles, .* with `max_triangles`$"):
+    with pytest.raises(InputError, match=rf"{vertices:,} vertices and {faces:,} triangles; .* with `max_triangles`$"):
         encode(SELECTOR, scene_of(mesh))
 
 
