@@ -1,6 +1,6 @@
 """What can be changed about a picture: the controls of the page, and the checks of their values.
 
-A control that sets what the table `shackled.scene.look.SETTINGS` lists takes its range, unit, choices and help from it.
+A control that sets what the table `shackled.scene.SETTINGS` lists takes its range, unit, choices and help from it.
 """
 
 from __future__ import annotations
