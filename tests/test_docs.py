@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 import runpy
 import shlex
@@ -34,6 +35,14 @@ element face 1\nproperty list uchar int vertex_indices\nend_header\n0 1 0\n-1 -1
 
 def blocks(page: Path) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", page.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_the_defaults_of_materials() -> None:
+    page = (DOCS / "scene-files.md").read_text("utf-8")
+    rows = dict(re.findall(r"^\| `(\w+)` \|.*\| `([^`]*)` \|$", page.partition("### `material`")[2], re.MULTILINE))
+    material = shackled.Material()
+    for name in ("shading", "ambient", "diffuse", "specular", "shininess"):
+        assert json.loads(rows[name]) == getattr(material, name)
 
 
 PAGES = [page for page in sorted(DOCS.glob("*.md")) if blocks(page)]

@@ -145,7 +145,8 @@ def test_images_are_values(image: Image) -> None:
     with pytest.raises(AttributeError):
         image.gas = 5  # type: ignore[misc]
     assert Image(image.pixels.tolist()).bmp == image.bmp
-    for wrong in (image.pixels[0], image.pixels[:, :, :1], image.pixels[:0], "picture", [[1, 2], [3]]):
+    wrong_values = [image.pixels + np.int64(1) * 300, image.pixels - 0.5, np.full((2, 2, 3), np.nan), [[[-1, 2, 3]]]]
+    for wrong in (image.pixels[0], image.pixels[:, :, :1], image.pixels[:0], "picture", [[1, 2], [3]], *wrong_values):
         with pytest.raises(InputError, match=r"^the pixels of a picture must be bytes of shape"):
             Image(wrong)
 

@@ -72,12 +72,13 @@ class Animation:
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
-        """(n, H, W, 3): n frames."""
+        """The pixels of all frames, (n, H, W, 3)."""
         return np.stack([frame.pixels for frame in self.frames])
 
     def encode(self, extension: str) -> bytes:
-        """Return the bytes of a file: ".gif" (256 colours for all frames together, the nearest where there are more) or
-        ".png" (an APNG, exact). InputError for any other.
+        """Return the bytes of a file: ".gif", or ".png" for an APNG. InputError for any other.
+
+        A GIF has at most 256 colours for all frames, the nearest where there are more; an APNG is exact.
         """
         return FORMATS[check_extension(extension, FORMATS)].encode(self)
 

@@ -28,10 +28,12 @@ Pixels = NDArray[np.uint8]
 
 def _pixels(values: ArrayLike) -> Pixels:
     try:
-        pixels = fixed(values, np.uint8)
+        given = np.asarray(values)
+        with np.errstate(invalid="ignore"):
+            pixels = fixed(given, np.uint8)
     except (TypeError, ValueError, OverflowError):
-        pixels = np.zeros(0, np.uint8)
-    if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
+        given = pixels = np.zeros(0, np.uint8)
+    if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size or not (pixels == given).all():
         raise InputError(f"the pixels of a picture must be bytes of shape (height, width, 3), not {values!r:.60}")
     return pixels
 

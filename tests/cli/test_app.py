@@ -29,6 +29,14 @@ def test_stopped_while_it_is_read_in(monkeypatch: pytest.MonkeyPatch, capsys: py
     assert capsys.readouterr() == ("", "shackled: stopped\n")
 
 
+@pytest.mark.parametrize("group", ["datasets", "token"])
+def test_a_group_without_a_command_prints_its_help(capsys: pytest.CaptureFixture[str], group: str) -> None:
+    assert run_command([group]) == 2
+    output, messages = capsys.readouterr()
+    assert f"Usage: shackled {group}" in output + messages
+    assert "shackled: " not in messages
+
+
 def test_what_is_left_out_is_a_note_on_stderr(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

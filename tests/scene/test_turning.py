@@ -112,6 +112,11 @@ def test_several_objects_turn_together() -> None:
     assert np.allclose(half.objects[1].position, (0, 0, 0))
 
 
+@pytest.mark.parametrize("frames", [3, 3.0, np.int64(3), "3"])
+def test_frames_of_other_types(frames: int) -> None:
+    assert full_turn(scene(), frames) == full_turn(scene(), 3)
+
+
 @pytest.mark.parametrize("frames", [1, 0, 721, 2.5, "many"])
 def test_frames_that_make_no_turn(frames: object) -> None:
     with pytest.raises(InputError, match="the number of frames of a turntable must be"):

@@ -87,7 +87,9 @@ def _run(arguments: Sequence[str] | None) -> int:
         # usage errors, whose class depends on the version of typer
         if not hasattr(error, "format_message"):
             raise
-        return _fail(error.format_message(), getattr(error, "exit_code", 2))
+        message, code = error.format_message(), getattr(error, "exit_code", 2)
+        # a group without a command has printed its help, and has no message
+        return _fail(message, code) if message else int(code)
 
 
 def _note(show: Callable[..., object]) -> Callable[..., None]:

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..chain import CHAINS, NodeChain, open_chain, open_node
+from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
 from ..gas import TRACER, Profile, can_trace, counting, flame_graph, make_report, render_call, speedscope
 from ..whole_file import check_output_file, write_output
@@ -44,7 +44,7 @@ def gas(
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a renderer on the node's chain.", "ADDRESS")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", show_default="120")
+        float | None, option("--rpc-timeout", f"Timeout of a call to the node (default: {PATIENCE:g}).", "SECONDS")
     ] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of tables.")] = False,
     profile: Annotated[

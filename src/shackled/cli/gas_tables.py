@@ -8,6 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from ..gas import GasReport, Profile, limits
+from ..values import plural
 
 BAR = 24
 #: Number of functions and lines shown.
@@ -63,7 +64,7 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
     per = (report.per(report.triangles), report.per(report.lit_pixels))
     figures = {
         "picture": f"{report.scene.width} x {report.scene.height} pixels; "
-        f"{report.triangles:,} triangles, {report.lit_pixels:,} lit pixels",
+        f"{plural(report.triangles, 'triangle')}, {plural(report.lit_pixels, 'lit pixel')}",
         "gas": f"{exact.gas:,} of the execution, exact ({report.chain})",
         "searched": f"{found.gas:,} by {found.calls} calls, which narrowed the limits from "
         f"{bracket.lower:,} .. {bracket.upper:,} to {last.lower:,} .. {last.upper:,}",

@@ -15,7 +15,7 @@ from .option import OPTIONS, option, parse_background, parse_light, parse_size, 
 
 #: The type of a value for typer, its metavar, and its converter.
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
-    "size": (str, "SIZE", lambda text, name: parse_size(text)),
+    "size": (str, "SIZE", parse_size),
     "whole": (int, "N", lambda value, name: value),
     "number": (float, "NUMBER", lambda value, name: value),
     "vector": (str, "X,Y,Z", parse_vector),

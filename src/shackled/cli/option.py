@@ -42,12 +42,17 @@ def with_options(message: str) -> str:
     return re.sub(r"`(\w+)`", lambda match: OPTIONS.get(match[1], match[0]), " ".join(message.split()))
 
 
-def parse_size(text: str, name: str = "--size") -> tuple[int, int]:
+def parse_sides(text: str, name: str) -> tuple[int, int]:
     """Return width and height of "128" or "320x200"."""
     match = re.fullmatch(r"(\d{1,9})(?:[xX](\d{1,9}))?", text)
     if not match:
         raise InputError(f"{name} must be a side such as 128 or WIDTHxHEIGHT such as 320x200, not {text!r}")
-    width, height = int(match[1]), int(match[2] or match[1])
+    return int(match[1]), int(match[2] or match[1])
+
+
+def parse_size(text: str, name: str = "--size") -> tuple[int, int]:
+    """Return width and height of a picture, as `parse_sides`."""
+    width, height = parse_sides(text, name)
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
         raise InputError(f"{name} must be from 1 to {MAX_SIDE} pixels a side, not {text!r}")
     return width, height

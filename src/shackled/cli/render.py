@@ -19,14 +19,15 @@ from .._render import render as draw
 from .._render import turntable as turn
 from ..animation import DURATION, Animation, check_animation, check_duration
 from ..animation import FORMATS as FILMS
-from ..chain import CHAINS, open_chain
+from ..chain import CHAINS, PATIENCE, open_chain
 from ..datasets import Piece
 from ..errors import InputError
 from ..image import FORMATS, Image, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import VERIFY, folder_of, remove_parts
+from ..values import plural
 from .look_options import load_with, with_look
-from .option import option, parse_size
+from .option import option, parse_sides
 from .progress import JobProgress, LateBar
 
 #: The address that stands for a cluster on this machine.
@@ -52,7 +53,7 @@ def render(
     ] = None,
     duration: Annotated[
         int | None,
-        option("--duration", "Duration of a frame.", "MILLISECONDS", "Turntable", show_default=str(DURATION)),
+        option("--duration", f"Duration of a frame (default: {DURATION}).", "MILLISECONDS", "Turntable"),
     ] = None,
     chain: Annotated[
         str | None,
@@ -74,7 +75,8 @@ def render(
     ] = None,
     address: Annotated[str | None, option("--address", "Address of a deployed renderer.", "ADDRESS", "Where")] = None,
     rpc_timeout: Annotated[
-        float | None, option("--rpc-timeout", "Timeout of a call to a node.", "SECONDS", "Where")
+        float | None,
+        option("--rpc-timeout", f"Timeout of a call to a node (default: {PATIENCE:g}).", "SECONDS", "Where"),
     ] = None,
     cluster: Annotated[
         str | None,
@@ -113,7 +115,7 @@ def render(
     if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
         rpc = None  # options override the environment
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
-    sides = None if tile is None else parse_size(tile, "--tile")
+    sides = None if tile is None else parse_sides(tile, "--tile")
     in_parts = turntable is not None or not where_of(on, gas_limit, sides).alone
     if chain is not None:
         open_chain(chain)
@@ -215,7 +217,7 @@ def _words(report: dict[str, Any]) -> str:
     several = f"{frames} frames of " if frames > 1 else ""
     rows = {"picture": f"{report['output']}, {several}{report['width']} x {report['height']} pixels"}
     if report["triangles"] is not None and report["lit_pixels"] is not None:
-        rows["drawn"] = f"{report['triangles']:,} triangles, {report['lit_pixels']:,} lit pixels"
+        rows["drawn"] = f"{plural(report['triangles'], 'triangle')}, {plural(report['lit_pixels'], 'lit pixel')}"
     rows["gas"] = "not counted"
     if report["gas"] is not None and report["intrinsic_gas"] is not None:
         sent = "the scene" if calls == 1 else f"the scene {calls} times"

@@ -1,4 +1,4 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw, draw_all, keep, table
+from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw, draw_all, keep, table
 from ._find import DATASETS, find, pieces, require
 from ._gallery import page, sheet
 from ._piece import Piece
@@ -10,7 +10,6 @@ __all__ = [
     "VARIABLE",
     "Piece",
     "PieceCost",
-    "Thumbnail",
     "cache_folder",
     "cost",
     "draw",

@@ -88,6 +88,9 @@ _WORDS: dict[Kind, str] = {
     "lights": "lights",
 }
 
+#: The material of staged meshes.
+_SURFACE = Material()
+
 #: All settings, in the order in which they are shown.
 SETTINGS = (
     Setting(
@@ -163,13 +166,53 @@ SETTINGS = (
     Setting(
         "ambient_light", "color", "scene", "Light", "Colour of the light that comes from everywhere.", default="white"
     ),
-    Setting("shading", "choice", "material", "Light", "Kind of shading.", choices=SHADINGS),
+    Setting(
+        "shading",
+        "choice",
+        "material",
+        "Light",
+        "Kind of shading.",
+        default=f"{_SURFACE.shading} for mesh files",
+        choices=SHADINGS,
+    ),
     Setting("smooth", "flag", None, "Light", "Short for shading smooth.", option="--smooth"),
     Setting("unlit", "flag", None, "Light", "Short for shading unlit.", option="--unlit"),
-    Setting("ambient", "number", "material", "Light", "Share of ambient light.", *COEFFICIENTS),
-    Setting("diffuse", "number", "material", "Light", "Share of diffuse light.", *COEFFICIENTS),
-    Setting("specular", "number", "material", "Light", "Strength of highlights.", *COEFFICIENTS),
-    Setting("shininess", "whole", "material", "Light", "Exponent of highlights, from wide to small.", *EXPONENTS),
+    Setting(
+        "ambient",
+        "number",
+        "material",
+        "Light",
+        "Share of ambient light.",
+        *COEFFICIENTS,
+        default=f"{_SURFACE.ambient:g} for mesh files",
+    ),
+    Setting(
+        "diffuse",
+        "number",
+        "material",
+        "Light",
+        "Share of diffuse light.",
+        *COEFFICIENTS,
+        default=f"{_SURFACE.diffuse:g} for mesh files",
+    ),
+    Setting(
+        "specular",
+        "number",
+        "material",
+        "Light",
+        "Strength of highlights.",
+        *COEFFICIENTS,
+        default=f"{_SURFACE.specular:g} for mesh files",
+    ),
+    Setting(
+        "shininess",
+        "whole",
+        "material",
+        "Light",
+        "Exponent of highlights, from wide to small.",
+        *EXPONENTS,
+        default=f"{_SURFACE.shininess:g} for mesh files",
+    ),
     Setting("color", "color", "object", "Surface", "One colour for all meshes.", default="their own"),
     Setting(
         "cull",

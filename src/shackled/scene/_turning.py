@@ -47,9 +47,10 @@ def full_turn(scene: Scene, frames: int) -> list[Scene]:
     Background, lights and camera stand still. If a scene that is completely in the picture would leave it, the camera
     is moved back for all frames.
     """
-    if number(frames, "the number of frames of a turntable", 2, MOST_FRAMES) != int(frames):
+    count = number(frames, "the number of frames of a turntable", 2, MOST_FRAMES)
+    if count != int(count):
         raise InputError(f"the number of frames of a turntable must be a whole number, not {frames!r}")
-    turned = [scene, *(turn(scene, (0, 360 * step / frames, 0)) for step in range(1, int(frames)))]
+    turned = [scene, *(turn(scene, (0, 360 * step / count, 0)) for step in range(1, int(count)))]
     camera = _holding(scene.camera, [each.world_positions() for each in turned], scene.width / scene.height)
     return [evolve(each, camera=camera) for each in turned]
 

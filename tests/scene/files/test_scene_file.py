@@ -177,15 +177,15 @@ def test_rotation_as_quaternion(folder: Path) -> None:
     ("document", "message"),
     [
         ({"object": []},
-         "unknown key 'object'; known are background, invert, lights, ambient_light, size, camera, objects"),
+         "unknown key 'object'; known are size, camera, objects, background, invert, lights, ambient_light"),
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
-         "objects[0] must be a table with keys of color, cull, wireframe, opacity, mesh, position, rotation, "
-         "scale, material, not 3"),
+         "objects[0] must be a table with keys of mesh, position, rotation, scale, material, color, cull, "
+         "wireframe, opacity, not 3"),
         ({"objects": [{}]}, "objects[0] needs a mesh: the path of a file, relative to the scene file"),
         ({"objects": [thing(colour="#fff")]},
-         "unknown key 'colour' in objects[0]; known are color, cull, wireframe, opacity, "
-         "mesh, position, rotation, scale, material"),
+         "unknown key 'colour' in objects[0]; known are mesh, position, rotation, scale, "
+         "material, color, cull, wireframe, opacity"),
         ({"objects": [thing(color="#fff")]},
          "objects[0].color must be red, green and blue from 0 to 255, or #rrggbb, or the name of a colour, not '#fff'"),
         ({"objects": [thing(color=[1, 2, 256])]},
@@ -243,8 +243,8 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"camera": {"near": 0}},
          "camera: the camera's near distance must be above 0 for a perspective camera, not 0.0"),
         ({"camera": {"zoom": 2}},
-         "unknown key 'zoom' in camera; known are eye, target, up, azimuth, elevation, margin, "
-         "fov, half_height, near, projection"),
+         "unknown key 'zoom' in camera; known are projection, eye, target, up, azimuth, elevation, "
+         "margin, fov, half_height, near"),
         ({"background": {"middle": 3}}, "unknown key 'middle' in background; known are top, bottom"),
     ],
 )  # fmt: skip

@@ -35,8 +35,8 @@ from .table import Table, about
 SCENES = (".toml", ".json")
 
 
-def _keys(part: Part, *more: str) -> tuple[str, ...]:
-    return (*(setting.name for setting in settings_of(part)), *more)
+def _keys(part: Part, *before: str) -> tuple[str, ...]:
+    return (*before, *(setting.name for setting in settings_of(part)))
 
 
 _SCENE = _keys("scene", "size", "camera", "objects")
