@@ -157,6 +157,7 @@ def test_the_page_lets_no_script_of_others_in(server: Started) -> None:
     for path in ("", "assets/creator.js", "nothing", "take/nobody/png"):
         headers = ask(server, path)[1]
         assert headers["content-security-policy"]
+        assert headers["cache-control"] == "no-cache"
         for name, value in (("x-content-type-options", "nosniff"), ("referrer-policy", "no-referrer")):
             assert headers[name] == value
 

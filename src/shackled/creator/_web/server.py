@@ -136,7 +136,7 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
     thumbnails: dict[str, bytes] = {}
 
     async def index(request: Request) -> Response:
-        return HTMLResponse(html, headers={"cache-control": "no-cache"})
+        return HTMLResponse(html)
 
     async def thumbnail(request: Request) -> Response:
         name = request.path_params["name"]
@@ -145,7 +145,10 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
                 return PlainTextResponse("there is no such piece", 404)
             if len(thumbnails) > 2000:
                 thumbnails.clear()
-            thumbnails[name] = await pool.thumbnail(name)
+            try:
+                thumbnails[name] = await pool.thumbnail(name)
+            except ShackledError as error:
+                return PlainTextResponse(str(error), 503)
         return Response(thumbnails[name], media_type="image/png", headers={"cache-control": "max-age=3600"})
 
     async def take(request: Request) -> Response:
