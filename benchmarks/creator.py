@@ -22,6 +22,7 @@ import time
 import urllib.request
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -109,6 +110,7 @@ def report(seen: Sequence[Orbiting], seconds: float) -> str:
     delays = 1000 * np.concatenate([one.delays for one in seen])
     sides = np.concatenate([one.sides for one in seen])
     rows = {
+        "measured": f"{date.today()}",
         "visitors, cores": f"{len(seen)}, {os.cpu_count()}",
         "pictures a second, all together": f"{each.sum():.0f}",
         "pictures a second of a visitor": f"{np.median(each):.1f} ({each.min():.1f} to {each.max():.1f})",
