@@ -287,8 +287,12 @@ document.addEventListener("keydown", (event) => {
 
 const seed = /^(0x)?[0-9a-f]{64}$/i;
 
-async function upload(files) {
-  if (!files.length) return;
+// the server reads one upload of a visitor at a time
+let uploads = Promise.resolve();
+function upload(files) {
+  if (files.length) uploads = uploads.then(() => sendFiles(files));
+}
+async function sendFiles(files) {
   // four bytes of length, that much JSON with names and sizes, and the files
   const head = new TextEncoder().encode(JSON.stringify(files.map((file) => [file.name, file.size])));
   const length = new DataView(new ArrayBuffer(4));
