@@ -203,8 +203,11 @@ def test_one_upload_of_a_visitor_at_a_time(server: Started) -> None:
 
 def until(ask: Callable[[], int], wanted: int) -> int:
     """The answer, as soon as it is the wanted one."""
-    answers = (ask() for _ in range(100) if time.sleep(0.05) is None)
-    return next((answer for answer in answers if answer == wanted), 0)
+    for _ in range(100):
+        if ask() == wanted:
+            return wanted
+        time.sleep(0.05)
+    return 0
 
 
 def test_a_link_that_is_none_opens_the_page(server: Started) -> None:
