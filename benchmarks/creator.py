@@ -1,12 +1,12 @@
-"""How the Creator's page does with many visitors at once: pictures a second, and how late they are.
+"""Measure the Creator's page with many visitors at once: pictures a second, and their delay.
 
     python -m benchmarks.creator [--visitors 20] [--seconds 10] [--piece NAME] [--write]
     python -m benchmarks.creator --pool [--longest 128] [--workers N]
 
-Each visitor opens the page and its wire as a browser does, and turns the object all the time: 30 movements a second.
-The delay of a movement is the time from when it is sent until the first picture that shows it has arrived. Server,
-workers and visitors share this machine. With --pool there is no page: each visitor asks the workers for the next
-picture as soon as the last one is there.
+Each visitor opens the page and its WebSocket as a browser does, and turns the object all the time: 30 movements a
+second. The delay of a movement is the time from when it is sent until the first picture that shows it has arrived.
+Server, workers and visitors share this machine. With --pool there is no page: each visitor asks the workers for the
+next picture as soon as the last one is there.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import time
 import urllib.request
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -40,7 +41,7 @@ WARM_UP = 2.0
 
 @dataclass
 class Orbiting:
-    """What a visitor saw. sides: of the moving pictures, in pixels."""
+    """The pictures of a visitor. delays: of movements, in seconds. sides: of the moving pictures, in pixels."""
 
     pictures: int = 0
     delays: list[float] = field(default_factory=list)
@@ -76,14 +77,14 @@ async def orbit(address: str, seconds: float, seen: Orbiting) -> None:
 
 
 async def measure(address: str, visitors: int, seconds: float) -> list[Orbiting]:
-    """All visitors at once."""
+    """Return what each of some simultaneous visitors saw."""
     seen = [Orbiting() for _ in range(visitors)]
     await asyncio.gather(*(orbit(address, seconds, each) for each in seen))
     return seen
 
 
 async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, workers: int | None) -> list[Orbiting]:
-    """All visitors at once, without the page."""
+    """Do the same without the page."""
     seen = [Orbiting() for _ in range(visitors)]
     async with Pool(workers) as pool:
         facts = await pool.open(Source("piece", piece))
@@ -104,11 +105,12 @@ async def measure_pool(visitors: int, seconds: float, piece: str, longest: int, 
 
 
 def report(seen: Sequence[Orbiting], seconds: float) -> str:
-    """The figures, as a table in Markdown."""
+    """Return the figures as a table in Markdown."""
     each = np.array([one.pictures / seconds for one in seen])
     delays = 1000 * np.concatenate([one.delays for one in seen])
     sides = np.concatenate([one.sides for one in seen])
     rows = {
+        "measured": f"{date.today()}",
         "visitors, cores": f"{len(seen)}, {os.cpu_count()}",
         "pictures a second, all together": f"{each.sum():.0f}",
         "pictures a second of a visitor": f"{np.median(each):.1f} ({each.min():.1f} to {each.max():.1f})",
@@ -120,7 +122,7 @@ def report(seen: Sequence[Orbiting], seconds: float) -> str:
 
 
 def main() -> None:
-    """The command."""
+    """Run the command."""
     parser = argparse.ArgumentParser(description="The Creator with many visitors at once.")
     parser.add_argument("--visitors", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=10)

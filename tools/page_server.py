@@ -36,9 +36,7 @@ class Started:
     process: subprocess.Popen[str]
 
     def processor_seconds(self) -> float:
-        """Return what the server and the processes that it started took of the processors; infinite where no system
-        tells.
-        """
+        """Return the processor seconds of the server and its child processes; infinity where /proc has no figures."""
         found: dict[int, tuple[int, int]] = {}
         for path in Path("/proc").glob("[0-9]*/stat"):
             with suppress(OSError):
@@ -53,13 +51,13 @@ class Started:
 
 
 def browser_path() -> str | None:
-    """Where a browser is, if there is one."""
+    """Return the path of a browser, or None."""
     return next((path for path in map(shutil.which, BROWSERS) if path), None)
 
 
 @contextmanager
 def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Started]:
-    """Run the server of `shackled creator`; port 0 is any that is free. variables: of its environment."""
+    """Run the server of `shackled creator`. port: "0" takes any free port. variables: of its environment."""
     # deployments on this machine must not change what the page offers
     book = str(Path(__file__).parent / "no-address-book.json")
     environment = {**os.environ, "SHACKLED_ADDRESS_BOOK": book, **variables}
@@ -74,7 +72,7 @@ def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Star
         assert process.stdout is not None
         line = process.stdout.readline()
         found = re.search(r"http://\S+", line)
-        assert found, f"the Creator said {line!r}"
+        assert found, f"the Creator printed {line!r}"
         yield Started(found[0], at, process)
     finally:
         process.terminate()
@@ -82,7 +80,7 @@ def creator(*arguments: str, port: str = "0", **variables: str) -> Iterator[Star
 
 
 def pixels(page: Any) -> bytes:
-    """What the canvas shows: red, green, blue, rows from the top."""
+    """Return what the canvas shows: red, green, blue, rows from the top."""
     data = page.evaluate(
         """() => {
             const canvas = document.getElementById('picture');

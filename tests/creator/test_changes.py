@@ -91,7 +91,7 @@ def test_none_gives_the_own_colours_back() -> None:
         ("pose.position.x", float("nan"), "the position of the object must be a number"),
         ("size.width", 1e30, "the width of the picture must be a whole number"),
         ("camera.roll", None, "the roll of the camera must be a number"),
-        ("lights.3.color", "#ffffff", "there is no number 3; there are 1"),
+        ("lights.3.color", "#ffffff", "there is no light 4; the picture has 1"),
     ],
 )
 def test_what_a_control_does_not_take(path: str, value: Any, message: str) -> None:
@@ -113,7 +113,7 @@ def test_lights_come_and_go() -> None:
     assert state.lights is not None
     kept = (*state.lights[:1], *state.lights[2:])
     assert remove_lamp(state, FACTS, 1).lights == kept
-    with pytest.raises(InputError, match="there is no light 4"):
+    with pytest.raises(InputError, match="there is no light 5"):
         remove_lamp(state, FACTS, 4)
     assert remove_lamp(PLAIN, FACTS, 0).lights == ()
 

@@ -9,7 +9,7 @@ import zlib
 from contextlib import suppress
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shackled import InputError
@@ -17,6 +17,7 @@ from shackled.creator import LINK_DICTIONARY, MAX_LINK, Orbit, Source, State, fr
 from states import states
 
 
+@settings(deadline=None)
 @given(states())
 def test_a_link_restores_the_state(state: State) -> None:
     text = to_link(state)

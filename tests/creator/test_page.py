@@ -511,6 +511,24 @@ def test_why_there_is_no_file_is_told(visit: NewPage) -> None:
     assert "there is no download of the kind" in page.inner_text(".toast.alert")
 
 
+def test_why_nothing_is_copied_is_told(visit: NewPage) -> None:
+    page = visit(refused=True)
+    page.click("text=Download")
+    page.evaluate("document.querySelector('[data-copy=python]').dataset.copy += '-of-no-kind'")
+    page.click("[data-copy=python-of-no-kind]")
+    page.wait_for_selector(".toast.alert")
+    assert "there is no download of the kind" in page.inner_text(".toast.alert")
+
+
+def test_files_that_are_opened_one_after_the_other(visit: NewPage) -> None:
+    page = visit()
+    for name in ("first", "second", "third"):
+        text = f"{OBJ}# {name}\n".encode()
+        page.set_input_files("#file", {"name": f"{name}.obj", "mimeType": "text/plain", "buffer": text})
+    page.wait_for_function("() => document.querySelector('[data-text=title]').textContent === 'third.obj'")
+    assert page.locator(".toast.alert").count() == 0
+
+
 def test_what_is_downloaded_is_what_is_seen(visit: NewPage) -> None:
     page = visit()
     shown = after(page, lambda: page.click("[data-name=look-noir]"))

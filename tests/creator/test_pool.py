@@ -227,6 +227,23 @@ def test_the_line_has_an_end() -> None:
     with_queue(test, waiting=3)
 
 
+def test_one_visitor_does_not_fill_the_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.creator._queue.MAX_OF_ONE", 3)
+
+    async def test(line: Queue) -> None:
+        tasks = [asyncio.create_task(line.ask("a", f"x{number}", "wait", (30, 0))) for number in range(4)]
+        await asyncio.sleep(0)
+        with pytest.raises(PoolError, match="too many of your requests"):
+            await line.ask("a", "y", "wait", (0, 0))
+        other = asyncio.create_task(line.ask("b", "x", "wait", (0, 7)))
+        await asyncio.sleep(0)
+        line.leave("a")
+        assert await other == 7
+        await asyncio.gather(*tasks)
+
+    with_queue(test)
+
+
 # ---- workers that fail ----
 
 

@@ -6,9 +6,10 @@ import asyncio
 import json
 import re
 import socket
+import time
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -157,6 +158,7 @@ def test_the_page_lets_no_script_of_others_in(server: Started) -> None:
     for path in ("", "assets/creator.js", "nothing", "take/nobody/png"):
         headers = ask(server, path)[1]
         assert headers["content-security-policy"]
+        assert headers["cache-control"] == "no-cache"
         for name, value in (("x-content-type-options", "nosniff"), ("referrer-policy", "no-referrer")):
             assert headers[name] == value
 
@@ -187,6 +189,25 @@ def test_too_large_a_file_is_refused_before_it_is_kept(server: Started) -> None:
         status, _, body = ask(server, f"upload/{name}", data=bytes(12 * 2**20))
     assert status == 413
     assert b"MB" in body
+
+
+def test_one_upload_of_a_visitor_at_a_time(server: Started) -> None:
+    host = server.address.split("/")[2]
+    with visitor(server) as name, socket.create_connection((host.split(":")[0], int(host.split(":")[1]))) as slow:
+        slow.sendall(f"POST /upload/{name} HTTP/1.1\r\nHost: {host}\r\nContent-Length: 999\r\n\r\nx".encode())
+        status = until(lambda: ask(server, f"upload/{name}", data=b"x")[0], 429)
+        slow.close()
+        assert status == 429
+        assert until(lambda: ask(server, f"upload/{name}", data=b"x")[0], 400) == 400
+
+
+def until(ask: Callable[[], int], wanted: int) -> int:
+    """The answer, as soon as it is the wanted one."""
+    for _ in range(100):
+        if ask() == wanted:
+            return wanted
+        time.sleep(0.05)
+    return 0
 
 
 def test_a_link_that_is_none_opens_the_page(server: Started) -> None:

@@ -265,6 +265,7 @@ def test_who_leaves_is_drawn_nothing() -> None:
         {"do": "seed", "text": "<script>"},
         {"do": "size", "side": -3},
         {"do": "cycle", "path": "camera.fov"},
+        {"do": "cycle", "path": "lights.3.kind"},
         {"do": "gif", "frames": None, "scale": 1},
         {"do": "mint", "wallet": 0},
         {"do": "wallets", "names": [1]},

@@ -37,7 +37,7 @@ def creator(
     rpc: Annotated[str | None, typer.Option("--rpc", help="Node to compare pictures with.", metavar="URL")] = None,
 ) -> None:
     """Make pictures on a page in the browser, without code."""
-    if find_spec("starlette") is None or find_spec("jinja2") is None:
+    if not all(map(find_spec, ("jinja2", "starlette", "uvicorn", "websockets"))):
         raise InputError("the page needs more packages: pip install 'shackled[creator]'")
     from ..creator import serve
 

@@ -38,7 +38,7 @@ from ._takeaway import KINDS, make_file
 from ._tasks import Tasks
 from ._upload import clean_name
 from ._web.actions import ACTIONS, act
-from ._web.live import ABSENCE, Visitors
+from ._web.live import ABSENCE, Visitors, live
 from ._web.page import KEYS
 from ._web.server import first_source, open_in_browser, serve, unpack_upload
 from ._web.visitor import DRAFT, Visitor
@@ -109,6 +109,7 @@ __all__ = [
     "lamp_of",
     "lamp_on_disc",
     "light_of",
+    "live",
     "make_file",
     "open_in_browser",
     "orbit_of",

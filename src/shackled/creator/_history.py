@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -22,8 +22,14 @@ _APART = 0.82
 
 
 def get_value(state: State, facts: Facts, path: str) -> Any:
-    """Return the value that a control shows: the state's, or else the source's. None where that is allowed."""
-    return at(filled(state, facts), control(path))
+    """Return the value that a control shows: the state's, or else the source's. None where that is allowed.
+
+    InputError for a light that the picture does not have.
+    """
+    now, of = filled(state, facts), control(path)
+    if of.keys[0] == "lights":
+        _check_light(of.keys[1], now.lights or ())
+    return at(now, of)
 
 
 def at(state: State, of: Control) -> Any:
@@ -117,9 +123,13 @@ def add_lamp(state: State, facts: Facts) -> State:
 def remove_lamp(state: State, facts: Facts, number: int) -> State:
     """Return the state without one of its lights. number: from 0."""
     lamps = filled(state, facts).lights or ()
-    if not 0 <= number < len(lamps):
-        raise InputError(f"there is no light {number}; the picture has {len(lamps)}")
+    _check_light(number, lamps)
     return replace(state, lights=(*lamps[:number], *lamps[number + 1 :]))
+
+
+def _check_light(number: Any, lamps: Sequence[Lamp]) -> None:
+    if not 0 <= number < len(lamps):
+        raise InputError(f"there is no light {number + 1}; the picture has {len(lamps)}")
 
 
 def _tidy(of: Control, value: Any) -> Any:
@@ -139,8 +149,8 @@ def _with(part: Any, keys: tuple[str | int, ...], value: Any) -> Any:
     key = keys[0]
     if isinstance(key, str):
         return replace(part, **{key: _with(getattr(part, key), keys[1:], value)})
-    if key >= len(part):
-        raise InputError(f"there is no number {key}; there are {len(part)}")
+    if key >= len(part):  # the other tuples have a fixed length
+        _check_light(key, part)
     return (*part[:key], _with(part[key], keys[1:], value), *part[key + 1 :])
 
 

@@ -23,6 +23,8 @@ Progress = Callable[[int, int], None]
 
 #: Largest number of seconds by which a visitor can be behind the others; it bounds the waiting after large jobs.
 BEHIND = 1.0
+#: Largest number of waiting jobs of one visitor; a page has far fewer.
+MAX_OF_ONE = 50
 
 
 class PoolError(ShackledError):
@@ -110,11 +112,16 @@ class Queue:
         supply: Supply | None = None,
         progress: Progress | None = None,
     ) -> Any:
-        """Return the result of a task; None if a newer job replaced it or the visitor left. See `Job`."""
+        """Return the result of a task; None if a newer job replaced it or the visitor left. See `Job`.
+
+        visitor: "" for jobs of which all visitors use the result. PoolError if too many jobs are waiting.
+        """
         if self._closed:
             raise PoolError("the Creator is being closed")
         if sum(map(len, self._waiting.values())) >= self._most:
             raise PoolError("too many visitors are waiting; try again in a moment")
+        if visitor and len(self._waiting.get(visitor, ())) >= MAX_OF_ONE:
+            raise PoolError("too many of your requests are waiting; try again in a moment")
         loop = asyncio.get_running_loop()
         job = Job(visitor, channel, task, arguments, newest, supply, progress, loop.create_future())
         if newest:

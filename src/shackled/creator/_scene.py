@@ -310,7 +310,7 @@ def light_of(lamp: Lamp, bounds: Bounds) -> Light:
     place = lamp.distance * toward
     if lamp.kind == "point":
         return Light.point(bounds.outside(place), lamp.color)
-    # a light that stands where it points shines through the middle and away from it
+    # a light that stands at its target points at the middle
     beam = lamp.target - place
     beam = beam if np.abs(beam).max() > 1e-9 else -toward
     inner = min(lamp.inner_angle, lamp.outer_angle)

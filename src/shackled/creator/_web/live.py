@@ -22,6 +22,7 @@ import asyncio
 import json
 import secrets
 import time
+from contextlib import suppress
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -38,6 +39,9 @@ MAX_VISITORS = 500
 ABSENCE = 120
 #: Largest number of bytes of a message from the page.
 MAX_MESSAGE = 65536
+#: Seconds that a connection may take for one message. A page that vanished would hold its place much longer, since
+#: pings are not answered but the connection is closed only when the buffered message is sent.
+MAX_SENDING = 40
 
 
 class Visitors:
@@ -51,7 +55,6 @@ class Visitors:
 
     async def add(self, link: str = "") -> Visitor:
         """Add a visitor with the state of a link. InputError if there are too many visitors."""
-        self._forget()
         state, greeting, wanted = State(self.first), "", None
         if link:
             try:
@@ -65,6 +68,7 @@ class Visitors:
         if wanted is not None and wanted.source.kind == "upload":
             visitor.wanted, greeting = wanted, f"{greeting}, and the picture is restored"
         visitor.greeting = greeting
+        self._forget()  # others may have come while the source was opened
         self._all[visitor.name] = visitor
         return visitor
 
@@ -95,16 +99,20 @@ class Visitors:
 async def live(socket: WebSocket, visitors: Visitors) -> None:
     """Serve one page until it disconnects."""
     await socket.accept()
-    turn = asyncio.Lock()
+    turn, lost = asyncio.Lock(), asyncio.timeout(None)
 
     async def send(message: Message | bytes) -> None:
         # the lock makes senders wait: pictures are not sent faster than the connection takes them
         async with turn:
             try:
-                if isinstance(message, bytes):
-                    await socket.send_bytes(message)
-                else:
-                    await socket.send_text(json.dumps(message))
+                async with asyncio.timeout(MAX_SENDING):
+                    if isinstance(message, bytes):
+                        await socket.send_bytes(message)
+                    else:
+                        await socket.send_text(json.dumps(message))
+            except TimeoutError:
+                with suppress(RuntimeError):  # the page is gone already
+                    lost.reschedule(asyncio.get_running_loop().time())
             except (RuntimeError, WebSocketDisconnect):  # disconnected meanwhile
                 return
 
@@ -118,17 +126,18 @@ async def live(socket: WebSocket, visitors: Visitors) -> None:
             return
         visitor.is_local = is_local(str(socket.url))
     try:
-        await visitor.join(send)
-        while True:
-            text = await socket.receive_text()
-            if len(text) > MAX_MESSAGE:
-                continue
-            try:
-                message = json.loads(text)
-            except (ValueError, RecursionError):
-                continue
-            await act(visitor, message)
-    except (WebSocketDisconnect, KeyError, RuntimeError):
+        async with lost:
+            await visitor.join(send)
+            while True:
+                text = await socket.receive_text()
+                if len(text) > MAX_MESSAGE:
+                    continue
+                try:
+                    message = json.loads(text)
+                except (ValueError, RecursionError):
+                    continue
+                await act(visitor, message)
+    except (WebSocketDisconnect, KeyError, RuntimeError, TimeoutError):
         return
     finally:
         visitor.leave(send)

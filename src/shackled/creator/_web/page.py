@@ -15,6 +15,7 @@ from ...scene import MAX_LIGHTS
 from .._controls import CONTROLS, GROUPS, lamp_controls
 from .._presets import PRESETS
 from .._takeaway import SCALES, kind_of
+from .._upload import ACCEPTED
 
 ASSETS = Path(__file__).parent / "assets"
 
@@ -23,6 +24,8 @@ GENESIS = 36
 SHELVES = (("icons", "Icons"), ("common", "Objects"), ("genesis", "Genesis"))
 #: The panels that are open at first.
 OPEN = ("lights", "material")
+#: Files that belong to meshes: materials, buffers, textures.
+COMPANIONS = (".mtl", ".bin", ".png", ".jpg", ".jpeg")
 #: Sides with a button of their own.
 SIDES = (64, 128, 256, 512)
 #: Files of the picture besides PNG, and snippets, by kind.
@@ -97,6 +100,7 @@ def page(has_node: bool) -> str:
     """Return the page, which is the same for all visitors. has_node: whether it can compare pictures with a node."""
     return _TEMPLATES.get_template("page.html").render(
         has_node=has_node,
+        accepted=(*ACCEPTED, *COMPANIONS),
         keys=KEYS,
         key_table={name: key.does for key in KEYS for name in key.names},
         pointer=POINTER,

@@ -57,7 +57,10 @@ class SameOrigin:
 
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
-                MutableHeaders(scope=message).update(HEADERS)
+                sent = MutableHeaders(scope=message)
+                sent.update(HEADERS)
+                # else browsers may combine scripts of an older version with a new page
+                sent.setdefault("cache-control", "no-cache")
             await send(message)
 
         await self.app(scope, receive, send_with_headers)

@@ -20,7 +20,7 @@ import uvicorn
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
@@ -35,11 +35,14 @@ from .._state import Source
 from .live import MAX_MESSAGE, Visitors, live
 from .page import ASSETS, has_thumbnail, page
 from .security import LOCAL, SameOrigin
+from .visitor import Visitor
 
 #: What visitors see first, by default.
 FIRST = "icons/shackle"
 #: Largest number of bytes of the names and sizes in an upload.
 MAX_HEAD = 16384
+#: Seconds that sending an upload may take.
+MAX_SENDING = 300
 
 
 def serve(
@@ -136,7 +139,7 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
     thumbnails: dict[str, bytes] = {}
 
     async def index(request: Request) -> Response:
-        return HTMLResponse(html, headers={"cache-control": "no-cache"})
+        return HTMLResponse(html)
 
     async def thumbnail(request: Request) -> Response:
         name = request.path_params["name"]
@@ -145,7 +148,10 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
                 return PlainTextResponse("there is no such piece", 404)
             if len(thumbnails) > 2000:
                 thumbnails.clear()
-            thumbnails[name] = await pool.thumbnail(name)
+            try:
+                thumbnails[name] = await pool.thumbnail(name)
+            except ShackledError as error:
+                return PlainTextResponse(str(error), 503)
         return Response(thumbnails[name], media_type="image/png", headers={"cache-control": "max-age=3600"})
 
     async def take(request: Request) -> Response:
@@ -169,7 +175,19 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
         visitor = visitors.find(request.path_params["visitor"])
         if visitor is None:
             return PlainTextResponse("this page is not connected any more: reload it", 404)
-        body = await _body(request, pool.limits.upload + MAX_HEAD)
+        if visitor.is_uploading:
+            return PlainTextResponse("another file is being opened; try again when it is shown", 429)
+        visitor.is_uploading = True
+        try:
+            return await read(request, visitor)
+        except (ClientDisconnect, TimeoutError):
+            return PlainTextResponse("the upload was interrupted, or took too long", 408)
+        finally:
+            visitor.is_uploading = False
+
+    async def read(request: Request, visitor: Visitor) -> Response:
+        async with asyncio.timeout(MAX_SENDING):
+            body = await _body(request, pool.limits.upload + MAX_HEAD)
         if body is None:
             return PlainTextResponse(f"the limit is {pool.limits.upload // 2**20} MB for all files together", 413)
         try:

@@ -41,7 +41,8 @@ class Visitor:
     name: secret; it identifies the visitor to the pool and in addresses.
     frame: the last picture in full. turntable: the last GIF.
     wallets: names of the wallets that the page has found. waiting: requests to them. minting: status of minting.
-    is_local: whether the page was opened at a loopback address. greeting: error to show first.
+    is_local: whether the page was opened at a loopback address. is_uploading: whether a file is being sent or read.
+    greeting: error to show first.
     wanted: state whose upload is not in memory; it is restored when the file is uploaded again.
     """
 
@@ -58,6 +59,7 @@ class Visitor:
         self.waiting = Waiting()
         self.minting = ""
         self.is_local = False
+        self.is_uploading = False
         self.greeting = ""
         self.wanted: State | None = None
         self._shown = Shown()

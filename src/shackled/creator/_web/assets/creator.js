@@ -160,7 +160,7 @@ document.addEventListener("click", (event) => {
   if (dataset.do && !send(JSON.parse(dataset.do))) toast("The server does not respond", "alert");
   if (dataset.close !== undefined) button.closest("dialog")?.close();
   if (dataset.open) document.getElementById(dataset.open).showModal();
-  if (dataset.copy) copy(fetch(`/take/${visitor}/${dataset.copy}`).then((answer) => answer.text()));
+  if (dataset.copy) copy(snippet(`/take/${visitor}/${dataset.copy}`));
   if (dataset.copyLink !== undefined) copy(Promise.resolve(location.href));
   if (dataset.themeToggle !== undefined) setTheme(dark() ? "light" : "dark");
   if (dataset.tab) tab(dataset.tab);
@@ -183,6 +183,12 @@ async function take(url) {
   }
 }
 
+async function snippet(url) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error((await answer.text()).slice(0, 400));
+  return answer.text();
+}
+
 // text is a promise: browsers allow copying only right after a click
 async function copy(text) {
   try {
@@ -190,7 +196,8 @@ async function copy(text) {
     await navigator.clipboard.write([new ClipboardItem({ "text/plain": blob })]);
     toast("Copied", "note");
   } catch {
-    toast("The browser does not allow the page to copy: select the text and copy it", "alert");
+    const forbidden = "The browser does not allow the page to copy: select the text and copy it";
+    toast(await text.then(() => forbidden, (error) => error.message), "alert");
   }
 }
 
@@ -287,8 +294,12 @@ document.addEventListener("keydown", (event) => {
 
 const seed = /^(0x)?[0-9a-f]{64}$/i;
 
-async function upload(files) {
-  if (!files.length) return;
+// the server reads one upload of a visitor at a time
+let uploads = Promise.resolve();
+function upload(files) {
+  if (files.length) uploads = uploads.then(() => sendFiles(files));
+}
+async function sendFiles(files) {
   // four bytes of length, that much JSON with names and sizes, and the files
   const head = new TextEncoder().encode(JSON.stringify(files.map((file) => [file.name, file.size])));
   const length = new DataView(new ArrayBuffer(4));
