@@ -22,9 +22,20 @@ from shackled.cli.app import run
 
 pytest.importorskip("starlette", reason="the page needs starlette")
 
+from starlette.types import Message
 from websockets.sync.client import connect
 
-from shackled.creator import Facts, Pool, Source, Upload, first_source, open_in_browser, unpack_upload
+from shackled.creator import (
+    Facts,
+    Pool,
+    Source,
+    Upload,
+    Visitors,
+    first_source,
+    make_app,
+    open_in_browser,
+    unpack_upload,
+)
 from shackled.errors import InputError
 
 
@@ -155,12 +166,40 @@ def test_the_page_lets_no_script_of_others_in(server: Started) -> None:
     html = body.decode()
     assert all("src=" in script for script in re.findall("<script[^>]*>", html))
     assert not re.search(r"<style|\s(style|on\w+)=", html)
-    for path in ("", "assets/creator.js", "nothing", "take/nobody/png"):
-        headers = ask(server, path)[1]
+    refused: dict[str, str] = {"Host": "evil.example"}
+    for path, sent in (("", {}), ("assets/creator.js", {}), ("nothing", {}), ("take/nobody/png", {}), ("", refused)):
+        headers = ask(server, path, sent)[1]
         assert headers["content-security-policy"]
         assert headers["cache-control"] == "no-cache"
         for name, value in (("x-content-type-options", "nosniff"), ("referrer-policy", "no-referrer")):
             assert headers[name] == value
+
+
+def test_responses_to_failures_have_the_headers_too() -> None:
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    async def receive() -> Message:
+        return {"type": "http.request", "body": b"", "more_body": False}
+
+    sent: list[Message] = []
+    app = make_app(cast(Visitors, SimpleNamespace(pool=None, open_page=None)), "<html>", local=True)
+    scope = {
+        "type": "http",
+        "method": "GET",
+        "path": "/thumbnail/cube.png",
+        "raw_path": b"",
+        "query_string": b"",
+        "headers": [(b"host", b"127.0.0.1")],
+    }
+
+    async def fail() -> None:
+        with pytest.raises(AttributeError):
+            await app(scope, receive, send)
+
+    asyncio.run(fail())
+    assert sent[0]["status"] == 500
+    assert (b"x-content-type-options", b"nosniff") in sent[0]["headers"]
 
 
 def test_nothing_is_given_to_who_is_not_known(server: Started) -> None:

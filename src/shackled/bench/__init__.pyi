@@ -4,7 +4,7 @@ from ._linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
 from ._measure import call, call_renderer, cost, gas
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, original, original_gas
 from ._report import ExperimentReport, millions, table, wrapped
-from ._runner import EXPERIMENTS, Runner, check_plots
+from ._runner import EXPERIMENTS, Runner, check_names, check_plots
 
 __all__ = [
     "CODE_SIZES",
@@ -20,6 +20,7 @@ __all__ = [
     "Runner",
     "call",
     "call_renderer",
+    "check_names",
     "check_plots",
     "cost",
     "cubes",

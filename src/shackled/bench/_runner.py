@@ -35,6 +35,13 @@ EXPERIMENTS = {
 }
 
 
+def check_names(names: Iterable[str]) -> None:
+    """Raise InputError unless all names are of EXPERIMENTS."""
+    for name in names:
+        if name not in EXPERIMENTS:
+            raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
+
+
 class Runner:
     """A context in which experiments run."""
 
@@ -66,7 +73,8 @@ class Runner:
         self._progress.stop()
 
     def run(self, name: str) -> ExperimentReport:
-        """Run one of EXPERIMENTS."""
+        """Run one of EXPERIMENTS. InputError for another name."""
+        check_names([name])
         report: ExperimentReport = import_module(f"._{name}", __package__).run(self)
         return report
 

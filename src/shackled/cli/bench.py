@@ -28,16 +28,14 @@ def bench(
     rpc: Annotated[str | None, typer.Option("--rpc", help="Node that `engines` measures, too.", metavar="URL")] = None,
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Runner, check_plots
+    from ..bench import EXPERIMENTS, Runner, check_names, check_plots
 
     if not names and not everything and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
         print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR runs all.")
         return
     chosen = list(EXPERIMENTS) if everything or not names else list(dict.fromkeys(names))
-    for name in chosen:
-        if name not in EXPERIMENTS:
-            raise InputError(f"there is no experiment {name!r}; the experiments are {', '.join(EXPERIMENTS)}")
+    check_names(chosen)
     if output is None:
         raise InputError("the experiments need an output folder: -o DIR")
     folder = check_output_folder(Path(output))

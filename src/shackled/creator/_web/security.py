@@ -47,13 +47,6 @@ class SameOrigin:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        headers = Headers(scope=scope)
-        if not (self._is_known_host(headers) and _is_same_origin(scope, headers)):
-            if scope["type"] == "http":
-                await PlainTextResponse("this request is not allowed", 403)(scope, receive, send)
-            else:
-                await send({"type": "websocket.close", "code": 1008})
-            return
 
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -63,6 +56,13 @@ class SameOrigin:
                 sent.setdefault("cache-control", "no-cache")
             await send(message)
 
+        headers = Headers(scope=scope)
+        if not (self._is_known_host(headers) and _is_same_origin(scope, headers)):
+            if scope["type"] == "http":
+                await PlainTextResponse("this request is not allowed", 403)(scope, receive, send_with_headers)
+            else:
+                await send({"type": "websocket.close", "code": 1008})
+            return
         await self.app(scope, receive, send_with_headers)
 
     def _is_known_host(self, headers: Headers) -> bool:

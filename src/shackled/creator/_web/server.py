@@ -24,6 +24,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
 from ..._load import locate
@@ -133,7 +134,7 @@ async def first_source(pool: Pool, first: Path | Piece | None) -> Source:
     return source
 
 
-def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = ()) -> Starlette:
+def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = ()) -> ASGIApp:
     """Return the application. html: the page. local, names: see `SameOrigin`."""
     pool = visitors.pool
     thumbnails: dict[str, bytes] = {}
@@ -203,7 +204,7 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
     async def connect(socket: WebSocket) -> None:
         await live(socket, visitors)
 
-    return Starlette(
+    app = Starlette(
         routes=[
             Route("/", index),
             Route("/thumbnail/{name:path}.png", thumbnail),
@@ -212,11 +213,10 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
             WebSocketRoute("/live", connect),
             Mount("/assets", StaticFiles(directory=ASSETS)),
         ],
-        middleware=[
-            *([] if local else [Middleware(GZipMiddleware)]),
-            Middleware(SameOrigin, local, names),
-        ],
+        middleware=[] if local else [Middleware(GZipMiddleware)],
     )
+    # around all of Starlette, whose responses to failures are made outside its middleware
+    return SameOrigin(app, local, names)
 
 
 def unpack_upload(body: bytes) -> tuple[str | None, bytes]:
