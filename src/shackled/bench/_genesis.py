@@ -25,7 +25,7 @@ QUICK_PIECES = range(0, 1024, 128)
 
 
 @dataclass(frozen=True)
-class PieceCost:
+class GenesisCost:
     """Faces of the mesh; triangles that survive culling; covered pixels; whether only edges are drawn."""
 
     number: int
@@ -65,12 +65,12 @@ def run(runner: Runner) -> ExperimentReport:
     )
 
 
-def measure(number: int) -> PieceCost:
+def measure(number: int) -> GenesisCost:
     """Measure one piece."""
     scene = require(f"genesis/{number}").make()
     found = cost(scene)
     wireframe = any(o.wireframe for o in scene.objects)
-    return PieceCost(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
+    return GenesisCost(number, scene.triangles, found.triangles, found.lit_pixels, wireframe, found.gas)
 
 
 def line(x: ArrayLike, y: ArrayLike) -> tuple[float, float, float]:
@@ -89,7 +89,7 @@ def _panel(axes: Axes, x: list[int], y: list[float], color: str) -> None:
     axes.set(xlim=(0, None), ylim=(0, None))
 
 
-def _text(found: list[PieceCost], gas: Column, theirs: list[tuple[int, int, int]]) -> str:
+def _text(found: list[GenesisCost], gas: Column, theirs: list[tuple[int, int, int]]) -> str:
     solid = [piece for piece in found if not piece.wireframe]
     lines = [
         ["original", str(len(theirs)), *_line("triangles", [f[0] for f in theirs], [f[2] for f in theirs])],
