@@ -20,7 +20,7 @@ FOLDER = Path(__file__).parent
 IMAGES = FOLDER / "images"
 
 #: Frames per second of the GIF, and screen pixels per pixel of it.
-PACE, SHRINK = 10, 1.25
+PACE, SHRINK = 10, 1.5
 
 
 def main() -> None:

@@ -18,19 +18,26 @@ from shackled.artifacts import artifact, contracts
 ROOT = Path(__file__).resolve().parent.parent
 PICTURES = {".png", ".gif", ".bmp", ".ico"}
 
+#: Bytes of a file of the repository.
+LARGEST = 2**20
 #: EIP-170.
 MAX_RUNTIME_SIZE = 24576
 
 
 @pytest.fixture(scope="module")
-def texts() -> dict[str, str]:
-    """The text files of the repository, those that are not committed yet too."""
+def files() -> dict[str, Path]:
+    """The files of the repository, those that are not committed yet too."""
     if not (ROOT / ".git").exists() or not shutil.which("git"):
         pytest.skip("not a clone of the repository")
     listing = ["git", "-c", f"safe.directory={ROOT}", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listing, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
-    paths = {name: ROOT / name for name in names if name and Path(name).suffix not in PICTURES}
-    found = {name: path.read_text("utf-8") for name, path in paths.items() if path.is_file()}
+    return {name: ROOT / name for name in names if name and (ROOT / name).is_file()}
+
+
+@pytest.fixture(scope="module")
+def texts(files: dict[str, Path]) -> dict[str, str]:
+    """The text files of the repository."""
+    found = {name: path.read_text("utf-8") for name, path in files.items() if path.suffix not in PICTURES}
     assert "pyproject.toml" in found
     return found
 
@@ -39,6 +46,11 @@ def matches(texts: dict[str, str], pattern: str) -> list[str]:
     return [
         f"{name}: {match[0]}" for name, text in texts.items() for match in re.finditer(pattern, text, re.IGNORECASE)
     ]
+
+
+def test_no_file_is_large(files: dict[str, Path]) -> None:
+    """Every version of a file stays in every clone."""
+    assert [name for name, path in files.items() if path.stat().st_size > LARGEST] == []
 
 
 def test_no_file_names_a_registry(texts: dict[str, str]) -> None:

@@ -3,22 +3,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from original_scenes import documents, wrong_documents
+from original_scenes import LIGHT, documents, wrong_documents
 from shackled import Scene
 from shackled.errors import InputError
 from shackled.scene import DEFAULT_HALF_HEIGHT, original_scene, rotate
-
-LIGHTING = {
-    "applyLighting": True,
-    "lightAmbiPower": 0,
-    "lightDiffPower": 2000,
-    "lightSpecPower": 3000,
-    "inverseShininess": 10,
-    "lightPos": [-50, 0, 0],
-    "lightColSpec": [255, 255, 255],
-    "lightColDiff": [255, 255, 255],
-    "lightColAmbi": [255, 255, 255],
-}
 
 
 def document(**changes: Any) -> dict[str, Any]:
@@ -30,7 +18,7 @@ def document(**changes: Any) -> dict[str, Any]:
         "objPosition": [1, 2, -500],
         "objScale": 3,
         "backgroundColor": [[0, 0, 40], [0, 0, 160]],
-        "lightingParams": LIGHTING,
+        "lightingParams": LIGHT,
         "perspCamera": True,
         "backfaceCulling": False,
         "invert": True,
@@ -40,7 +28,7 @@ def document(**changes: Any) -> dict[str, Any]:
 
 
 def lit(**changes: Any) -> Scene:
-    return original_scene(document(lightingParams={**LIGHTING, **changes}))
+    return original_scene(document(lightingParams={**LIGHT, **changes}))
 
 
 def test_what_carries_over_exactly() -> None:
@@ -166,9 +154,9 @@ def test_no_faces_are_a_picture_of_the_background() -> None:
         ({"backgroundColor": [[-10, 0, 0], [0, 0, 0]]},
          "backgroundColor: the background colour must be red, green and blue from 0 to 255, not [-10, 0, 0]"),
         ({"lightingParams": 5}, "lightingParams must be a table, not 5"),
-        ({"lightingParams": {**LIGHTING, "lightPos": [0, 0, 0]}},
+        ({"lightingParams": {**LIGHT, "lightPos": [0, 0, 0]}},
          "lightingParams.lightPos must not be the origin: it is the direction toward the light"),
-        ({"lightingParams": {**LIGHTING, "lightColSpec": [0, 0, -1]}},
+        ({"lightingParams": {**LIGHT, "lightColSpec": [0, 0, -1]}},
          "lightingParams.lightColSpec must not be negative, not [0, 0, -1]"),
     ],
 )  # fmt: skip
