@@ -1,0 +1,1 @@
+var r=class extends Error{name="InputError"};export{r as InputError};
