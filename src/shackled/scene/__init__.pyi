@@ -1,3 +1,4 @@
+from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
@@ -81,6 +82,7 @@ __all__ = [
     "Shading",
     "about",
     "checked_look",
+    "cosine",
     "cut",
     "encode",
     "encode_scene",
@@ -112,8 +114,10 @@ __all__ = [
     "signed_volume",
     "simplify",
     "simplify_scene",
+    "sine",
     "size_of",
     "stage",
+    "tangent",
     "turn",
     "vertex_normals",
     "view_axes",
