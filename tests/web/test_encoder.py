@@ -19,7 +19,7 @@ from PIL import ImageColor
 import shackled
 from pictures import chain, dynamic
 from random_scenes import random_case
-from shackled import Light, Mesh, Object, Scene, load
+from shackled import InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
@@ -188,6 +188,32 @@ def test_turned_calls(tmp_path: Path, azimuth: float, elevation: float) -> None:
     way = multiply(from_axis_angle(right, elevation), from_axis_angle((0, 1, 0), -azimuth))
     expected = shackled.render(turn(scene, way)).pixels
     assert np.abs(found.astype(int) - expected).mean() < 0.05
+
+
+WRONG: tuple[dict[str, Any], ...] = (
+    {"zzz": 1},
+    {"camera": {"zzz": 1}},
+    {"background": {"zzz": 1}},
+    {"lights": [{"kind": "point", "zzz": 1}]},
+    {"objects": [{"zzz": 1}]},
+    {"objects": [{"mesh": {"zzz": 1}}]},
+    {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "material": {"zzz": 1}}]},
+    {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "rotation": {"zzz": 1}}]},
+)
+
+
+def test_the_keys_of_scene_files(tmp_path: Path) -> None:
+    """Both read the same keys, and name them where one is unknown."""
+    said = made([{"text": json.dumps(document)} for document in WRONG], tmp_path)
+    for document, found in zip(WRONG, said, strict=True):
+        path = tmp_path / "scene.json"
+        path.write_text(json.dumps(document))
+        with pytest.raises(InputError, match="unknown key 'zzz'") as error:
+            load(path)
+        place, keys = str(error.value).split("unknown key 'zzz'")[1].split("; known are ")
+        text = found.decode().split("\n")[0].removeprefix('InputError: unknown key "zzz"')
+        assert text.startswith(f"{place}; known are ")
+        assert {*text.split("; known are ")[1].split(", ")} == {*keys.split(", ")}
 
 
 def documents() -> Iterator[dict[str, Any]]:
