@@ -78,7 +78,7 @@ def build() -> bytes:
         "RUSTC": RUSTC,
         # Debian's compiler is a stable one; building the library needs an unstable option
         "RUSTC_BOOTSTRAP": "1",
-        "RUSTFLAGS": f"{FLAGS} --remap-path-prefix={home}=cargo --remap-path-prefix={SOURCES}=evm",
+        "RUSTFLAGS": f"{FLAGS} --remap-path-prefix={home}=cargo",
         "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER": LINKER,
         "CARGO_TARGET_DIR": str(target),
     }
