@@ -46,7 +46,9 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
     output, messages = capsys.readouterr()
     report = json.loads(output)
     image = pixels("a.bmp")
-    assert " ".join(report) == "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256"
+    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes"
+    assert " ".join(report) == keys
+    assert report["scene_bytes"] is None
     assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")
     assert (report["width"], report["height"]) == (30, 20)
     assert report["sha256"] == hashlib.sha256(image.tobytes()).hexdigest()

@@ -11,12 +11,15 @@ from ._codec import (
     encode,
     encode_scene,
     extensions,
+    render_call,
 )
+from ._decode import decode
 from ._files.colors import TEXTURED, sample
 from ._files.content import MAX_BYTES
 from ._files.mesh_file import READERS, read_mesh
 from ._files.obj import write_obj
 from ._files.original import original_scene
+from ._files.picture import CHUNK, LONGEST_TEXT, PICTURE, SceneChunk, scene_chunk
 from ._files.polygons import cut, fans
 from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scene
 from ._files.table import about
@@ -37,6 +40,7 @@ from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
     "BACKGROUND",
+    "CHUNK",
     "CULL_BACKFACES",
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
@@ -47,6 +51,7 @@ __all__ = [
     "INNER_ANGLE",
     "LIGHTS",
     "LIGHT_KINDS",
+    "LONGEST_TEXT",
     "MAX_BYTES",
     "MAX_COORDINATE",
     "MAX_LIGHTS",
@@ -56,6 +61,7 @@ __all__ = [
     "NORMAL_UNIT",
     "ONE",
     "OUTER_ANGLE",
+    "PICTURE",
     "PROJECTIONS",
     "READERS",
     "SCENES",
@@ -77,11 +83,13 @@ __all__ = [
     "Projection",
     "Rectangle",
     "Scene",
+    "SceneChunk",
     "Setting",
     "Shading",
     "about",
     "checked_look",
     "cut",
+    "decode",
     "encode",
     "encode_scene",
     "encode_scene_file",
@@ -106,9 +114,11 @@ __all__ = [
     "painted",
     "read_mesh",
     "read_scene",
+    "render_call",
     "resize",
     "rotate",
     "sample",
+    "scene_chunk",
     "signed_volume",
     "simplify",
     "simplify_scene",

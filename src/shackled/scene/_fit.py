@@ -121,8 +121,12 @@ def _is_exact(scene: Scene) -> bool:
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
     view = np.cross(_unit(camera.target - camera.eye), _unit(camera.up))
+    # a scene that was moved and scaled before, such as one decoded from a call, must not be moved again
+    before = not camera.eye.any() and (camera.near is not None or camera.projection == "orthographic")
+    largest = max(map(abs, lengths))
     return (
-        EXACT_SIZES[0] <= reach <= EXACT_SIZES[1]
+        EXACT_SIZES[0] <= reach
+        and (reach <= EXACT_SIZES[1] or (before and largest <= MAX_COORDINATE))
         and all(length % STEP == 0 for length in lengths)
         and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
         and bool(np.linalg.norm(view) >= DIRECTION_LENGTHS[0])
