@@ -4,8 +4,10 @@ from ._codec import (
     CULL_BACKFACES,
     LIGHTS,
     ONE,
+    OPACITY,
     PROJECTIONS,
     SHADINGS,
+    SPOT,
     WIREFRAME,
     Rectangle,
     encode,
@@ -31,7 +33,7 @@ from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, 
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals, without_slivers
 from ._object import Object
-from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
+from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
@@ -60,6 +62,7 @@ __all__ = [
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
+    "OPACITY",
     "OUTER_ANGLE",
     "PICTURE",
     "PROJECTIONS",
@@ -67,6 +70,7 @@ __all__ = [
     "SCENES",
     "SETTINGS",
     "SHADINGS",
+    "SPOT",
     "TEXTURED",
     "WHITE",
     "WIDE",
@@ -125,6 +129,7 @@ __all__ = [
     "size_of",
     "stage",
     "turn",
+    "unpack",
     "vertex_normals",
     "view_axes",
     "weld",

@@ -53,7 +53,7 @@ class SceneChunk:
 def scene_chunk(scene: Scene) -> SceneChunk:
     """Return the chunk with a scene; the same bytes for the same scene and version of zlib."""
     text = b"0x" + render_call(scene).hex().encode()
-    return SceneChunk(KEYWORD + b"\0\0" + zlib.compress(text, 9), len(text))
+    return SceneChunk(KEYWORD + b"\0\0" + zlib.compress(text), len(text))
 
 
 def read_picture(path: Path) -> Scene:
