@@ -157,7 +157,7 @@ class _Words:
 
 def _number(value: int, what: str, low: float, high: float) -> float:
     if not low * ONE <= value <= high * ONE:
-        raise InputError(f"{what} must be from {low:g} to {high:g}")
+        raise InputError(f"{what} must be from {low:.10g} to {high:.10g}")
     result = value / ONE
     if result * ONE != value:
         raise InputError(f"{what} has more digits than a float holds: the picture could not be made again exactly")
