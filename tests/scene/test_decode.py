@@ -14,7 +14,19 @@ from random_scenes import broken_call, random_case
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
-from shackled.scene import NORMAL_UNIT, OPACITY, SPOT, Projection, Shading, decode, fit, pack, render_call, unpack
+from shackled.scene import (
+    NORMAL_UNIT,
+    OPACITY,
+    SPOT,
+    Projection,
+    Shading,
+    cosine,
+    decode,
+    fit,
+    pack,
+    render_call,
+    unpack,
+)
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
 SCENE = Scene(
@@ -134,7 +146,7 @@ def test_angles_from_every_cosine() -> None:
     for value in (*range(-one, -one + 200), *range(one - 200, one + 1), *rng.integers(-one, one, 20_000).tolist(), 0):
         angle = math.degrees(math.acos(value / one))
         assert 0 <= angle <= 180
-        assert round(math.cos(math.radians(angle)) * one) == value
+        assert round(cosine(angle) * one) == value
 
 
 def test_normals_of_every_direction() -> None:

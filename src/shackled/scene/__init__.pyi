@@ -1,3 +1,4 @@
+from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
@@ -92,6 +93,7 @@ __all__ = [
     "Shading",
     "about",
     "checked_look",
+    "cosine",
     "cut",
     "decode",
     "encode",
@@ -126,8 +128,10 @@ __all__ = [
     "signed_volume",
     "simplify",
     "simplify_scene",
+    "sine",
     "size_of",
     "stage",
+    "tangent",
     "turn",
     "unpack",
     "vertex_normals",

@@ -5,7 +5,6 @@ Every field of the structs is a word of 32 bytes; lengths and coefficients are Q
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -15,6 +14,7 @@ from numpy.typing import ArrayLike
 from ..artifacts import artifact
 from ..checks import Color
 from ..errors import InputError
+from ._arithmetic import cosine
 from ._fit import fit
 from ._light import Light
 from ._object import Object
@@ -94,7 +94,7 @@ def extensions(scene: Scene) -> bytes:
     records = []
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
-            cosines = [math.cos(math.radians(angle)) for angle in (light.inner_angle, light.outer_angle)]
+            cosines = [cosine(angle) for angle in (light.inner_angle, light.outer_angle)]
             numbers = [*_q32(light.direction), *_q32(cosines)]
             records.append(_record(SPOT, index, b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)))
     for index, thing in enumerate(scene.objects):

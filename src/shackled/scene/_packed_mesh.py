@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ._arithmetic import length
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, vertex_normals
 
 NORMALS = 1
@@ -82,7 +83,7 @@ def _normals(mesh: Mesh) -> NDArray[np.float64]:
     if mesh.normals is None:
         return vertex_normals(mesh.positions, mesh.faces)
     normals = mesh.normals
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    lengths = length(normals)[:, None]
     unit: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     return unit
 
