@@ -20,7 +20,7 @@ from PIL.PngImagePlugin import PngInfo
 from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
-from .scene import CHUNK, LONGEST_TEXT, PICTURE, Scene, SceneChunk, scene_chunk
+from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
 from .values import Value, array_key, plural
 from .whole_file import check_output_file, write_output
 
@@ -196,31 +196,20 @@ def pillow_bytes(picture: PillowImage.Image, name: str, **options: Any) -> bytes
 
 
 def png_options(image: Image, scene: bool | None = None) -> dict[str, PngInfo]:
-    """Return Pillow's options for a PNG file that carries the scene of an image. scene: as in `Image.encode`."""
-    chunk = carried(image, scene)
-    if chunk is None:
+    """Return Pillow's options for a PNG file that carries the scene of an image. scene: as in `Image.encode`.
+
+    InputError where the scene is wanted but not possible.
+    """
+    chunk = None if scene is False else image.scene_chunk
+    if scene:
+        if chunk is None:
+            raise InputError("the picture cannot carry its scene, which is not known")
+        chunk.check()
+    if chunk is None or not (scene or chunk.is_small):
         return {}
     texts = PngInfo()
     texts.add(CHUNK, chunk.data)
     return {"pnginfo": texts}
-
-
-def carried(image: Image, scene: bool | None) -> SceneChunk | None:
-    """Return the chunk that a PNG file of an image gets, or None. scene: as in `Image.encode`.
-
-    InputError where it is wanted but not possible.
-    """
-    chunk = None if scene is False else image.scene_chunk
-    if chunk is None:
-        if scene:
-            raise InputError("the picture cannot carry its scene, which is not known")
-        return None
-    if scene and not chunk.is_possible:
-        raise InputError(
-            f"the scene is too large for a PNG file: {chunk.characters:,} characters, of which there may be"
-            f" {LONGEST_TEXT:,}; Scene.save writes it as .json"
-        )
-    return chunk if scene or chunk.is_small else None
 
 
 def check_scene(scene: bool | None, extension: str) -> None:

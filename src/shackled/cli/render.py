@@ -25,7 +25,7 @@ from ..errors import InputError
 from ..image import FORMATS, Image, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import VERIFY, folder_of, remove_parts
-from ..scene import PICTURE
+from ..scene import PICTURE, scene_chunk
 from ..values import plural
 from .look_options import load_with, with_look
 from .option import option, parse_sides
@@ -132,6 +132,8 @@ def render(
     if scene and path.suffix.lower() not in (PICTURE, ""):
         raise InputError(f"--scene needs a {PICTURE} file, not {path}")
     loaded = load_with(input, look)
+    if scene:
+        scene_chunk(loaded).check()
     started = time.perf_counter()
     listener = JobProgress()
     keep = folder_of(path) if in_parts else None
@@ -154,8 +156,8 @@ def render(
         remove_parts(keep)
     frames = [made] if isinstance(made, Image) else made.frames
     chunk = frames[0].scene_chunk if path.suffix.lower() in (PICTURE, "") and scene is not False else None
-    report = _report(made, input, path, time.perf_counter() - started, counts, in_parts)
-    report["scene_bytes"] = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
+    written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
+    report = _report(made, input, path, time.perf_counter() - started, counts, written, in_parts)
     if not any(frame.covered_pixels for frame in frames):
         print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
@@ -202,6 +204,7 @@ def _report(
     path: Path,
     seconds: float,
     counts: tuple[int | None, int | None],
+    scene_bytes: int | None,
     in_parts: bool,
 ) -> dict[str, Any]:
     """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
@@ -221,6 +224,7 @@ def _report(
         "chain": frames[0].made_by,
         "output": str(path),
         "sha256": digest.hexdigest(),
+        "scene_bytes": scene_bytes,
     }
     return report | {"frames": len(frames), "calls": made.calls} if in_parts else report
 

@@ -44,10 +44,13 @@ class SceneChunk:
         """Whether it is written unless the caller decides."""
         return len(self.data) <= MAX_CHUNK and self.characters <= MAX_TEXT
 
-    @property
-    def is_possible(self) -> bool:
-        """Whether it can be written at all."""
-        return self.characters <= LONGEST_TEXT
+    def check(self) -> None:
+        """Raise an InputError if it cannot be written at all."""
+        if self.characters > LONGEST_TEXT:
+            raise InputError(
+                f"the scene is too large for a PNG file: {self.characters:,} characters, of which there may be"
+                f" {LONGEST_TEXT:,}; Scene.save writes it as .json"
+            )
 
 
 def scene_chunk(scene: Scene) -> SceneChunk:
