@@ -25,7 +25,17 @@ from shackled import InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode, encode_scene_file, from_axis_angle, multiply, original_scene, turn
+from shackled.scene import (
+    Rectangle,
+    decode,
+    encode,
+    encode_scene_file,
+    from_axis_angle,
+    multiply,
+    original_scene,
+    render_call,
+    turn,
+)
 
 SCRIPT = Path(__file__).with_name("calls.mjs")
 BUNDLE = files("shackled") / "web" / "shackled.js"
@@ -111,6 +121,16 @@ def test_random_scenes(tmp_path: Path) -> None:
             )
         else:
             calls.add(f"seed {seed}", text, scene, ("renderTile", "renderTileCounted")[seed // 2 % 2], case.tile)
+    assert calls.differences(tmp_path) == []
+
+
+def test_decoded_scenes(tmp_path: Path) -> None:
+    """Scenes from PNG files, which nothing rescales, however far they reach."""
+    calls = Calls()
+    for seed in range(DOCUMENTS):
+        scene = changed(random_case(seed).scene, np.random.default_rng([seed, 2]))
+        scene = decode(render_call(evolve(scene, lights=[*scene.lights[:3], Light.point((1e30, 2e30, 3e30))])))
+        calls.add(f"seed {seed}", encode_scene_file(scene).decode(), scene)
     assert calls.differences(tmp_path) == []
 
 
