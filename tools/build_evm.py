@@ -51,7 +51,7 @@ OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR
 
 
 def digest_of_sources() -> str:
-    """Return the SHA-256 of all that the module is built from: the crate, the versions of its dependencies, the flags."""
+    """Return the SHA-256 of what the module is built from: the crate, versions of dependencies, flags."""
     digest = hashlib.sha256(FLAGS.encode())
     for path in [SOURCES / "Cargo.toml", SOURCES / "Cargo.lock", *sorted((SOURCES / "src").glob("*.rs"))]:
         digest.update(f"\n{path.name} {hashlib.sha256(path.read_bytes()).hexdigest()}".encode())
@@ -82,7 +82,17 @@ def build() -> bytes:
         "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER": LINKER,
         "CARGO_TARGET_DIR": str(target),
     }
-    command = [CARGO, "build", "--release", "--locked", "--quiet", "-Z", "build-std=std,panic_abort", "--target", TARGET]
+    command = [
+        CARGO,
+        "build",
+        "--release",
+        "--locked",
+        "--quiet",
+        "-Z",
+        "build-std=std,panic_abort",
+        "--target",
+        TARGET,
+    ]
     subprocess.run(command, cwd=SOURCES, env=environment, check=True)
     return (target / TARGET / "release" / "shackled_evm.wasm").read_bytes()
 
