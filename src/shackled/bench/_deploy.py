@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Extra gas of a transaction that creates a contract.
 CREATION = 32000
+#: Gas of a word of creation code (EIP-3860).
+INITCODE_WORD = 2
 
 
 def run(runner: Runner) -> ExperimentReport:
@@ -70,4 +72,5 @@ def deployment_gas(contract: str) -> int:
     code = chain.creation(contract)
     for address, each in chain.codes().items():
         evm.put(address, each)
-    return evm.create(code, DEFAULT_GAS_LIMIT).gas + intrinsic_gas(code) + CREATION
+    gas = evm.create(code, DEFAULT_GAS_LIMIT).gas
+    return gas + intrinsic_gas(code) + CREATION + INITCODE_WORD * -(-len(code) // 32)
