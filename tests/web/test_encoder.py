@@ -16,13 +16,16 @@ import pytest
 from attrs import evolve
 from PIL import ImageColor
 
+import shackled
+from pictures import chain, dynamic
 from random_scenes import random_case
-from shackled import Light, Scene, load
+from shackled import InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
-from shackled.scene import Rectangle, encode, encode_scene_file
+from shackled.image import decode_bmp
+from shackled.scene import Rectangle, encode, encode_scene_file, from_axis_angle, multiply, turn
 
-SCRIPT = Path(__file__).with_name("encode_lines.mjs")
+SCRIPT = Path(__file__).with_name("calls.mjs")
 BUNDLE = files("shackled") / "web" / "shackled.js"
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 RANDOM = 1000
@@ -31,33 +34,37 @@ DOCUMENTS = 300
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
 
 
+def made(lines: Sequence[dict[str, Any]], folder: Path) -> list[bytes]:
+    """The calls that TypeScript makes, or what it says instead."""
+    asked, calls = folder / "lines", folder / "calls"
+    asked.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
+    subprocess.run(["node", SCRIPT, str(BUNDLE), asked, calls], check=True)
+    data, place, found = calls.read_bytes(), 0, []
+    while place < len(data):
+        end = place + 4 + int.from_bytes(data[place : place + 4], "big")
+        found.append(data[place + 4 : end])
+        place = end
+    assert len(found) == len(lines)
+    return found
+
+
 class Calls:
     """Scene files, and the calls that Python makes of them."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
-        self.lines: list[str] = []
+        self.lines: list[dict[str, Any]] = []
         self.expected: list[bytes] = []
 
     def add(self, name: str, text: str, scene: Scene, function: str = "render", tile: Rectangle | None = None) -> None:
         self.names.append(name)
-        self.lines.append(json.dumps({"name": function, "text": text} | ({"tile": vars(tile)} if tile else {})))
+        self.lines.append({"name": function, "text": text} | ({"tile": vars(tile)} if tile else {}))
         self.expected.append(encode(artifact("Renderer").selectors[function], scene, tile))
 
     def differences(self, folder: Path) -> list[str]:
         """The names of those of which TypeScript makes other calls, with what it says."""
-        scenes, calls = folder / "scenes", folder / "calls"
-        scenes.write_text("\n".join(self.lines) + "\n")
-        subprocess.run(["node", SCRIPT, str(BUNDLE), scenes, calls], check=True)
-        data, place, found = calls.read_bytes(), 0, []
-        for name, expected in zip(self.names, self.expected, strict=True):
-            size = int.from_bytes(data[place : place + 4], "big")
-            call = data[place + 4 : place + 4 + size]
-            place += 4 + size
-            if call != expected:
-                found.append(f"{name}: {difference(call, expected)}")
-        assert place == len(data)
-        return found
+        calls = zip(self.names, made(self.lines, folder), self.expected, strict=True)
+        return [f"{name}: {difference(call, expected)}" for name, call, expected in calls if call != expected]
 
 
 def difference(call: bytes, expected: bytes) -> str:
@@ -148,6 +155,65 @@ def test_scene_files(tmp_path: Path) -> None:
         path.write_text(json.dumps(document))
         calls.add(f"document {seed}", path.read_text(), load(path))
     assert calls.differences(tmp_path) == []
+
+
+def test_staged_scenes(tmp_path: Path) -> None:
+    """Scenes of meshes only, of any size."""
+    rng = np.random.default_rng(6)
+    lines, expected = [], []
+    for _ in range(50):
+        count, size = int(rng.integers(3, 9)), 10.0 ** rng.uniform(-20, 20)
+        positions, faces = size * rng.normal(size=(count, 3)), rng.integers(0, count, (int(rng.integers(1, 9)), 3))
+        rotation, width = rng.uniform(-180, 180, 3), int(rng.integers(1, 300))
+        mesh = {"positions": positions.ravel().tolist(), "faces": faces.tolist(), "colors": "tomato"}
+        lines.append({"scene": {"objects": [{"mesh": mesh, "rotation": rotation.tolist()}], "width": width}})
+        scene = Scene(Object(Mesh(positions, faces, "tomato"), rotation=rotation), width=width)
+        expected.append(encode(artifact("Renderer").selectors["render"], scene))
+    assert made(lines, tmp_path) == expected
+
+
+@pytest.mark.parametrize(("azimuth", "elevation"), [(30, 0), (-140, 20), (0, -45)])
+def test_turned_calls(tmp_path: Path, azimuth: float, elevation: float) -> None:
+    """A viewer who goes around objects sees what one sees who turns them the other way."""
+    scene = load("teapot", size=96)
+    scene = evolve(scene, lights=[*scene.lights, Light.spot((2, 2, 2), (-1, -1, -1), "orange", 10, 40)])
+    line = {
+        "name": "render",
+        "text": encode_scene_file(scene).decode(),
+        "turn": {"azimuth": azimuth, "elevation": elevation},
+    }
+    (call,) = made([line], tmp_path)
+    found = decode_bmp(dynamic(chain().call("Renderer", call).output), 96, 96)
+    right = np.cross(scene.camera.target - scene.camera.eye, scene.camera.up)
+    way = multiply(from_axis_angle(right, elevation), from_axis_angle((0, 1, 0), -azimuth))
+    expected = shackled.render(turn(scene, way)).pixels
+    assert np.abs(found.astype(int) - expected).mean() < 0.05
+
+
+WRONG: tuple[dict[str, Any], ...] = (
+    {"zzz": 1},
+    {"camera": {"zzz": 1}},
+    {"background": {"zzz": 1}},
+    {"lights": [{"kind": "point", "zzz": 1}]},
+    {"objects": [{"zzz": 1}]},
+    {"objects": [{"mesh": {"zzz": 1}}]},
+    {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "material": {"zzz": 1}}]},
+    {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "rotation": {"zzz": 1}}]},
+)
+
+
+def test_the_keys_of_scene_files(tmp_path: Path) -> None:
+    """Both read the same keys, and name them where one is unknown."""
+    said = made([{"text": json.dumps(document)} for document in WRONG], tmp_path)
+    for document, found in zip(WRONG, said, strict=True):
+        path = tmp_path / "scene.json"
+        path.write_text(json.dumps(document))
+        with pytest.raises(InputError, match="unknown key 'zzz'") as error:
+            load(path)
+        place, keys = str(error.value).split("unknown key 'zzz'")[1].split("; known are ")
+        text = found.decode().split("\n")[0].removeprefix('InputError: unknown key "zzz"')
+        assert text.startswith(f"{place}; known are ")
+        assert {*text.split("; known are ")[1].split(", ")} == {*keys.split(", ")}
 
 
 def documents() -> Iterator[dict[str, Any]]:

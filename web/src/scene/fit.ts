@@ -254,7 +254,7 @@ function boxOf(positions: Float64Array): { center: Vector; radius: number } {
     return { center: add(a, b), radius: Math.max(...subtract(b, a)) };
 }
 
-function direction<V extends Vector | Quaternion>(v: V): V {
+export function direction<V extends Vector | Quaternion>(v: V): V {
     const size = largest(v);
     return DIRECTION_LENGTHS[0] <= size && size <= DIRECTION_LENGTHS[1] ? v : unit(v);
 }
