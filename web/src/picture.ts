@@ -42,7 +42,8 @@ export function drawCall(evm: ContractEvm, call: Uint8Array, gas?: number): Pict
     return { ...decodeBitmap(bmp), bmp, gas: answer.gas, ...counts };
 }
 
-function functionOf(call: Uint8Array): FunctionName | undefined {
+/** Return the function that a call is of. */
+export function functionOf(call: Uint8Array): FunctionName | undefined {
     const selector = call.length < 4 ? -1 : new DataView(call.buffer, call.byteOffset).getUint32(0);
     return (Object.keys(FUNCTIONS) as FunctionName[]).find((name) => FUNCTIONS[name] === selector);
 }

@@ -1,6 +1,6 @@
 // Pictures, computed by the contracts' own bytecode.
 
-import { loadAssets, type Assets, type AssetSources } from "./evm/assets.js";
+import { loadAssets, type AssetSources } from "./evm/assets.js";
 import { ContractEvm } from "./evm/contracts.js";
 import { drawCall, type Picture } from "./picture.js";
 import { encode } from "./scene/encode.js";
@@ -12,7 +12,7 @@ export interface RenderOptions {
     assets?: AssetSources | undefined;
 }
 
-const cached = new WeakMap<object, Promise<Assets>>();
+const cached = new WeakMap<AssetSources, Promise<ContractEvm>>();
 const DEFAULTS: AssetSources = {};
 
 /**
@@ -22,15 +22,14 @@ const DEFAULTS: AssetSources = {};
  * the contract refuses it.
  */
 export async function render(scene: Scene | Uint8Array, options: RenderOptions = {}): Promise<Picture> {
-    const call = scene instanceof Uint8Array ? scene : encode(scene, "renderCounted");
+    const call = scene instanceof Uint8Array ? scene : encode(scene);
     const sources = options.assets ?? DEFAULTS;
-    let assets = cached.get(sources);
-    if (!assets) {
-        assets = loadAssets(sources);
-        cached.set(sources, assets);
+    let evm = cached.get(sources);
+    if (!evm) {
+        evm = loadAssets(sources).then(({ module, contracts }) => new ContractEvm(module, contracts));
+        cached.set(sources, evm);
         // what could not be loaded may be there later
-        assets.catch(() => cached.delete(sources));
+        evm.catch(() => cached.delete(sources));
     }
-    const { module, contracts } = await assets;
-    return drawCall(new ContractEvm(module, contracts), call, options.gas);
+    return drawCall(await evm, call, options.gas);
 }

@@ -75,7 +75,9 @@ export async function fetchBytes(
 
 async function bodyOf(response: Response, most: number, name: string): Promise<Uint8Array<ArrayBuffer>> {
     if (!response.ok) {
-        throw new InputError(`${name} could not be loaded from ${response.url.slice(0, 200)}: HTTP status ${response.status}`);
+        throw new InputError(
+            `${name} could not be loaded from ${response.url.slice(0, 200)}: HTTP status ${response.status}`,
+        );
     }
     return response.body ? readStream(response.body, most, name) : new Uint8Array();
 }

@@ -32,7 +32,8 @@ export function wordAt(bytes: Uint8Array, place: number, most: number): number {
 export function bytesAt(data: Uint8Array, place: number): Uint8Array {
     const start = wordAt(data, place, data.length);
     const size = start < 0 ? -1 : wordAt(data, start, data.length);
-    if (size < 0 || start + 32 + size > data.length) throw new InputError("the answer is not bytes that the ABI encodes");
+    if (size < 0 || start + 32 + size > data.length)
+        throw new InputError("the answer is not bytes that the ABI encodes");
     return data.subarray(start + 32, start + 32 + size);
 }
 

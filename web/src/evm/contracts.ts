@@ -72,8 +72,9 @@ export function describeRevert(data: Uint8Array, { errors }: Pick<Contracts, "er
     if (!found || body.length < 32 * found[1].length) return `error ${toHex(data.subarray(0, 68))}`;
     const [name, parameters] = found;
     if (name === "Error") return textAt(body);
+    if (name === "Panic") return `Panic(0x${BigInt(valueAt(body, 0, "uint256")).toString(16)})`;
     const shown = parameters.map(([key, type], index) => `${key || type}=${valueAt(body, index, type)}`);
-    return name === "Panic" ? `Panic(${shown.join().replace("code=", "")})` : `${name}(${shown.join(", ")})`;
+    return `${name}(${shown.join(", ")})`;
 }
 
 function valueAt(body: Uint8Array, index: number, type: string): string {
@@ -103,6 +104,7 @@ export function checkedContracts(value: unknown): Contracts {
         const entry = found?.contracts?.[name];
         return typeof entry?.address === "string" && typeof entry.code === "string";
     });
-    if (!complete || typeof found?.errors !== "object") throw new InputError("the contracts are not those of contracts.json");
+    if (!complete || typeof found?.errors !== "object")
+        throw new InputError("the contracts are not those of contracts.json");
     return found as Contracts;
 }

@@ -60,7 +60,8 @@ export class Evm {
     call(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT): Answer {
         checkAddress(address);
         checkSize(data, "the call");
-        if (!(gas >= 0 && gas <= Number.MAX_SAFE_INTEGER)) throw new InputError(`gas must be from 0 to 2^53, not ${gas}`);
+        if (!(gas >= 0 && gas <= Number.MAX_SAFE_INTEGER))
+            throw new InputError(`gas must be from 0 to 2^53, not ${gas}`);
         const exports = (this.#exports ??= this.#start());
         try {
             const status = passed(exports, [address, data], (to, start) =>
@@ -122,5 +123,6 @@ function checkAddress(address: Uint8Array): void {
 
 function checkSize(bytes: Uint8Array, name: string): void {
     if (!(bytes instanceof Uint8Array)) throw new InputError(`${name} must be a Uint8Array`);
-    if (bytes.length > MAX_BYTES) throw new InputError(`${name} must have up to ${MAX_BYTES} bytes, not ${bytes.length}`);
+    if (bytes.length > MAX_BYTES)
+        throw new InputError(`${name} must have up to ${MAX_BYTES} bytes, not ${bytes.length}`);
 }
