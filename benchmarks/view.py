@@ -46,8 +46,8 @@ TURN = """milliseconds => new Promise(resolve => {
 })"""
 
 
-def page(call: bytes, style: str = "width: 420px") -> str:
-    """Return an HTML page that holds a view of a call, and all that it needs."""
+def page(call: bytes, attributes: str = "") -> str:
+    """Return an HTML page that holds a view of a call, and all that it needs. attributes: of the element."""
 
     def script(name: str, content: bytes) -> str:
         packed = base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
@@ -56,7 +56,7 @@ def page(call: bytes, style: str = "width: 420px") -> str:
     folder = files("shackled") / "web"
     return f"""<!doctype html>
 <meta charset="utf-8">
-<shackled-view style="{style}" src="#scene" evm="#evm" contracts="#contracts" label="A scene"></shackled-view>
+<shackled-view src="#scene" evm="#evm" contracts="#contracts" {attributes}></shackled-view>
 {script("scene", call)}
 {script("evm", module_bytes())}
 {script("contracts", (folder / "contracts.json").read_bytes())}
@@ -75,6 +75,8 @@ def measure(browser: Any, smooth: bool, seconds: float) -> dict[str, Any]:
         tab.wait_for_function(
             "() => document.querySelector('shackled-view').shadowRoot.querySelector('[aria-busy=false]')"
         )
+        # the element measures its speed
+        tab.wait_for_timeout(1000)
         found: dict[str, Any] = tab.evaluate(TURN, 1000 * seconds)
         tab.close()
     return found

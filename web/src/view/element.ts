@@ -29,8 +29,8 @@ const MAX_SIDE = 2048;
 const MAX_ZOOM = 50;
 /** Milliseconds without movement, after which the picture at rest is drawn. */
 const REST = 160;
-/** Milliseconds that a smoothed picture at rest may take to be larger than the call's. */
-const PATIENCE = 4000;
+/** Milliseconds, by an estimate that is usually far too high, above which the picture at rest is not larger than the call's. */
+const PATIENCE = 15_000;
 /** A picture at rest that takes longer than this is given up when the viewer moves. */
 const INTERRUPT = 60;
 /** Milliseconds in which the speed of a drag that was let go falls to a third, and the speed at which it ends. */
@@ -472,9 +472,9 @@ export class ShackledView extends HTMLElement {
     #report(picture: PictureDetail, shown: Size | null): void {
         const { figures, hash, exact } = this.#parts;
         const { gas, width, height, milliseconds, sha256 } = picture;
-        const words = [`${width} × ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
+        const words = [`${width} x ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
         figures.replaceChildren(
-            ...[...words, ...(shown ? [`shown at ${shown[0]} × ${shown[1]}, smoothed`] : [])].map((text) =>
+            ...[...words, ...(shown ? [`shown at ${shown[0]} x ${shown[1]}, smoothed`] : [])].map((text) =>
                 create("span", { text }),
             ),
         );
