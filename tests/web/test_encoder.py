@@ -17,13 +17,25 @@ from attrs import evolve
 from PIL import ImageColor
 
 import shackled
+from original_scenes import document as original_document
+from original_scenes import documents as original_documents
 from pictures import chain, dynamic
 from random_scenes import random_case
 from shackled import InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode, encode_scene_file, from_axis_angle, multiply, turn
+from shackled.scene import (
+    Rectangle,
+    decode,
+    encode,
+    encode_scene_file,
+    from_axis_angle,
+    multiply,
+    original_scene,
+    render_call,
+    turn,
+)
 
 SCRIPT = Path(__file__).with_name("calls.mjs")
 BUNDLE = files("shackled") / "web" / "shackled.js"
@@ -112,6 +124,16 @@ def test_random_scenes(tmp_path: Path) -> None:
     assert calls.differences(tmp_path) == []
 
 
+def test_decoded_scenes(tmp_path: Path) -> None:
+    """Scenes from PNG files, which nothing rescales, however far they reach."""
+    calls = Calls()
+    for seed in range(DOCUMENTS):
+        scene = changed(random_case(seed).scene, np.random.default_rng([seed, 2]))
+        scene = decode(render_call(evolve(scene, lights=[*scene.lights[:3], Light.point((1e30, 2e30, 3e30))])))
+        calls.add(f"seed {seed}", encode_scene_file(scene).decode(), scene)
+    assert calls.differences(tmp_path) == []
+
+
 def changed(scene: Scene, rng: np.random.Generator) -> Scene:
     """The scene with numbers that the contracts do not take as they are."""
     factor = 10.0 ** rng.uniform(-12, 12)
@@ -188,6 +210,27 @@ def test_turned_calls(tmp_path: Path, azimuth: float, elevation: float) -> None:
     way = multiply(from_axis_angle(right, elevation), from_axis_angle((0, 1, 0), -azimuth))
     expected = shackled.render(turn(scene, way)).pixels
     assert np.abs(found.astype(int) - expected).mean() < 0.05
+
+
+def test_scenes_of_the_original(tmp_path: Path) -> None:
+    calls = Calls()
+    for name, document in original_documents().items():
+        calls.add(name, json.dumps(document), original_scene(document))
+    rng = np.random.default_rng(7)
+    for number in range(200):
+        light = some(
+            rng,
+            lightPos=(rng.normal(size=3) * 50).tolist(),
+            lightDiffPower=rng.uniform(0, 9000),
+            lightSpecPower=rng.uniform(-1000, 9000),
+            inverseShininess=rng.uniform(-5, 200),
+            lightColDiff=rng.uniform(0, 300, 3).tolist(),
+            lightColSpec=rng.integers(0, 256, 3).tolist(),
+        )
+        changes = some(rng, objScale=rng.normal(), rotation=rng.uniform(-360, 360, 3).tolist(), perspCamera=False)
+        document = original_document(light={"lightPos": [9, 9, 9]} | light, **changes)
+        calls.add(f"light {number}", json.dumps(document), original_scene(document))
+    assert calls.differences(tmp_path) == []
 
 
 WRONG: tuple[dict[str, Any], ...] = (

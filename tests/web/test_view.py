@@ -291,11 +291,11 @@ def test_scene_files_and_pictures(show: Opener) -> None:
     other = load("icons/diamond", size=32)
     text = encode_scene_file(other).decode()
     assert view.after(lambda: view.run("(view.scene = argument, null)", text))["sha256"] == sha256(render(other))
-    content = zlib.compress(to_hex(call_of(scene())).encode())
-    png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", bytes(13)) + chunk(b"zTXt", b"shackled\0\0" + content)
+    png = render(scene()).encode(".png")
     details = view.after(lambda: drop(view, png))
     assert details["sha256"] == sha256(render(scene()))
-    assert "carries no scene" in view.fails(lambda: drop(view, png[:40]))
+    assert "carries no scene" in view.fails(lambda: drop(view, png[:33]))
+    assert "carries 2 scenes" in view.fails(lambda: drop(view, png[:-12] + png[33:]))
 
 
 def chunk(kind: bytes, content: bytes) -> bytes:

@@ -3,7 +3,7 @@
 import { InputError } from "./errors.js";
 import { add, largest, rotation, times, type Quaternion, type Vector } from "./scene/arithmetic.js";
 import { MAX_LIGHTS, MAX_SIDE } from "./scene/checked.js";
-import { FUNCTIONS, SPOT, WORD, isTiled, type FunctionName } from "./scene/encode.js";
+import { FUNCTIONS, SPOT, WORD, type FunctionName } from "./scene/encode.js";
 import { MAX_COORDINATE, MIN_HALF_HEIGHT } from "./scene/fit.js";
 import { FACE, HEADER, NORMALS, WIDE, vertexSize } from "./scene/mesh.js";
 
@@ -244,9 +244,4 @@ class Reader {
         if (fits && value < 0n === negative) return value;
         return negative ? -(2n ** 63n) : 2n ** 63n - 1n;
     }
-}
-
-/** Return whether the function of a call draws a part of the canvas. */
-export function drawsTile(call: Call): boolean {
-    return isTiled(call.name);
 }

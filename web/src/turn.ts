@@ -1,11 +1,11 @@
 // Calls that show the same scene from elsewhere, or in another size. The bytes of the meshes stay as they are.
 
-import { readCall, drawsTile, type Call, type Field } from "./call.js";
+import { readCall, type Call, type Field } from "./call.js";
 import { InputError, show } from "./errors.js";
 import { add, cross, fromAxisAngle, multiply, rotation, subtract, unit, type Vector } from "./scene/arithmetic.js";
 import { MAX_SIDE } from "./scene/checked.js";
 import { number, whole } from "./scene/checks.js";
-import { WORD, q32, setWord } from "./scene/encode.js";
+import { WORD, isTiled, q32, setWord } from "./scene/encode.js";
 import { MAX_COORDINATE, direction } from "./scene/fit.js";
 
 /** How far the viewer has gone around a scene. */
@@ -59,7 +59,7 @@ export function turnCall(call: Uint8Array, turn: Turn): Uint8Array {
 /** Return the call that draws a picture of another size; the camera keeps its vertical field of view. */
 export function resizeCall(call: Uint8Array, width: number, height: number): Uint8Array {
     const found = readCall(call);
-    if (drawsTile(found)) throw new InputError(`a call of ${found.name} has a size of its own: give one of render`);
+    if (isTiled(found.name)) throw new InputError(`a call of ${found.name} has a size of its own: give one of render`);
     const bytes = new Uint8Array(call);
     setWord(bytes, found.width.place, BigInt(whole(width, "width", 1, MAX_SIDE)));
     setWord(bytes, found.height.place, BigInt(whole(height, "height", 1, MAX_SIDE)));

@@ -9,7 +9,7 @@ test("the examples of the README run", () => {
     const text = readFileSync("README.md", "utf8");
     const examples = [...text.matchAll(/```js\n(.*?)```/gs)].map((match) => match[1]);
     // within the package, its name leads to what npm publishes
-    const program = resolve("dist/readme.mjs");
+    const program = resolve("dist/tests/readme.mjs");
     writeFileSync(program, examples.join("\n"));
     const folder = mkdtempSync(join(tmpdir(), "shackled-"));
     const said = execFileSync("node", [program], { cwd: folder, encoding: "utf8" });

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..artifacts import artifact
 from ..checks import Color
 from ..errors import InputError
 from ._arithmetic import cosine
@@ -55,6 +56,11 @@ def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words:
             raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
     head = [*rectangle, *words]
     return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
+
+
+def render_call(scene: Scene) -> bytes:
+    """Return the data of the call `Renderer.render`."""
+    return encode(artifact("Renderer").selectors["render"], scene)
 
 
 def encode_scene(scene: Scene) -> bytes:

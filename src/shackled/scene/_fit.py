@@ -1,9 +1,10 @@
 """Conversion of scenes to the number ranges of the contracts, without a change of the picture.
 
 Lengths are multiples of 2^-32 up to 2^26, and coordinates of vertices are integers. A scene that is exact in that form
-is not changed. Any other is translated, so that the eye is at the origin, and scaled by a power of two, so that its
-largest object is about 2^12 units. Its meshes, unless their coordinates are integers, are quantized to a grid of 2^16
-steps across their largest side, or to a finer one, with three more bytes per vertex, where a step would be visible.
+is not changed; such are also fitted scenes that were encoded and decoded. Any other is translated, so that the eye is
+at the origin, and scaled by a power of two, so that its largest object is about 2^12 units. Its meshes, unless their
+coordinates are integers, are quantized to a grid of 2^16 steps across their largest side, or to a finer one, with three
+more bytes per vertex, where a step would be visible.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
 #: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
 
-#: The range of scenes that are not scaled.
+#: The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther.
 EXACT_SIZES = (2.0**-2, 2.0**22)
 #: The exponents to which others are scaled: of their largest object, and of the farthest point at most.
 SIZE_EXPONENT = 12
@@ -122,8 +123,12 @@ def _is_exact(scene: Scene) -> bool:
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
     view = np.cross(unit(camera.target - camera.eye), unit(camera.up))
+    # by `_move_camera`: a scene decoded from a call must not be moved again
+    is_moved = not camera.eye.any() and (camera.near is not None or camera.projection == "orthographic")
+    largest = max(map(abs, lengths))
     return (
-        EXACT_SIZES[0] <= reach <= EXACT_SIZES[1]
+        EXACT_SIZES[0] <= reach
+        and (reach <= EXACT_SIZES[1] or (is_moved and largest <= MAX_COORDINATE))
         and all(each % STEP == 0 for each in lengths)
         and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
         and bool(length(view) >= DIRECTION_LENGTHS[0])

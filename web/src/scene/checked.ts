@@ -20,6 +20,18 @@ const DEFAULT_COLOR: Rgb = [200, 200, 200];
 export const SHADINGS = ["unlit", "flat", "smooth"] as const;
 export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
 
+const SCENE = ["objects", "camera", "lights", "background", "ambientLight", "invert", "width", "height"] as const;
+const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
+const BACKGROUND = ["top", "bottom"] as const;
+const LIGHTS = {
+    directional: ["kind", "direction", "color"],
+    point: ["kind", "position", "color"],
+    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle"],
+} as const;
+const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity"] as const;
+const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"] as const;
+const MESH = ["positions", "faces", "colors", "normals"] as const;
+
 /** Positions and normals have three numbers for each vertex, colours three bytes; faces three vertex numbers each. */
 export interface Mesh {
     positions: Float64Array;
@@ -77,6 +89,7 @@ export interface Scene {
 
 /** Return the scene with all its values. InputError for one that is wrong, with its place. */
 export function checkedScene(scene: given.Scene): Scene {
+    check.fields(scene, "the scene", SCENE);
     const width = check.whole(scene.width ?? DEFAULT_SIDE, "width", 1, MAX_SIDE);
     const height = check.whole(scene.height ?? DEFAULT_SIDE, "height", 1, MAX_SIDE);
     if (!Array.isArray(scene.objects)) throw new InputError(`objects must be a list, not ${show(scene.objects)}`);
@@ -100,6 +113,7 @@ export function checkedScene(scene: given.Scene): Scene {
 }
 
 export function checkedObject(object: given.SceneObject, where: string): SceneObject {
+    check.fields(object, where, OBJECT);
     return {
         mesh: checkedMesh(object.mesh, `${where}.mesh`),
         position: check.vector(object.position ?? [0, 0, 0], `${where}.position`),
@@ -117,6 +131,7 @@ function checkedRotation(value: given.Rotation, where: string): Quaternion {
 }
 
 function checkedMaterial(material: given.Material, where: string): Material {
+    check.fields(material, where, MATERIAL);
     return {
         shading: check.choice(material.shading ?? "flat", `${where}.shading`, SHADINGS),
         ambient: check.number(material.ambient ?? 0.3, `${where}.ambient`, 0, 4),
@@ -127,6 +142,7 @@ function checkedMaterial(material: given.Material, where: string): Material {
 }
 
 function checkedMesh(mesh: given.Mesh, where: string): Mesh {
+    check.fields(mesh, where, MESH);
     const positions = rows(mesh.positions, `${where}.positions`);
     const faces = rows(mesh.faces, `${where}.faces`);
     const [count, faceCount] = [positions.length / 3, faces.length / 3];
@@ -187,6 +203,7 @@ function rows(value: given.Rows, where: string): Float64Array {
 }
 
 export function checkedCamera(camera: given.Camera): Camera {
+    check.fields(camera, "camera", CAMERA);
     const projection = check.choice(camera.projection ?? "perspective", "camera.projection", PROJECTIONS);
     const perspective = projection === "perspective";
     const [low, high] = perspective ? [2 ** -10, 2 ** 10] : [1e-30, 1e30];
@@ -211,7 +228,8 @@ function checkedLights(lights: readonly given.Light[]): Light[] {
 }
 
 function checkedLight(light: given.Light, where: string): Light {
-    const kind = check.choice(light.kind, `${where}.kind`, LIGHT_KINDS);
+    const kind = check.choice((light as given.Light | null)?.kind, `${where}.kind`, LIGHT_KINDS);
+    check.fields(light as given.SpotLight, where, LIGHTS[kind]);
     const color = check.color(light.color ?? WHITE, `${where}.color`);
     if (light.kind === "directional") {
         return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined };
@@ -235,7 +253,9 @@ function nonzero(value: unknown, where: string): Vector {
 
 function checkedBackground(value: given.Background | given.Color): { top: Rgb; bottom: Rgb } {
     const { top, bottom }: given.Background =
-        typeof value === "string" || check.isList(value) ? { top: value } : (value as given.Background);
+        typeof value === "string" || check.isList(value)
+            ? { top: value }
+            : check.fields(value as given.Background, "background", BACKGROUND);
     const found = check.color(top ?? [0, 0, 0], "background.top");
     return { top: found, bottom: bottom === undefined ? found : check.color(bottom, "background.bottom") };
 }

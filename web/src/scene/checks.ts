@@ -20,6 +20,16 @@ export function whole(value: unknown, name: string, low: number, high: number): 
     throw new InputError(`${name} must be a whole number from ${low} to ${high}, not ${show(value)}`);
 }
 
+/** Return an object, whose keys must be among these. */
+export function fields<T extends object>(value: T, name: string, known: readonly (keyof T & string)[]): T {
+    if (typeof value !== "object" || value === null || isList(value)) {
+        throw new InputError(`${name} must be an object with ${known.join(", ")}, not ${show(value)}`);
+    }
+    const unknown = Object.keys(value).find((key) => !(known as readonly string[]).includes(key));
+    if (unknown === undefined) return value;
+    throw new InputError(`${name} has the unknown key ${show(unknown)}; known are ${known.join(", ")}`);
+}
+
 export function flag(value: unknown, name: string): boolean {
     if (typeof value === "boolean") return value;
     throw new InputError(`${name} must be true or false, not ${show(value)}`);

@@ -5,6 +5,7 @@
 import { InputError } from "../errors.js";
 import { cosine, rint } from "./arithmetic.js";
 import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject } from "./checked.js";
+import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
 import { pack } from "./mesh.js";
@@ -41,6 +42,7 @@ const WIREFRAME = 2;
  * that is wrong.
  */
 export function encode(scene: Scene, name: FunctionName = "render", tile?: Rectangle): Uint8Array {
+    check.choice(name, "the function", Object.keys(FUNCTIONS) as FunctionName[]);
     const checked = checkedScene(scene);
     if (isTiled(name) !== (tile !== undefined)) {
         throw new InputError(isTiled(name) ? `${name} needs a tile` : `${name} takes no tile; renderTile does`);

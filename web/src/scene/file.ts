@@ -14,6 +14,8 @@ import {
 } from "./checked.js";
 import * as check from "./checks.js";
 import { PROJECTIONS, VIEW, frame, halfHeightOf, keyLight, type Viewpoint } from "./staging.js";
+import { isOriginal, originalScene } from "./original.js";
+import { Table } from "./table.js";
 import type * as given from "./types.js";
 
 const SCENE = ["background", "invert", "lights", "ambient_light", "size", "camera", "objects"];
@@ -24,60 +26,6 @@ const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_a
 const OBJECT = ["color", "cull", "wireframe", "opacity", "mesh", "position", "rotation", "scale", "material"];
 const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"];
 
-/** A table of a document, with its place for messages. */
-class Table {
-    readonly #values: Record<string, unknown>;
-
-    constructor(
-        value: unknown,
-        readonly where: string,
-        known: readonly string[],
-    ) {
-        if (typeof value !== "object" || value === null || Array.isArray(value)) {
-            throw new InputError(
-                `${where || "a scene"} must be a table with keys of ${known.join(", ")}, not ${show(value)}`,
-            );
-        }
-        this.#values = { ...value } as Record<string, unknown>;
-        const unknown = Object.keys(this.#values).find((key) => !known.includes(key));
-        if (unknown !== undefined) {
-            const place = where && ` in ${where}`;
-            throw new InputError(`unknown key ${show(unknown)}${place}; known are ${known.join(", ")}`);
-        }
-    }
-
-    place(key: string): string {
-        return this.where ? `${this.where}.${key}` : key;
-    }
-
-    has(key: string): boolean {
-        return Object.hasOwn(this.#values, key);
-    }
-
-    get(key: string): unknown {
-        return this.has(key) ? this.#values[key] : undefined;
-    }
-
-    /** Return the value as `read` gives it, undefined where there is none. */
-    read<T>(key: string, read: (value: unknown, where: string) => T): T | undefined {
-        return this.has(key) ? read(this.get(key), this.place(key)) : undefined;
-    }
-
-    number(key: string, low?: number, high?: number): number | undefined {
-        return this.read(key, (value, where) => check.number(value, where, low, high));
-    }
-
-    table(key: string, known: readonly string[]): Table {
-        return new Table(this.has(key) ? this.get(key) : {}, this.place(key), known);
-    }
-
-    list(key: string): unknown[] {
-        const value = this.has(key) ? this.get(key) : [];
-        if (Array.isArray(value)) return value as unknown[];
-        throw new InputError(`${this.place(key)} must be a list, not ${show(value)}`);
-    }
-}
-
 /**
  * Return the scene of a scene file: its JSON as text, or as `JSON.parse` returns it.
  *
@@ -87,9 +35,7 @@ class Table {
  */
 export function parseScene(json: string | object): given.Scene {
     const document: unknown = typeof json === "string" ? parse(json) : json;
-    if (typeof document === "object" && document !== null && "canvasDim" in document) {
-        throw new InputError('a scene of the original contracts, with "canvasDim", can be read by Python only');
-    }
+    if (isOriginal(document)) return originalScene(document);
     const table = new Table(document, "", SCENE);
     const [width, height] = sizeOf(table.get("size"));
     const objects = table.list("objects").map((each, index) => objectOf(each, `objects[${index}]`));
@@ -120,7 +66,7 @@ function parse(text: string): unknown {
     try {
         return JSON.parse(whole) as unknown;
     } catch (error) {
-        throw new InputError(`the scene is not valid JSON: ${(error as Error).message}`);
+        throw new InputError(`the scene is not valid JSON: ${(error as Error).message.replace(/\s+/g, " ")}`);
     }
 }
 
@@ -252,13 +198,11 @@ function meshOf(keys: Table): given.Mesh {
         throw new InputError(`${keys.place("mesh")} must be a table with positions and faces: no files are read here`);
     }
     const inside = keys.table("mesh", ["positions", "faces", "colors", "normals"]);
-    const rowsOf = (key: string): Vector[] =>
-        inside.list(key).map((row, index) => check.vector(row, `${inside.place(key)}[${index}]`));
     return {
-        positions: rowsOf("positions"),
-        faces: rowsOf("faces"),
-        colors: inside.has("colors") ? rowsOf("colors") : undefined,
-        normals: inside.has("normals") ? rowsOf("normals") : undefined,
+        positions: inside.rows("positions"),
+        faces: inside.rows("faces"),
+        colors: inside.has("colors") ? inside.rows("colors") : undefined,
+        normals: inside.has("normals") ? inside.rows("normals") : undefined,
     };
 }
 

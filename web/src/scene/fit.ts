@@ -28,7 +28,7 @@ const STEP = 2 ** -32;
 
 /** The largest step of a mesh's grid, in pixels, before a finer grid is used. */
 const STEP_IN_PIXELS = 1 / 32;
-/** The range of scenes that are not scaled. */
+/** The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther. */
 const EXACT_SIZES = [2 ** -2, 2 ** 22] as const;
 /** The exponents to which others are scaled: of their largest object, and of the farthest point at most. */
 const SIZE_EXPONENT = 12;
@@ -123,9 +123,11 @@ function isExact({ camera, lights, objects }: Scene): boolean {
         reach = Math.max(reach, largest(position) + scale * size);
     }
     const view = cross(unit(subtract(camera.target, camera.eye)), unit(camera.up));
+    // by `moveCamera`: a scene decoded from a call must not be moved again
+    const isMoved = largest(camera.eye) === 0 && (camera.near !== undefined || camera.projection === "orthographic");
     return (
         EXACT_SIZES[0] <= reach &&
-        reach <= EXACT_SIZES[1] &&
+        (reach <= EXACT_SIZES[1] || (isMoved && largest(lengths) <= MAX_COORDINATE)) &&
         lengths.every((each) => each % STEP === 0) &&
         (camera.projection === "perspective" || camera.halfHeight >= MIN_HALF_HEIGHT) &&
         length(view) >= DIRECTION_LENGTHS[0]

@@ -282,7 +282,14 @@ export class ShackledView extends HTMLElement {
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
             await this.#drawAtRest();
         } catch (error) {
-            if (generation === this.#generation) this.#fail(messageOf(error), error);
+            if (generation !== this.#generation) return;
+            this.#fail(messageOf(error), error);
+            if (this.#picture) return;
+            // nothing of the scene before it remains
+            const { canvas, poster, bar, panel, more } = this.#parts;
+            canvas.hidden = bar.hidden = panel.hidden = true;
+            more.setAttribute("aria-expanded", "false");
+            poster.hidden = false;
         }
     }
 
@@ -470,7 +477,8 @@ export class ShackledView extends HTMLElement {
     }
 
     #report(picture: PictureDetail, shown: Size | null): void {
-        const { figures, hash, exact } = this.#parts;
+        const { figures, hash, exact, bar } = this.#parts;
+        bar.hidden = false;
         const { gas, width, height, milliseconds, sha256 } = picture;
         const words = [`${width} x ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
         figures.replaceChildren(
@@ -485,10 +493,9 @@ export class ShackledView extends HTMLElement {
     }
 
     #busy(busy: boolean): void {
-        const { stage, veil, canvas, bar } = this.#parts;
+        const { stage, veil, canvas } = this.#parts;
         stage.setAttribute("aria-busy", String(busy));
         veil.hidden = !(busy && canvas.hidden);
-        bar.hidden = false;
     }
 
     #fail(message: string, error?: unknown): void {

@@ -7,6 +7,8 @@ import { parseScene } from "../scene/file.js";
 
 /** The most bytes of a file, compressed or not. */
 export const MAX_FILE = 1 << 24;
+/** The most characters of the text of a call in a PNG file. */
+const MAX_TEXT = 8_000_000;
 const PNG = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
 const GZIP = [0x1f, 0x8b];
 /** What a chunk zTXt begins with: the keyword, and the number of the compression. */
@@ -27,25 +29,21 @@ export async function readFile(file: Uint8Array<ArrayBuffer>): Promise<Uint8Arra
     return bytes;
 }
 
-/** Return the text of the chunk in which Shackled writes the call. */
+/** Return the text of the chunk in which Shackled writes the call. docs/scene-files.md documents it. */
 async function textOfPng(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-    for (let place = PNG.length; place + 12 <= bytes.length;) {
-        const size = view.getUint32(place);
-        const content = bytes.subarray(place + 8, place + 8 + size);
-        const type = new TextDecoder("latin1").decode(bytes.subarray(place + 4, place + 8));
-        if (type === "zTXt" && startsWith(content, KEYWORD)) {
-            const text = await inflate(
-                content.slice(KEYWORD.length),
-                "deflate",
-                2 * MAX_FILE,
-                "the scene in the PNG file",
-            );
-            return new TextDecoder().decode(text);
-        }
-        place += 12 + size;
+    const found: Uint8Array<ArrayBuffer>[] = [];
+    for (let place = PNG.length, type = ""; type !== "IEND" && place + 12 <= bytes.length;) {
+        const end = place + 8 + view.getUint32(place);
+        type = new TextDecoder("latin1").decode(bytes.subarray(place + 4, place + 8));
+        const content = bytes.slice(place + 8, end);
+        if (type === "zTXt" && startsWith(content, KEYWORD)) found.push(content.subarray(KEYWORD.length));
+        place = end + 4;
     }
-    throw new InputError("the PNG file carries no scene: Shackled did not write it, or without the scene");
+    const [content] = found;
+    if (!content) throw new InputError("the picture carries no scene: it has no chunk zTXt with the keyword shackled");
+    if (found.length > 1) throw new InputError(`the picture carries ${found.length} scenes; one is right`);
+    return new TextDecoder().decode(await inflate(content, "deflate", MAX_TEXT, "the text of the scene"));
 }
 
 function startsWith(bytes: Uint8Array, start: ArrayLike<number>): boolean {

@@ -6,7 +6,7 @@ export const STYLE = `
 * { box-sizing: border-box; }
 [hidden] { display: none !important; }
 .stage {
-    position: relative; display: grid; overflow: hidden; border-radius: 3px; cursor: grab; touch-action: none;
+    position: relative; display: grid; min-height: 3.5rem; overflow: hidden; border-radius: 3px; cursor: grab; touch-action: none;
     background: color-mix(in srgb, currentColor 7%, transparent); user-select: none; -webkit-user-select: none;
 }
 .stage[data-moving] { cursor: grabbing; }
