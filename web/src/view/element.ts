@@ -482,7 +482,7 @@ export class ShackledView extends HTMLElement {
         const { gas, width, height, milliseconds, sha256 } = picture;
         const words = [`${width} x ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
         figures.replaceChildren(
-            ...[...words, ...(shown ? [`shown at ${shown[0]} x ${shown[1]}, smoothed`] : [])].map((text) =>
+            ...[...words, ...(shown ? [`smoothed to ${shown[0]} x ${shown[1]}`] : [])].map((text) =>
                 create("span", { text }),
             ),
         );
