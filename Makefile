@@ -67,10 +67,10 @@ types: $(DEV) ## types of the Python code
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
 
-web: $(NODE) ## types, style and tests of the TypeScript package, and whether its bundle is that of the sources
+web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whether its bundles are those of the sources
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
-	$(PYTHON) tools/build_web.py --check
+	$(BIN)/python tools/build_web.py --check
 
 docs: $(DEV) ## the documentation, in site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
@@ -82,7 +82,7 @@ unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 
 build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web
 	$(BIN)/python tools/build_contracts.py
-	$(PYTHON) tools/build_web.py
+	$(BIN)/python tools/build_web.py
 
 gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json
 	$(BIN)/python -m benchmarks.snapshot

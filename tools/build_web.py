@@ -1,4 +1,4 @@
-"""Bundle the TypeScript package web/ into src/shackled/web.
+"""Bundle the TypeScript package web/ into src/shackled/web, with contracts.json: the contracts that its EVM runs.
 
     python tools/build_web.py            writes the bundles
     python tools/build_web.py --check    writes nothing; fails, and says which are not up to date
@@ -10,10 +10,15 @@ every machine.
 from __future__ import annotations
 
 import argparse
+import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+from shackled.artifacts import RENDERER, artifact
+from shackled.chain import EmbeddedChain, open_chain
+from shackled.ethereum import SOLIDITY_ERRORS, to_hex
 
 ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
@@ -24,7 +29,25 @@ def build() -> dict[str, bytes]:
     """Return the bytes of every bundle, by name."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["node", "build.mjs", "python", folder], cwd=WEB, check=True)
-        return {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
+        bundles = {path.name: path.read_bytes() for path in sorted(Path(folder).iterdir())}
+    return bundles | {"contracts.json": contracts()}
+
+
+def contracts() -> bytes:
+    """Return the code and addresses of the contracts, and what their errors mean, as web/src/evm/contracts.ts says."""
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    names = (*RENDERER, "Studio")
+    errors = dict(SOLIDITY_ERRORS)
+    for name in names:
+        errors |= artifact(name).errors
+    document = {
+        "contracts": {
+            name: {"address": to_hex(chain.address(name)), "code": to_hex(chain.code(name))} for name in names
+        },
+        "errors": {to_hex(selector): errors[selector] for selector in sorted(errors)},
+    }
+    return json.dumps(document, separators=(",", ":")).encode() + b"\n"
 
 
 def main() -> int:
