@@ -6,14 +6,14 @@ BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
 CREATOR := $(VENV)/.creator
 DEV := $(VENV)/.dev
-NODE := contracts/node_modules/.package-lock.json
+NODE := web/node_modules/.package-lock.json
 
 # Set-up steps write to the same folders. The checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test checks lint types contracts docs unit build gas bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test checks lint types contracts web docs unit build gas bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -29,7 +29,7 @@ $(CREATOR): pyproject.toml tools/prepare.py tools/constraints.txt
 $(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py dev
 
-$(NODE): contracts/package.json contracts/package-lock.json tools/prepare.py
+$(NODE): contracts/package.json contracts/package-lock.json web/package.json web/package-lock.json tools/prepare.py
 	@$(PYTHON) tools/prepare.py node
 
 browser:
@@ -55,7 +55,7 @@ test: lint checks unit ## all checks and tests
 	@echo "all checks and tests passed"
 
 checks: $(DEV) $(NODE)
-	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts docs
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts web docs
 
 lint: $(DEV) ## style of the Python code
 	$(BIN)/ruff check
@@ -67,6 +67,11 @@ types: $(DEV) ## types of the Python code
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
 
+web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whether its bundles are those of the sources
+	npm --prefix web run --silent check
+	npm --prefix web run --silent test
+	$(BIN)/python tools/build_web.py --check
+
 docs: $(DEV) ## the documentation, in site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 
@@ -75,8 +80,9 @@ unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 
 # ---- what is made and kept in the repository ----
 
-build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts
+build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web
 	$(BIN)/python tools/build_contracts.py
+	$(BIN)/python tools/build_web.py
 
 gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json
 	$(BIN)/python -m benchmarks.snapshot
@@ -107,5 +113,5 @@ conformance: $(DEV) opengl ## contracts against OpenGL over 500 random scenes an
 	$(BIN)/python tests/conformance
 
 clean: ## remove what was made here, but for the repository
-	rm -rf $(VENV) contracts/node_modules build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) contracts/node_modules web/node_modules web/dist build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -91,6 +91,13 @@ def serving(answer: Callable[[dict[str, Any]], Reply]) -> Iterator[str]:
                 self.close_connection = True
                 self.connection.shutdown(socket.SHUT_RDWR)
 
+        def do_OPTIONS(self) -> None:
+            """Allow pages to ask; whether they may read the answer is said there."""
+            self.send_response(204)
+            for name in ("Origin", "Headers"):
+                self.send_header(f"Access-Control-Allow-{name}", "*")
+            self.end_headers()
+
         def log_message(self, *_: Any) -> None:
             pass
 

@@ -22,7 +22,7 @@ from tools.ledger import World
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.chain import EmbeddedChain, open_chain
 from shackled.image import decode_bmp
-from shackled.scene import from_euler, is_closed
+from shackled.scene import from_euler, is_closed, render_call
 from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -67,6 +67,9 @@ def test_scene_file(tmp_path: Path) -> None:
     image = render(scene, size=(48, 36))
     assert (image.triangles or 0) > 5000
     assert (image.covered_pixels or 0) > 1000
+    image.save(tmp_path / "scene.png", scene=True)
+    assert image.scene is not None
+    assert render_call(load(tmp_path / "scene.png")) == render_call(image.scene)
 
 
 def test_meshes_are_written_where_they_are_wanted(tmp_path: Path) -> None:

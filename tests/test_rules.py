@@ -16,8 +16,11 @@ import shackled
 from shackled.artifacts import artifact, contracts
 
 ROOT = Path(__file__).resolve().parent.parent
-PICTURES = {".png", ".gif", ".bmp", ".ico"}
+#: Files that are not text.
+BINARY = {".png", ".gif", ".bmp", ".ico", ".wasm"}
 
+#: Folders with a package.json.
+NPM_PACKAGES = ("contracts", "web")
 #: Bytes of a file of the repository.
 LARGEST = 2**20
 #: EIP-170.
@@ -37,7 +40,7 @@ def files() -> dict[str, Path]:
 @pytest.fixture(scope="module")
 def texts(files: dict[str, Path]) -> dict[str, str]:
     """The text files of the repository."""
-    found = {name: path.read_text("utf-8") for name, path in files.items() if path.suffix not in PICTURES}
+    found = {name: path.read_text("utf-8") for name, path in files.items() if path.suffix not in BINARY}
     assert "pyproject.toml" in found
     return found
 
@@ -55,9 +58,10 @@ def test_no_file_is_large(files: dict[str, Path]) -> None:
 
 def test_no_file_names_a_registry(texts: dict[str, str]) -> None:
     assert matches(texts, r"""https?://[^/\s"']*(registry|pypi|npmjs|pythonhosted|artifactory|nexus)[^\s"']*""") == []
-    lock = texts["contracts/package-lock.json"]
-    assert '"resolved"' not in lock
-    assert lock.count('"integrity"') >= 5
+    for folder in NPM_PACKAGES:
+        lock = texts[f"{folder}/package-lock.json"]
+        assert '"resolved"' not in lock
+        assert lock.count('"integrity"') >= 5
 
 
 def test_no_file_names_a_place_on_a_machine(texts: dict[str, str]) -> None:
@@ -103,8 +107,9 @@ def test_one_version_everywhere() -> None:
     changes = re.findall(r"^## \[(\d[^\]]*)\]", (ROOT / "CHANGELOG.md").read_text("utf-8"), re.MULTILINE)
     assert shackled.__version__ == version
     assert changes[0] == version
-    for name in ("package.json", "package-lock.json"):
-        assert json.loads((ROOT / "contracts" / name).read_text("utf-8"))["version"] == version
+    for folder in NPM_PACKAGES:
+        for name in ("package.json", "package-lock.json"):
+            assert json.loads((ROOT / folder / name).read_text("utf-8"))["version"] == version
 
 
 def test_the_readme_has_the_figures_that_were_measured() -> None:

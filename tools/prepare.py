@@ -3,7 +3,7 @@
     python3 tools/prepare.py package    .venv with the package in it
     python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
-    python3 tools/prepare.py node       contracts/node_modules: the compiler, and a node for the tests
+    python3 tools/prepare.py node       node_modules of contracts/ and web/: compilers, and a node for the tests
     python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
@@ -25,6 +25,7 @@ ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
+WEB = ROOT / "web"
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
 #: Commands of the browser that the tests of the page use.
@@ -90,15 +91,16 @@ def prepare_dev() -> None:
 
 
 def prepare_node() -> None:
-    """Install contracts/node_modules from package-lock.json."""
+    """Install node_modules of contracts/ and web/ from their package-lock.json."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
     check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
-    say("installing the compiler and the node for tests")
-    run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=CONTRACTS)
+    say("installing the compilers and the node for tests")
+    for folder in (CONTRACTS, WEB):
+        run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=folder)
+        (folder / "node_modules" / ".package-lock.json").touch()
     if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
         say("there is no anvil for this machine; tests of a real node look for one in the PATH")
-    (CONTRACTS / "node_modules" / ".package-lock.json").touch()
 
 
 def check_node(said: str) -> None:

@@ -10,6 +10,7 @@ from typing import Any, Unpack
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
+    PICTURE,
     READERS,
     SCENES,
     LookOptions,
@@ -33,10 +34,10 @@ Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] |
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 
-    thing: the path of a mesh or scene file; the name of a piece, such as "teapot" or "genesis/12" (a file wins over a
-    piece of the same name); a Mesh; an Object, or a list of these; (vertices, faces) or (vertices, faces, colors), (n,
-    3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene. A mesh is staged so that it fills the picture; a
-    scene keeps its look except for the given settings.
+    thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
+    "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object, or a list of these;
+    (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene.
+    A mesh is staged so that it fills the picture; a scene keeps its look except for the given settings.
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 128.
     look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
     background="white", fov=40.
@@ -55,7 +56,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
     """Return the path of a file, or else the piece of that name. InputError if there is neither."""
     path = Path(input)
     name = input if isinstance(input, str) else path.as_posix()
-    if path.suffix.lower() in (*READERS, *SCENES) or os.path.isfile(path):
+    if path.suffix.lower() in (*READERS, *SCENES, PICTURE) or os.path.isfile(path):
         return path
     piece = find(name)
     if piece is not None:

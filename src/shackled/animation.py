@@ -16,8 +16,21 @@ from PIL import Image as PillowImage
 
 from .checks import number
 from .errors import InputError
-from .image import Format, Image, as_array, check_extension, data_uri, gas_in_short, one_of, pillow_bytes, write_open
+from .image import (
+    Format,
+    Image,
+    as_array,
+    check_extension,
+    check_scene,
+    data_uri,
+    gas_in_short,
+    one_of,
+    pillow_bytes,
+    png_options,
+    write_open,
+)
 from .palette import indexed
+from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
@@ -75,29 +88,36 @@ class Animation:
         """The pixels of all frames, (n, H, W, 3)."""
         return np.stack([frame.pixels for frame in self.frames])
 
-    def encode(self, extension: str) -> bytes:
+    def encode(self, extension: str, scene: bool | None = None) -> bytes:
         """Return the bytes of a file: ".gif", or ".png" for an APNG. InputError for any other.
 
         A GIF has at most 256 colours for all frames, the nearest where there are more; an APNG is exact.
+        scene: whether an APNG carries the scene of its first frame, as in `Image.encode`.
         """
-        return FORMATS[check_extension(extension, FORMATS)].encode(self)
+        extension = check_extension(extension, FORMATS)
+        if extension == PICTURE:
+            return _encode_apng(self, scene)
+        check_scene(scene, extension)
+        return FORMATS[extension].encode(self)
 
-    def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
+    def save(
+        self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
+    ) -> None:
         """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
-        A path without an extension is a folder of numbered PNG files.
+        A path without an extension is a folder of numbered PNG files, each with its scene. scene: as in `encode`.
         InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
         """
         if not isinstance(file, str | os.PathLike):
-            write_open(file, extension, FORMATS, self.encode)
+            write_open(file, extension, FORMATS, lambda kind: self.encode(kind, scene))
             return
         path = check_animation(file)
         if path.suffix:
-            write_output(path, self.encode(extension or path.suffix))
+            write_output(path, self.encode(extension or path.suffix, scene))
             return
         make_output_folder(path)
         for name, frame in zip(frame_names(len(self.frames)), self.frames, strict=True):
-            write_output(path / name, frame.encode(".png"))
+            write_output(path / name, frame.encode(PICTURE, scene))
 
     def data_uri(self, extension: str = ".png") -> str:
         """Return a URI that holds a file, for HTML and JSON."""
@@ -132,14 +152,15 @@ def _encode_gif(animation: Animation) -> bytes:
     return _encode(animation, pictures, "GIF", optimize=False, disposal=1)
 
 
-def _encode_apng(animation: Animation) -> bytes:
-    return _encode(animation, animation.to_pil(), "PNG", default_image=False)
+def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
+    options = png_options(animation.frames[0], scene)
+    return _encode(animation, animation.to_pil(), "PNG", default_image=False, **options)
 
 
 #: The formats of `Animation.save`, by extension; a name without one is a folder.
 FORMATS: dict[str, Format[Animation]] = {
     ".gif": Format("image/gif", _encode_gif),
-    ".png": Format("image/png", _encode_apng),
+    PICTURE: Format("image/png", _encode_apng),
 }
 
 

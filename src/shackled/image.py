@@ -15,11 +15,12 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
+from PIL.PngImagePlugin import PngInfo
 
 from .checks import fixed
 from .errors import InputError, RenderError
 from .palette import indexed
-from .scene import Scene
+from .scene import CHUNK, PICTURE, Scene, SceneChunk, scene_chunk
 from .values import Value, array_key, plural
 from .whole_file import check_output_file, write_output
 
@@ -89,23 +90,36 @@ class Image(Value):
 
         return (None, None) if self.scene is None else count(self.scene)
 
-    def encode(self, extension: str) -> bytes:
+    @cached_property
+    def scene_chunk(self) -> SceneChunk | None:
+        """The scene as a PNG file carries it; None if it is not known."""
+        return None if self.scene is None else scene_chunk(self.scene)
+
+    def encode(self, extension: str, scene: bool | None = None) -> bytes:
         """Return the bytes of a file in a format of `FORMATS`, such as ".png". InputError for any other.
 
         A GIF has at most 256 colours, the nearest where there are more; other formats are exact.
+        scene: whether a PNG file carries the scene, from which `load` restores it; None if it takes at most 64 KB.
         """
-        return FORMATS[check_extension(extension, FORMATS)].encode(self)
+        extension = check_extension(extension, FORMATS)
+        if extension == PICTURE:
+            return _encode_png(self, scene)
+        check_scene(scene, extension)
+        return FORMATS[extension].encode(self)
 
-    def save(self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None) -> None:
+    def save(
+        self, file: str | os.PathLike[str] | BinaryIO, extension: str | None = None, scene: bool | None = None
+    ) -> None:
         """Write a file atomically in the format of its extension, or to an open file in the format of `extension`.
 
-        InputError where the path or the extension is wrong, OutputError where the disk is full or fails.
+        scene: as in `encode`. InputError where the path or the extension is wrong, OutputError where the disk is full
+        or fails.
         """
         if not isinstance(file, str | os.PathLike):
-            write_open(file, extension, FORMATS, self.encode)
+            write_open(file, extension, FORMATS, lambda kind: self.encode(kind, scene))
             return
         path = check_output(file)
-        write_output(path, self.encode(extension or path.suffix))
+        write_output(path, self.encode(extension or path.suffix, scene))
 
     def data_uri(self, extension: str = ".png") -> str:
         """Return a URI that holds a file, for HTML and JSON."""
@@ -142,8 +156,8 @@ class Format(Generic[Encoded]):
     encode: Callable[[Encoded], bytes]
 
 
-def _encode_png(image: Image) -> bytes:
-    return pillow_bytes(image.to_pil(), "PNG")
+def _encode_png(image: Image, scene: bool | None = None) -> bytes:
+    return pillow_bytes(image.to_pil(), "PNG", **png_options(image, scene))
 
 
 def _encode_svg(image: Image) -> bytes:
@@ -161,7 +175,7 @@ def _encode_gif(image: Image) -> bytes:
 
 #: The formats of `Image.save`, by extension.
 FORMATS: dict[str, Format[Image]] = {
-    ".png": Format("image/png", _encode_png),
+    PICTURE: Format("image/png", _encode_png),
     ".bmp": Format("image/bmp", lambda image: image.bmp),
     ".svg": Format("image/svg+xml", _encode_svg),
     ".gif": Format("image/gif", _encode_gif),
@@ -179,6 +193,29 @@ def pillow_bytes(picture: PillowImage.Image, name: str, **options: Any) -> bytes
     stream = io.BytesIO()
     picture.save(stream, name, **options)
     return stream.getvalue()
+
+
+def png_options(image: Image, scene: bool | None = None) -> dict[str, PngInfo]:
+    """Return Pillow's options for a PNG file that carries the scene of an image. scene: as in `Image.encode`.
+
+    InputError where the scene is wanted but not possible.
+    """
+    chunk = None if scene is False else image.scene_chunk
+    if scene:
+        if chunk is None:
+            raise InputError("the picture cannot carry its scene, which is not known")
+        chunk.check()
+    if chunk is None or not (scene or chunk.is_small):
+        return {}
+    texts = PngInfo()
+    texts.add(CHUNK, chunk.data)
+    return {"pnginfo": texts}
+
+
+def check_scene(scene: bool | None, extension: str) -> None:
+    """Refuse a scene in a file that is not a PNG file."""
+    if scene:
+        raise InputError(f"only a {PICTURE} file carries its scene, not {extension}")
 
 
 def data_uri(media_type: str, data: bytes) -> str:

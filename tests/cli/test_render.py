@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 import subprocess
 import sys
 import time
@@ -13,8 +14,9 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from shackled import Scene, __version__, load, render
+from shackled import InputError, Scene, __version__, load, render
 from shackled.cli.app import run
+from shackled.scene import render_call
 
 
 def pixels(path: str) -> np.ndarray:
@@ -46,7 +48,9 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
     output, messages = capsys.readouterr()
     report = json.loads(output)
     image = pixels("a.bmp")
-    assert " ".join(report) == "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256"
+    keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes"
+    assert " ".join(report) == keys
+    assert report["scene_bytes"] is None
     assert (report["input"], report["output"]) == ("shape.obj", "a.bmp")
     assert (report["width"], report["height"]) == (30, 20)
     assert report["sha256"] == hashlib.sha256(image.tobytes()).hexdigest()
@@ -59,7 +63,7 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
 
 def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) -> None:
     reports = {}
-    for chain in ("pyrevm", "pyevm", "reference"):
+    for chain in ("revm", "pyrevm", "pyevm", "reference"):
         assert run(["render", "shape.obj", "--size", "16", "--json", "--chain", chain]) == 0
         reports[chain] = json.loads(capsys.readouterr().out)
     assert len({report["sha256"] for report in reports.values()}) == 1
@@ -182,7 +186,7 @@ WRONG = [
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
-    (["render", "shape.obj", "--chain", "moon"], "the chains are pyrevm, pyevm, reference"),
+    (["render", "shape.obj", "--chain", "moon"], "the chains are revm, pyrevm, pyevm, reference"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),
@@ -305,9 +309,9 @@ def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) 
 def test_refusals_and_interrupts_exit_with_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shackled.chain import EmbeddedChain, PyrevmChain
+    from shackled.chain import EmbeddedChain, RevmChain
 
-    monkeypatch.setattr("shackled._render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled._render.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
 
@@ -327,6 +331,68 @@ def test_help_and_version(capsys: pytest.CaptureFixture[str]) -> None:
         assert "render" in capsys.readouterr().out
     assert run(["render", "--help"]) == 0
     assert "--max-triangles" in capsys.readouterr().out
+
+
+def scene_line(output: str) -> str | None:
+    rows = dict(line.split(None, 1) for line in output.splitlines())
+    return rows.get("scene")
+
+
+def test_a_picture_is_a_scene_file(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["render", "shape.obj", "--size", "20", "--smooth", "-o", "a.png"]) == 0
+    line = scene_line(capsys.readouterr().out)
+    assert line is not None
+    assert re.fullmatch(r"in the file, \d\.\d KB", line)
+    assert render_call(load("a.png")) == render_call(load("shape.obj", 20, smooth=True))
+    # not written over its own scene
+    assert run(["render", "a.png", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["output"] == "a-rendered.png"
+    assert 100 < report["scene_bytes"] < 1000
+    assert Path("a-rendered.png").read_bytes() == Path("a.png").read_bytes()
+    assert run(["render", "a.png", "--tile", "8", "-o", "tiles.png"]) == 0
+    assert Path("tiles.png").read_bytes() == Path("a.png").read_bytes()
+
+
+def test_the_scene_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+    for options in (["-o", "a.png", "--no-scene"], ["-o", "a.bmp"], ["-o", "a.gif", "--no-scene"]):
+        assert run(["render", "shape.obj", *options]) == 0
+        assert scene_line(capsys.readouterr().out) is None
+    with pytest.raises(InputError, match="carries no scene"):
+        load("a.png")
+    assert run(["render", "shape.obj", "-o", "a.bmp", "--scene"]) == 2
+    assert capsys.readouterr().err == "shackled: --scene needs a .png file, not a.bmp\n"
+
+
+def test_a_large_scene_is_left_out_unless_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+    rng = np.random.default_rng(1)
+    corners = "".join(f"v {x} {y} {z}\n" for x, y, z in rng.integers(-30_000, 30_000, (6000, 3)))
+    faces = "".join(f"f {a} {b} {c}\n" for a, b, c in rng.integers(1, 6001, (6000, 3)))
+    Path("large.obj").write_text(corners + faces)
+    small = ["render", "large.obj", "--size", "2", "--unlit"]
+    assert run(small) == 0
+    line = scene_line(capsys.readouterr().out)
+    assert line is not None
+    assert re.fullmatch(r"not in the file, as it takes \d\d\.\d KB: --scene writes it", line)
+    assert run([*small, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["scene_bytes"] is None
+    assert run([*small, "--scene"]) == 0
+    line = scene_line(capsys.readouterr().out)
+    assert line is not None
+    assert line.startswith("in the file, ")
+    assert render_call(load("large.png")) == render_call(load("large.obj", 2, unlit=True))
+
+
+@pytest.mark.parametrize("output", ["a.png", "frames"])
+def test_a_turntable_carries_its_scene(output: str, capsys: pytest.CaptureFixture[str]) -> None:
+    turned = ["render", "shape.obj", "--size", "8", "--turntable", "2", "-o", output]
+    assert run(turned) == 0
+    assert scene_line(capsys.readouterr().out) is not None
+    first = output if output.endswith(".png") else f"{output}/000.png"
+    assert (render(load(first)).pixels == pixels(first)).all()
+    assert run([*turned, "--no-scene"]) == 0
+    with pytest.raises(InputError, match="carries no scene"):
+        load(first)
 
 
 def test_as_a_process(folder: Path) -> None:

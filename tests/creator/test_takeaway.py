@@ -119,6 +119,13 @@ def test_a_png_is_crisp(scale: int) -> None:
     assert (pixels == picture.image.pixels.repeat(scale, axis=0).repeat(scale, axis=1)).all()
 
 
+@pytest.mark.parametrize("scale", [1, 8])
+def test_a_png_carries_its_scene(scale: int, tmp_path: Path) -> None:
+    picture = Picture("icons/coin", "gold")
+    (tmp_path / "a.png").write_bytes(make_file("png", picture.subject(), chain(), scale).data)
+    assert render_call(load(tmp_path / "a.png")) == render_call(picture.scene)
+
+
 def test_an_svg_is_that_of_the_contract() -> None:
     picture = Picture("tetrahedron")
     from shackled.artifacts import artifact

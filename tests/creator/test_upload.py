@@ -20,6 +20,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PIL import Image as PillowImage
+from PIL.PngImagePlugin import PngInfo
 
 from shackled import InputError, load, render
 from shackled.creator import Limits, Pool, PoolError, Size, Source, State, Store, Stored, clean_name
@@ -119,6 +120,18 @@ def test_a_mesh_is_shown_as_the_command_line_shows_it(visitor: Visitor, tmp_path
     assert upload.source == Source("upload", hashlib.sha256(TRIANGLE).hexdigest())
     assert upload.facts.title == "Meine Datei.obj"
     assert upload.notes == ()
+
+
+def test_a_picture_brings_its_scene(visitor: Visitor) -> None:
+    drawn = render("icons/coin", 60)
+    picture = drawn.encode(".png")
+    upload = visitor.upload("coin.png", picture)
+    assert upload.notes == ()
+    assert visitor.render(State(upload.source)).bmp == drawn.bmp
+    # also in an archive, where it is a texture unless nothing else is there
+    assert visitor.upload("a.zip", zipped({"coin.png": picture})).facts.triangles == upload.facts.triangles
+    beside = zipped({"wall.png": picture, "roof.png": picture, "a.obj": TRIANGLE})
+    assert visitor.upload(None, beside).facts.triangles == 1
 
 
 @pytest.mark.parametrize("name", ["a.gltf", "a.glb"])
@@ -230,6 +243,18 @@ def linked_zip() -> bytes:
     return stream.getvalue()
 
 
+def photograph(**options: Any) -> bytes:
+    stream = io.BytesIO()
+    PillowImage.new("RGB", (3, 2)).save(stream, "PNG", **options)
+    return stream.getvalue()
+
+
+def scene_bomb() -> bytes:
+    texts = PngInfo()
+    texts.add_text("shackled", "0" * 9_000_000, zip=True)
+    return photograph(pnginfo=texts)
+
+
 HOSTILE: dict[str, tuple[str, Any, str]] = {
     "nothing": ("a.obj", b"", "a.obj is empty"),
     "blanks": ("a.obj", b" \n\t", "a.obj is empty"),
@@ -322,6 +347,11 @@ HOSTILE: dict[str, tuple[str, Any, str]] = {
     ),
     "gltf of strange types": ("a.gltf", text(gltf(nodes={"a": 1}, meshes=[3], accessors="x")), "a.gltf"),
     "cut glb": ("a.glb", b"glTF\x02\0\0\0", "a.glb"),
+    "a photograph": ("a.png", photograph, "a.png: the picture carries no scene"),
+    "cut off picture": ("a.png", lambda: render("cube", 8).encode(".png")[:300], "a.png: the picture is cut off"),
+    "no picture": ("a.png", TRIANGLE, "a.png: it is not a PNG file"),
+    "picture with a bomb": ("a.png", scene_bomb, "a.png: its scene has more than 8,000,000 characters"),
+    "zip of two pictures": ("a.zip", zipped({"a.png": b"a", "b.png": b"b"}), "has 2 files that could be shown"),
     "not a zip": ("a.zip", b"PK\x03\x04 nothing", "a.zip: the archive"),
     "empty zip": ("a.zip", zipped({}), "a.zip: the archive has no mesh or scene file"),
     "zip bomb": ("a.zip", zipped({"a.obj": bytes(50_000_000)}), "the archive unpacks to 48 MB; the limit is 1 MB"),

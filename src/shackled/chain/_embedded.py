@@ -5,13 +5,20 @@ Every call starts from the same state, so that the same call always costs the sa
 
 from __future__ import annotations
 
+import threading
 from abc import abstractmethod
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..artifacts import artifact
 from ..errors import ChainError, RenderError
 from ..ethereum import create2_address, intrinsic_gas, to_hex, word
+from ..evm import Answer, Instance, Status
 from ._chain import CallResult, ContractChain
 from ._failures import out_of_gas, revert_error
 
@@ -83,8 +90,72 @@ class EmbeddedChain(ContractChain):
         """Call the code at an address."""
 
 
+class RevmChain(EmbeddedChain):
+    """The EVM of `shackled.evm`. Threads run calls at the same time, each in an instance of its own."""
+
+    name = "embedded EVM (revm)"
+
+    def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
+        """Take the default gas limit of calls."""
+        super().__init__(gas_limit)
+        self._free: list[Instance] = []
+        self._lock = threading.Lock()
+
+    def create(self, name: str, creation: bytes) -> bytes:
+        """Run creation code, with its arguments, and return the runtime code."""
+        with self._instance() as evm:
+            answer = evm.create(creation, DEFAULT_GAS_LIMIT)
+        if answer.status != Status.SUCCESS:
+            raise ChainError(f"the contract {name} could not be deployed: {_failed(answer, DEFAULT_GAS_LIMIT)}")
+        return answer.output
+
+    def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
+        with self._instance() as evm:
+            answer = evm.call(address, data, gas_limit)
+        if answer.status != Status.SUCCESS:
+            raise _failed(answer, gas_limit)
+        return CallResult(answer.output, answer.gas, intrinsic_gas(data))
+
+    def profile(
+        self, contract: str, data: bytes, places: Callable[[str], bytes]
+    ) -> tuple[CallResult, list[str], NDArray[np.uint32]]:
+        """Call a contract, and count the gas of each instruction.
+
+        places: returns the description of a contract for `Instance.describe`, by its name. Also returns the names of
+        the contracts in the order of their numbers, and the table of `Instance.profile`.
+        """
+        address = self.address(contract)
+        evm = Instance()
+        for name, each in self._addresses.items():
+            evm.put(each, self._codes[each])
+            evm.describe(each, places(name))
+        answer, table = evm.profile(address, data, self.gas_limit)
+        if answer.status != Status.SUCCESS:
+            raise _failed(answer, self.gas_limit)
+        return CallResult(answer.output, answer.gas, intrinsic_gas(data)), list(self._addresses), table
+
+    @contextmanager
+    def _instance(self) -> Iterator[Instance]:
+        """Lend an instance that has all contracts; one that failed is not used again."""
+        with self._lock:
+            evm = self._free.pop() if self._free else Instance()
+        for address, code in self._codes.copy().items():
+            evm.put(address, code)
+        yield evm
+        self._free.append(evm)
+
+
+def _failed(answer: Answer, gas_limit: int) -> ChainError:
+    """Return the error for a call that was not successful."""
+    if answer.status == Status.REVERT:
+        return revert_error(answer.output, gas_limit)
+    if answer.status == Status.OUT_OF_GAS:
+        return out_of_gas(gas_limit)
+    return RenderError(f"the call failed: {answer.output.decode()}")
+
+
 class PyrevmChain(EmbeddedChain):
-    """The EVM of pyrevm, written in Rust."""
+    """The EVM of the package pyrevm, an optional accelerator."""
 
     name = "embedded EVM (pyrevm)"
 
@@ -125,7 +196,7 @@ def pyrevm_error(message: str, gas_limit: int) -> ChainError:
 
 
 class PyEvmChain(EmbeddedChain):
-    """The EVM of py-evm, in pure Python: several hundred times slower, but runs everywhere."""
+    """The EVM of py-evm, in pure Python: several hundred times slower, a witness for the others."""
 
     name = "embedded EVM (py-evm)"
 

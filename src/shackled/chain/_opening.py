@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import cache
 from importlib.util import find_spec
 
-from ..errors import ChainError, InputError
+from ..errors import InputError
 from ..ethereum import parse_address
 from ..scene import Rectangle, Scene
 from ._chain import Chain, Drawing
 from ._connection import PATIENCE, Connection
-from ._embedded import EmbeddedChain, PyEvmChain, PyrevmChain
+from ._embedded import EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain
 from ._node import NodeChain
 
 
@@ -33,8 +33,8 @@ class ReferenceChain:
 
 
 #: Names of chains, and the module that each needs.
-CHAINS = {"pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
-_KINDS = {"pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
+CHAINS = {"revm": "wasmtime", "pyrevm": "pyrevm", "pyevm": "eth", "reference": "numpy"}
+_KINDS = {"revm": RevmChain, "pyrevm": PyrevmChain, "pyevm": PyEvmChain, "reference": ReferenceChain}
 
 
 def open_node(url: str, address: str | None = None, timeout: float | None = None) -> NodeChain:
@@ -51,11 +51,9 @@ def open_node(url: str, address: str | None = None, timeout: float | None = None
 
 @cache
 def open_chain(name: str | None = None) -> Chain:
-    """Return the chain of a name; None selects the fastest installed EVM. Raises InputError if it is unknown."""
+    """Return the chain of a name; None selects the embedded EVM. Raises InputError if it is unknown."""
     if name is None:
-        name = next((each for each in ("pyrevm", "pyevm") if find_spec(CHAINS[each])), None)
-        if name is None:
-            raise ChainError("there is no EVM to run the contracts: install pyrevm or py-evm")
+        name = "revm"
     if name not in CHAINS:
         raise InputError(f"there is no chain {name!r}; the chains are {', '.join(CHAINS)}")
     if not find_spec(CHAINS[name]):

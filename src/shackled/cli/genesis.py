@@ -11,6 +11,7 @@ import typer
 from ..datasets.genesis import GenesisPiece
 from ..errors import InputError
 from ..image import FORMATS, one_of
+from ..scene import PICTURE
 
 
 def genesis(
@@ -91,7 +92,7 @@ def _pieces(seeds: list[str], as_json: bool, output: str | None) -> None:
                 word for word, holds in (("wireframe", piece.wireframe), ("inverted", piece.invert)) if holds
             ),
             "gas": f"{gas:,} for the piece" + ("" if rendering is None else f", {rendering:,} from seed to picture"),
-            "picture": "" if path is None else str(path),
+            "picture": "" if path is None else f"{path}{', with its scene' * (path.suffix.lower() == PICTURE)}",
         }
         print("\n" * (number > 0) + "\n".join(f"{name:9} {value}" for name, value in rows.items() if value))
 

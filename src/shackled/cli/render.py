@@ -25,6 +25,7 @@ from ..errors import InputError
 from ..image import FORMATS, Image, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import VERIFY, folder_of, remove_parts
+from ..scene import PICTURE, scene_chunk
 from ..values import plural
 from .look_options import load_with, with_look
 from .option import option, parse_sides
@@ -44,6 +45,13 @@ def render(
             "-o --output",
             f"Output file: {one_of(FORMATS)}; of turntables {one_of(FILMS)} or a folder. Named after INPUT by default.",
             "FILE",
+        ),
+    ] = None,
+    scene: Annotated[
+        bool | None,
+        option(
+            "--scene/--no-scene",
+            "Write the scene into PNG files, which are then scene files too (default: if it takes at most 64 KB).",
         ),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
@@ -105,6 +113,8 @@ def render(
     """Render a mesh file, a scene file or a piece of a dataset."""
     source = locate(input)
     stem = (source.file_stem if isinstance(source, Piece) else source.stem) or "picture"
+    if isinstance(source, Path) and source.suffix.lower() == PICTURE:
+        stem += "-rendered"  # not over INPUT
     shown = check_duration(DURATION if duration is None else duration)
     if turntable is None:
         if duration is not None:
@@ -119,7 +129,11 @@ def render(
     in_parts = turntable is not None or not where_of(on, gas_limit, sides).alone
     if chain is not None:
         open_chain(chain)
-    scene = load_with(input, look)
+    if scene and path.suffix.lower() not in (PICTURE, ""):
+        raise InputError(f"--scene needs a {PICTURE} file, not {path}")
+    loaded = load_with(input, look)
+    if scene:
+        scene_chunk(loaded).check()
     started = time.perf_counter()
     listener = JobProgress()
     keep = folder_of(path) if in_parts else None
@@ -127,26 +141,28 @@ def render(
     with nullcontext() if in_parts else LateBar("rendering"):
         made: Image | Animation
         if turntable is None:
-            made = draw(scene, on=on, **told)
+            made = draw(loaded, on=on, **told)
         else:
-            made = turn(scene, turntable, duration=shown, on=on, **told)
+            made = turn(loaded, turntable, duration=shown, on=on, **told)
         counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
     try:
         with LateBar("writing"):
-            made.save(path)
+            made.save(path, scene=scene)
     except BaseException:
         if keep is not None and keep.is_dir():
             listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
         raise
     if keep is not None:
         remove_parts(keep)
-    report = _report(made, input, path, time.perf_counter() - started, counts, in_parts)
     frames = [made] if isinstance(made, Image) else made.frames
+    chunk = frames[0].scene_chunk if path.suffix.lower() in (PICTURE, "") and scene is not False else None
+    written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
+    report = _report(made, input, path, time.perf_counter() - started, counts, written, in_parts)
     if not any(frame.covered_pixels for frame in frames):
         print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
-    print(json.dumps(report) if as_json else _words(report))
+    print(json.dumps(report) if as_json else _words(report, None if chunk is None else len(chunk.data)))
 
 
 def _on(
@@ -188,6 +204,7 @@ def _report(
     path: Path,
     seconds: float,
     counts: tuple[int | None, int | None],
+    scene_bytes: int | None,
     in_parts: bool,
 ) -> dict[str, Any]:
     """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
@@ -207,12 +224,13 @@ def _report(
         "chain": frames[0].made_by,
         "output": str(path),
         "sha256": digest.hexdigest(),
+        "scene_bytes": scene_bytes,
     }
     return report | {"frames": len(frames), "calls": made.calls} if in_parts else report
 
 
-def _words(report: dict[str, Any]) -> str:
-    """Return the report as text."""
+def _words(report: dict[str, Any], scene: int | None) -> str:
+    """Return the report as text. scene: the bytes of the scene in the file, or that it would have; None for no line."""
     frames, calls = report.get("frames", 1), report.get("calls", 1)
     several = f"{frames} frames of " if frames > 1 else ""
     rows = {"picture": f"{report['output']}, {several}{report['width']} x {report['height']} pixels"}
@@ -222,6 +240,10 @@ def _words(report: dict[str, Any]) -> str:
     if report["gas"] is not None and report["intrinsic_gas"] is not None:
         sent = "the scene" if calls == 1 else f"the scene {calls} times"
         rows["gas"] = f"{report['gas']:,} (and {report['intrinsic_gas']:,} to send {sent})"
+    if scene is not None:
+        size = f"{scene / 1024:.1f} KB"
+        left_out = f"not in the file, as it takes {size}: --scene writes it"
+        rows["scene"] = left_out if report["scene_bytes"] is None else f"in the file, {size}"
     rows |= {"chain": report["chain"], "time": f"{report['seconds']:.3f} s"}
     return "\n".join(f"{name:8} {value}" for name, value in rows.items())
 

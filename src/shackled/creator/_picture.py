@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from PIL import Image as PillowImage
 from ..animation import Animation
 from ..errors import OutOfGasError
 from ..gas import KEPT, Limit, floor_gas, limits
-from ..image import decode_bmp
+from ..image import decode_bmp, pillow_bytes
 from ._scene import Facts
 from ._state import Source
 
@@ -123,11 +124,9 @@ def enlarged(pixels: Pixels, scale: int) -> Pixels:
     return pixels.repeat(scale, axis=0).repeat(scale, axis=1)
 
 
-def png(pixels: Pixels, level: int) -> bytes:
-    """Return (H, W, 3) pixels as a PNG file. level: of compression, 1 to 9."""
-    stream = io.BytesIO()
-    PillowImage.fromarray(pixels).save(stream, "png", compress_level=level)
-    return stream.getvalue()
+def png(pixels: Pixels, level: int, **options: Any) -> bytes:
+    """Return (H, W, 3) pixels as a PNG file. level: of compression, 1 to 9. options: of Pillow."""
+    return pillow_bytes(PillowImage.fromarray(pixels), "PNG", compress_level=level, **options)
 
 
 # ---- where it fits ----

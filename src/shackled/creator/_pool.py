@@ -161,11 +161,9 @@ class Pool:
         )
         return stages
 
-    async def stage_gas(self, visitor: str, state: State, progress: Progress | None = None) -> dict[str, int]:
-        """Trace the gas of each stage in order of execution; about a second for two million gas."""
-        gas: dict[str, int] = await self._ask(
-            self._slow, visitor, "gas", "stage_gas", state, uploads=state.source, progress=progress
-        )
+    async def stage_gas(self, visitor: str, state: State) -> dict[str, int]:
+        """Trace the gas of each stage in order of execution."""
+        gas: dict[str, int] = await self._ask(self._slow, visitor, "gas", "stage_gas", state, uploads=state.source)
         return gas
 
     async def compare(self, visitor: str, state: State) -> Comparison:

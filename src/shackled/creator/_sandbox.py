@@ -16,6 +16,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from ..artifacts import artifact
+
 #: Largest number of pixels of a texture: 4096 x 4096.
 MAX_TEXTURE = 2**24
 
@@ -59,6 +61,7 @@ def enter_sandbox() -> None:
 
     for name in _NEEDED:
         import_module(name)
+    artifact("Renderer")  # kept in memory, for the scenes of pictures
     PIL.Image.init()
     PIL.Image.MAX_IMAGE_PIXELS = MAX_TEXTURE // 2  # Pillow refuses images of twice this size
     # folders from which Python may load modules later

@@ -8,7 +8,7 @@ from .._render import render
 from ..chain import EmbeddedChain
 from ..errors import InputError
 from ..gas import render_call
-from ..image import Image
+from ..image import Image, png_options
 from ..scene import encode_scene_file
 from ._picture import File, enlarged, png
 from ._programs import Subject, cast_command, python_program
@@ -35,7 +35,12 @@ class FileKind:
 
 KINDS: tuple[FileKind, ...] = (
     FileKind(
-        "png", "PNG", ".png", "image/png", False, "The picture, each pixel enlarged to a square of 1 to 8 pixels."
+        "png",
+        "PNG",
+        ".png",
+        "image/png",
+        False,
+        "The picture, each pixel enlarged to a square of 1 to 8 pixels; with the scene, if it takes at most 64 KB.",
     ),
     FileKind("bmp", "BMP", ".bmp", "image/bmp", False, "The bytes as returned by the contract."),
     FileKind(
@@ -108,4 +113,4 @@ def _png(image: Image, scale: int) -> bytes:
         raise InputError(f"the scale of a PNG must be from {SCALES[0]} to {SCALES[-1]}, not {scale!r:.20}")
     if max(image.width, image.height) * scale > MAX_PNG:
         raise InputError(f"a PNG can have up to {MAX_PNG:,} pixels a side: choose a scale below {scale}")
-    return png(enlarged(image.pixels, scale), 6)
+    return png(enlarged(image.pixels, scale), 6, **png_options(image))

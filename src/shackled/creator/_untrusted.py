@@ -12,7 +12,7 @@ from typing import Any
 from urllib.parse import unquote
 
 from ..errors import InputError
-from ..scene import READERS, SCENES
+from ..scene import PICTURE, READERS, SCENES
 from ._store import MEGABYTE, Limits
 
 _CHUNK = 1 << 16
@@ -81,14 +81,15 @@ def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, lef
 
 
 def _main(names: list[PurePosixPath], what: str) -> PurePosixPath:
-    for known in (SCENES, tuple(READERS)):
+    # pictures beside a mesh are its textures
+    for known in (SCENES, tuple(READERS), (PICTURE,)):
         found = [name for name in names if name.suffix.lower() in known]
         if len(found) == 1:
             return found[0]
         if found:
             shown = ", ".join(str(name) for name in found[:4])
             raise InputError(f"{what} has {len(found)} files that could be shown ({shown:.120}); include only one")
-    raise InputError(f"{what} has no mesh or scene file ({', '.join((*READERS, *SCENES))})")
+    raise InputError(f"{what} has no mesh or scene file ({', '.join((*READERS, *SCENES, PICTURE))})")
 
 
 def _is_hidden(name: PurePosixPath) -> bool:

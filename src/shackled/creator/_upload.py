@@ -14,7 +14,7 @@ import numpy as np
 
 from .._load import load
 from ..errors import InputError, InputWarning
-from ..scene import READERS, SCENES, Scene, resize, simplify_scene
+from ..scene import PICTURE, READERS, SCENES, Scene, resize, simplify_scene
 from ._controls import MAX_SIDE
 from ._sandbox import upload_folder
 from ._scene import describe
@@ -23,7 +23,7 @@ from ._store import MEGABYTE, Limits, Stored
 from ._untrusted import check_gltf, unpack
 
 #: Extensions of the files that can be uploaded.
-ACCEPTED = (*READERS, *SCENES, ".zip")
+ACCEPTED = (*READERS, *SCENES, PICTURE, ".zip")
 
 #: Name of files that were uploaded together, until it is known which of them is shown.
 TOGETHER = "the selection"

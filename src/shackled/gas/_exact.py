@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from ..artifacts import artifact
 from ..chain import Chain, ContractChain
 from ..errors import InputError
-from ..scene import Scene, encode
+from ..scene import Scene
+from ..scene import render_call as render_call
 from ._runs import engine_calls
 
 #: EIP-150: a call passes on all but one 64th of the gas that is left.
@@ -45,13 +45,8 @@ class ExactGas:
 def counting(chain: Chain) -> ContractChain:
     """Return the chain if it counts gas; otherwise raise InputError."""
     if not isinstance(chain, ContractChain):
-        raise InputError(f"the {chain.name} counts no gas: use `chain` pyrevm or pyevm")
+        raise InputError(f"the {chain.name} counts no gas: use `chain` revm, pyrevm or pyevm")
     return chain
-
-
-def render_call(scene: Scene) -> bytes:
-    """Return the data of the call `Renderer.render`."""
-    return encode(artifact("Renderer").selectors["render"], scene)
 
 
 def measure(scene: Scene, chain: ContractChain) -> ExactGas:

@@ -1,22 +1,28 @@
+from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
     CULL_BACKFACES,
     LIGHTS,
     ONE,
+    OPACITY,
     PROJECTIONS,
     SHADINGS,
+    SPOT,
     WIREFRAME,
     Rectangle,
     encode,
     encode_scene,
     extensions,
+    render_call,
 )
+from ._decode import decode
 from ._files.colors import TEXTURED, sample
 from ._files.content import MAX_BYTES
 from ._files.mesh_file import READERS, read_mesh
 from ._files.obj import write_obj
 from ._files.original import original_scene
+from ._files.picture import CHUNK, LONGEST_TEXT, PICTURE, SceneChunk, scene_chunk
 from ._files.polygons import cut, fans
 from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scene
 from ._files.table import about
@@ -28,7 +34,7 @@ from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, 
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals, without_slivers
 from ._object import Object
-from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack
+from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
@@ -37,6 +43,7 @@ from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
     "BACKGROUND",
+    "CHUNK",
     "CULL_BACKFACES",
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
@@ -47,6 +54,7 @@ __all__ = [
     "INNER_ANGLE",
     "LIGHTS",
     "LIGHT_KINDS",
+    "LONGEST_TEXT",
     "MAX_BYTES",
     "MAX_COORDINATE",
     "MAX_LIGHTS",
@@ -55,12 +63,15 @@ __all__ = [
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
+    "OPACITY",
     "OUTER_ANGLE",
+    "PICTURE",
     "PROJECTIONS",
     "READERS",
     "SCENES",
     "SETTINGS",
     "SHADINGS",
+    "SPOT",
     "TEXTURED",
     "WHITE",
     "WIDE",
@@ -77,11 +88,14 @@ __all__ = [
     "Projection",
     "Rectangle",
     "Scene",
+    "SceneChunk",
     "Setting",
     "Shading",
     "about",
     "checked_look",
+    "cosine",
     "cut",
+    "decode",
     "encode",
     "encode_scene",
     "encode_scene_file",
@@ -106,15 +120,20 @@ __all__ = [
     "painted",
     "read_mesh",
     "read_scene",
+    "render_call",
     "resize",
     "rotate",
     "sample",
+    "scene_chunk",
     "signed_volume",
     "simplify",
     "simplify_scene",
+    "sine",
     "size_of",
     "stage",
+    "tangent",
     "turn",
+    "unpack",
     "vertex_normals",
     "view_axes",
     "weld",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Literal, cast
 
 from attrs import field, frozen
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..checks import Floats, choice, number, vector
 from ..errors import InputError
 from ..values import Value, array_key, checked, with_names
+from ._arithmetic import tangent
 
 Projection = Literal["perspective", "orthographic"]
 PROJECTIONS: tuple[Projection, ...] = ("perspective", "orthographic")
@@ -89,4 +89,4 @@ class Camera(Value):
 
 def half_height_of(fov: float) -> float:
     """Return the `half_height` of a perspective camera with a vertical field of view of `fov` degrees."""
-    return math.tan(math.radians(number(fov, "the field of view in degrees", *FIELDS_OF_VIEW)) / 2)
+    return tangent(number(fov, "the field of view in degrees", *FIELDS_OF_VIEW) / 2)

@@ -5,15 +5,16 @@ Every field of the structs is a word of 32 bytes; lengths and coefficients are Q
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..artifacts import artifact
 from ..checks import Color
 from ..errors import InputError
+from ._arithmetic import cosine
 from ._fit import fit
 from ._light import Light
 from ._object import Object
@@ -57,6 +58,11 @@ def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words:
     return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
 
 
+def render_call(scene: Scene) -> bytes:
+    """Return the data of the call `Renderer.render`."""
+    return encode(artifact("Renderer").selectors["render"], scene)
+
+
 def encode_scene(scene: Scene) -> bytes:
     """Return the struct Scene of a scene from `fit`."""
     camera = scene.camera
@@ -88,7 +94,7 @@ def extensions(scene: Scene) -> bytes:
     records = []
     for index, light in enumerate(scene.lights):
         if light.direction is not None:
-            cosines = [math.cos(math.radians(angle)) for angle in (light.inner_angle, light.outer_angle)]
+            cosines = [cosine(angle) for angle in (light.inner_angle, light.outer_angle)]
             numbers = [*_q32(light.direction), *_q32(cosines)]
             records.append(_record(SPOT, index, b"".join(number.to_bytes(8, "big", signed=True) for number in numbers)))
     for index, thing in enumerate(scene.objects):

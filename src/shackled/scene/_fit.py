@@ -1,9 +1,10 @@
 """Conversion of scenes to the number ranges of the contracts, without a change of the picture.
 
 Lengths are multiples of 2^-32 up to 2^26, and coordinates of vertices are integers. A scene that is exact in that form
-is not changed. Any other is translated, so that the eye is at the origin, and scaled by a power of two, so that its
-largest object is about 2^12 units. Its meshes, unless their coordinates are integers, are quantized to a grid of 2^16
-steps across their largest side, or to a finer one, with three more bytes per vertex, where a step would be visible.
+is not changed; such are also fitted scenes that were encoded and decoded. Any other is translated, so that the eye is
+at the origin, and scaled by a power of two, so that its largest object is about 2^12 units. Its meshes, unless their
+coordinates are integers, are quantized to a grid of 2^16 steps across their largest side, or to a finer one, with three
+more bytes per vertex, where a step would be visible.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ._arithmetic import dot, length, unit
 from ._camera import Camera
 from ._light import Light
 from ._mesh import Mesh, vertex_normals
@@ -35,7 +37,7 @@ MAX_SCALE = {16: 2.0**12, 24: 2.0**4}
 #: The largest step of a mesh's grid, in pixels, before a finer grid is used.
 STEP_IN_PIXELS = 1 / 32
 
-#: The range of scenes that are not scaled.
+#: The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther.
 EXACT_SIZES = (2.0**-2, 2.0**22)
 #: The exponents to which others are scaled: of their largest object, and of the farthest point at most.
 SIZE_EXPONENT = 12
@@ -80,7 +82,7 @@ def _check_view(camera: Camera) -> None:
         raise InputError(f"the camera's eye and target are the same point, {_show(eye)}")
     if not up.any():
         raise InputError("the camera's up must not be (0, 0, 0)")
-    if np.linalg.norm(np.cross(_unit(target - eye), _unit(up))) < 1e-9:
+    if length(np.cross(unit(target - eye), unit(up))) < 1e-9:
         raise InputError(f"the camera looks along its up direction, {_show(up)}; choose another up")
 
 
@@ -92,8 +94,8 @@ def _prepare(o: Object) -> Object:
     if o.material.shading == "smooth":
         center, radius = _box(positions)
         # of any size: squares of its lengths stay within floats
-        unit = (positions - center) / (radius or 1.0)
-        normals = vertex_normals(unit, faces) if mesh.normals is None else mesh.normals
+        shape = (positions - center) / (radius or 1.0)
+        normals = vertex_normals(shape, faces) if mesh.normals is None else mesh.normals
     used, inverse = np.unique(faces, return_inverse=True)
     if len(used) < len(positions):
         positions, faces = positions[used], inverse.reshape(-1, 3)
@@ -120,12 +122,16 @@ def _is_exact(scene: Scene) -> bool:
             return False
         lengths += [o.scale, *o.position]
         reach = max(reach, np.abs(o.position).max() + o.scale * np.abs(positions).max())
-    view = np.cross(_unit(camera.target - camera.eye), _unit(camera.up))
+    view = np.cross(unit(camera.target - camera.eye), unit(camera.up))
+    # by `_move_camera`: a scene decoded from a call must not be moved again
+    is_moved = not camera.eye.any() and (camera.near is not None or camera.projection == "orthographic")
+    largest = max(map(abs, lengths))
     return (
-        EXACT_SIZES[0] <= reach <= EXACT_SIZES[1]
-        and all(length % STEP == 0 for length in lengths)
+        EXACT_SIZES[0] <= reach
+        and (reach <= EXACT_SIZES[1] or (is_moved and largest <= MAX_COORDINATE))
+        and all(each % STEP == 0 for each in lengths)
         and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
-        and bool(np.linalg.norm(view) >= DIRECTION_LENGTHS[0])
+        and bool(length(view) >= DIRECTION_LENGTHS[0])
     )
 
 
@@ -160,8 +166,8 @@ def _extent(scene: Scene) -> tuple[float, float]:
 
 def _move_camera(scene: Scene, factor: float) -> Camera:
     camera = scene.camera
-    forward = _unit(camera.target - camera.eye)
-    up = _unit(camera.up)
+    forward = unit(camera.target - camera.eye)
+    up = unit(camera.up)
     half_height = camera.half_height
     if camera.projection == "orthographic":
         half_height *= factor
@@ -172,7 +178,7 @@ def _move_camera(scene: Scene, factor: float) -> Camera:
         eye=(0, 0, 0),
         target=forward * 2.0**SIZE_EXPONENT,
         # upright on the line of sight, so that the cross product loses nothing
-        up=_unit(up - (up @ forward) * forward),
+        up=unit(up - dot(up, forward) * forward),
         half_height=half_height,
         near=near_plane(scene, factor, most=MAX_COORDINATE),
     )
@@ -219,9 +225,9 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:
     camera = scene.camera
     pixels = scene.height / (2 * camera.half_height)
     if camera.projection == "perspective":
-        forward = _unit(camera.target - camera.eye)
+        forward = unit(camera.target - camera.eye)
         places = o.world_positions() - camera.eye
-        pixels /= max(float((places @ forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
+        pixels /= max(float(dot(places, forward).min()), near_plane(scene, factor, most=MAX_COORDINATE) / factor)
     size = o.scale * radius
     if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
         return MAX_SHORT
@@ -241,12 +247,7 @@ def _box(positions: Array) -> tuple[Array, float]:
 
 def _direction(v: Array) -> Array:
     low, high = DIRECTION_LENGTHS
-    return v if low <= np.abs(v).max() <= high else _unit(v)
-
-
-def _unit(v: Array) -> Array:
-    v = v / np.abs(v).max()
-    return np.asarray(v / np.linalg.norm(v))
+    return v if low <= np.abs(v).max() <= high else unit(v)
 
 
 def _show(v: Array) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..checks import choice, color, flag, integer, number, vector
 from ..errors import InputError
+from ._arithmetic import dot, length
 from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
 from ._light import Light
@@ -394,8 +395,7 @@ def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:
         # what the camera looks at keeps its size
         near = None
         forward = camera.target - camera.eye
-        length = np.linalg.norm(forward)
-        distance = float((middle(scene) - camera.eye) @ forward / length) if length else 0.0
+        distance = float(dot(middle(scene) - camera.eye, forward) / length(forward)) if forward.any() else 0.0
         if distance > 0:
             half_height *= distance if orthographic else 1 / distance
     return evolve(

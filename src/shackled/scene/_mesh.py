@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..checks import Floats, Number, channels, color, fixed
 from ..errors import InputError
 from ..values import Value, array_key, checked, plural, with_names
+from ._arithmetic import length
 
 #: Limits of the contracts, which count vertices and faces in 16 bits.
 MAX_VERTICES = 65535
@@ -172,6 +173,6 @@ def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> 
     normals = np.zeros_like(positions)
     for corner in range(3):
         np.add.at(normals, faces[:, corner], face_normals)
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    lengths = length(normals)[:, None]
     units: NDArray[np.float64] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     return units

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import Floats, number, vector
 from ..errors import InputError
+from ._arithmetic import cosine, dot, length, sine, unit
 
 IDENTITY = vector((0, 0, 0, 1), size=4)
 
@@ -38,18 +39,17 @@ def euler(x: float, y: float, z: float) -> NDArray[np.float64]:
 def from_axis_angle(axis: ArrayLike, degrees: float) -> NDArray[np.float64]:
     """Return the rotation about an axis of any length but zero, counter-clockwise seen from where the axis points."""
     direction = vector(axis, "the axis of a rotation")
-    length = np.linalg.norm(direction)
-    if length == 0:
+    if not direction.any():
         raise InputError("the axis of a rotation must not be zero")
     # whole turns off first, so that 360 degrees are exactly none
-    half = math.radians(math.remainder(number(degrees, "the angle of a rotation in degrees"), 360)) / 2
-    return np.append(direction / length * math.sin(half), math.cos(half))
+    half = math.remainder(number(degrees, "the angle of a rotation in degrees"), 360) / 2
+    return np.append(unit(direction) * sine(half), cosine(half))
 
 
 def multiply(second: ArrayLike, first: ArrayLike) -> NDArray[np.float64]:
     """Return the rotation `first`, followed by `second`."""
     a, b = np.asarray(second, dtype=np.float64), np.asarray(first, dtype=np.float64)
-    return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - a[:3] @ b[:3])
+    return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - dot(a[:3], b[:3]))
 
 
 def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
@@ -57,8 +57,7 @@ def rotate(quaternion: ArrayLike, points: ArrayLike) -> NDArray[np.float64]:
     q, p = vector(quaternion, "a rotation", 4), np.asarray(points, dtype=np.float64)
     if not q.any():
         raise InputError("a rotation must not be the zero quaternion; the identity is (0, 0, 0, 1)")
-    q = q / np.abs(q).max()
-    q = q / np.linalg.norm(q)
+    q = unit(q)
     t = 2 * np.cross(q[:3], p)
     return np.asarray(p + q[3] * t + np.cross(q[:3], t))
 
@@ -88,7 +87,7 @@ def quaternion_of(m: NDArray[np.float64]) -> NDArray[np.float64]:
     squares[3, :3] = squares[:3, 3] = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
     squares[3, 3] = 1 + trace
     largest = squares[:, np.argmax(np.diag(squares))]
-    quaternion: NDArray[np.float64] = largest / np.linalg.norm(largest)
+    quaternion: NDArray[np.float64] = largest / length(largest)
     return quaternion if quaternion[3] >= 0 else -quaternion
 
 

@@ -10,6 +10,7 @@ from .. import checks
 from ..checks import Floats, number
 from ..errors import InputError
 from ..values import checked, with_names
+from ._arithmetic import cosine, dot, length, sine
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection
 from ._light import Light
@@ -61,7 +62,7 @@ def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, width: int, height: in
     positions = mesh.positions
     with np.errstate(over="ignore"):
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
-        radius = float(np.linalg.norm(positions - center, axis=1).max())
+        radius = float(length(positions - center).max())
     scale = 1 / radius if radius > 0 else 1.0
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
@@ -99,7 +100,7 @@ def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
 def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
     """Return the camera of a view, as near as all points, (n, 3), fit the picture."""
     right, up, back = view_axes(view.azimuth, view.elevation)
-    x, y, z = points @ right, points @ up, points @ back
+    x, y, z = dot(points, right), dot(points, up), dot(points, back)
     free = 1 - view.margin
     if view.projection == "orthographic":
         middle = np.array([x.max() + x.min(), y.max() + y.min(), z.max() + z.min()]) / 2
@@ -125,14 +126,14 @@ def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
 
 def key_light(view: Viewpoint) -> Light:
     """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return Light("directional", np.asarray(KEY_LIGHT) @ np.stack(view_axes(view.azimuth, view.elevation)))
+    return Light("directional", dot(np.array(KEY_LIGHT), np.stack(view_axes(view.azimuth, view.elevation), axis=1)))
 
 
 def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return unit vectors to the right, upward, and toward a viewer, of angles in degrees."""
-    azimuth, elevation = np.radians(azimuth), np.radians(elevation)
-    right = np.array([np.cos(azimuth), 0, -np.sin(azimuth)])
-    back = np.array([np.sin(azimuth) * np.cos(elevation), np.sin(elevation), np.cos(azimuth) * np.cos(elevation)])
+    right = np.array([cosine(azimuth), 0, -sine(azimuth)])
+    level = cosine(elevation)
+    back = np.array([sine(azimuth) * level, sine(elevation), cosine(azimuth) * level])
     return right, np.cross(back, right), back
 
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..checks import number
 from ..errors import InputError
+from ._arithmetic import dot, length
 from ._camera import Camera
 from ._rotation import multiply, rotate, rotation_of
 from ._scene import Scene
@@ -66,14 +67,14 @@ def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
     right = np.cross(forward, camera.up)
     if not len(turned[0]) or not forward.any() or not right.any():
         return camera
-    forward = forward / np.linalg.norm(forward)
-    right = right / np.linalg.norm(right)
-    axes = np.stack([right / aspect, np.cross(right, forward), forward], axis=1)
+    forward = forward / length(forward)
+    right = right / length(right)
+    axes = right / aspect, np.cross(right, forward), forward
     perspective = camera.projection == "perspective"
 
     def reach(points: Points) -> tuple[Points, Points]:
         """Return how far points are beside the line of sight, in halves of the picture at distance 1, and how deep."""
-        x, y, z = ((points - camera.eye) @ axes).T
+        x, y, z = (dot(points - camera.eye, axis) for axis in axes)
         return np.maximum(np.abs(x), np.abs(y)) / camera.half_height, z if perspective else np.ones_like(z)
 
     beside, distance = reach(turned[0])

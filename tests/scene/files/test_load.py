@@ -48,7 +48,7 @@ def test_missing_file(tmp_path: Path) -> None:
 
 
 def test_unknown_extension(tmp_path: Path) -> None:
-    known = "known are .obj, .ply, .stl, .glb, .gltf, .off, .toml, .json"
+    known = "known are .obj, .ply, .stl, .glb, .gltf, .off, .toml, .json, .png"
     path = tmp_path / "a.3mf"
     assert refusal(path) == f"{path} is neither a mesh nor a scene file by its extension; {known}"
 

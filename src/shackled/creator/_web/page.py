@@ -24,8 +24,8 @@ GENESIS = 36
 SHELVES = (("icons", "Icons"), ("common", "Objects"), ("genesis", "Genesis"))
 #: The panels that are open at first.
 OPEN = ("lights", "material")
-#: Files that belong to meshes: materials, buffers, textures.
-COMPANIONS = (".mtl", ".bin", ".png", ".jpg", ".jpeg")
+#: Files that belong to meshes: materials, buffers, textures, besides PNG files.
+COMPANIONS = (".mtl", ".bin", ".jpg", ".jpeg")
 #: Sides with a button of their own.
 SIDES = (64, 128, 256, 512)
 #: Files of the picture besides PNG, and snippets, by kind.

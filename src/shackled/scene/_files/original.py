@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
+from .._arithmetic import dot
 from .._background import Background
 from .._camera import Camera
 from .._light import Light
@@ -96,7 +97,7 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     if not lighting.flag("applyLighting", False):
         return Material("unlit"), []
     vector = np.array(lighting.numbers("lightPos", (0, 0, 0)))
-    square = float(vector @ vector)
+    square = float(dot(vector, vector))
     if square == 0:
         raise InputError(f"{lighting.place('lightPos')} must not be the origin: it is the direction toward the light")
     diffuse_color, specular_color = _light_color(lighting, "lightColDiff"), _light_color(lighting, "lightColSpec")

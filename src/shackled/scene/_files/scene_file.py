@@ -30,6 +30,7 @@ from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted
 from .content import parse, read_text
 from .mesh_file import READERS, read_mesh
 from .original import is_original, original_scene
+from .picture import PICTURE, read_picture
 from .table import Table, about
 
 SCENES = (".toml", ".json")
@@ -49,15 +50,17 @@ _ROTATION = ("quaternion", "axis", "angle")
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
-    """Return the scene of a scene file.
+    """Return the scene of a scene file, or the one that a PNG file carries.
 
     A JSON file with the key `canvasDim` is a scene of the original contracts. InputError, one line that begins with the
     path, if anything is wrong.
     """
     path = Path(path)
     extension = path.suffix.lower()
+    if extension == PICTURE:
+        return read_picture(path)
     if extension not in SCENES:
-        known = ", ".join((*READERS, *SCENES))
+        known = ", ".join((*READERS, *SCENES, PICTURE))
         if path.is_dir():
             raise InputError(f"{path} is a directory; a mesh or scene file is needed: {known}")
         raise InputError(f"{path} is neither a mesh nor a scene file by its extension; known are {known}")

@@ -1,0 +1,194 @@
+//! Contracts in memory, and calls of them.
+
+use crate::{
+    fast,
+    precompiles::Precompiles,
+    profile::{Described, Place, Profile},
+};
+use revm::{
+    Context, MainContext,
+    bytecode::Bytecode,
+    context::{
+        ContextSetters, Evm, TxEnv,
+        result::{EVMError, ExecutionResult, HaltReason},
+    },
+    context_interface::FrameStack,
+    database::{CacheDB, EmptyDB, WrapDatabaseRef},
+    handler::{
+        EthFrame, EvmTr, FrameInitOrResult, FrameResult, Handler, MainnetContext, MainnetHandler,
+        evm::{ContextDbError, FrameInitResult},
+        instructions::EthInstructions,
+    },
+    interpreter::{
+        InterpreterAction, interpreter::EthInterpreter, interpreter_action::FrameInit, interpreter_types::LoopControl,
+    },
+    primitives::{Address, Bytes, HashMap, TxKind, address, hardfork::SpecId},
+    state::AccountInfo,
+};
+use std::convert::Infallible;
+
+/// The sender of all calls, that of Python's embedded chains.
+const SENDER: Address = address!("5ac61ed000000000000000000000000000000001");
+
+#[derive(Clone, Copy, Default)]
+pub enum Status {
+    #[default]
+    Success = 0,
+    Revert = 1,
+    OutOfGas = 2,
+    /// Any other exceptional halt, or a call that was refused.
+    Failure = 3,
+}
+
+#[derive(Default)]
+pub struct Answer {
+    pub status: Status,
+    pub output: Bytes,
+    /// The gas of the execution, without that of a transaction before it.
+    pub gas: u64,
+}
+
+#[derive(Default)]
+pub struct Contracts {
+    accounts: CacheDB<EmptyDB>,
+    described: HashMap<Address, Described>,
+}
+
+impl Contracts {
+    pub fn put(&mut self, address: Address, code: Bytes) {
+        // designators of delegations (EIP-7702) are not code before Prague
+        let account = AccountInfo::default().with_code(Bytecode::new_legacy(code));
+        self.accounts.insert_account_info(address, account);
+    }
+
+    pub fn describe(&mut self, address: Address, places: &[u8]) {
+        let number = self.described.len() as u32;
+        self.described.entry(address).or_insert((number, Vec::new())).1 = Place::read(places);
+    }
+
+    pub fn run(&self, kind: TxKind, data: Bytes, gas: u64) -> Answer {
+        self.transact(kind, data, gas, None).0
+    }
+
+    /// Returns the answer of a call, and its table as `Profile::table` says.
+    pub fn profile(&self, address: Address, data: Bytes, gas: u64) -> (Answer, Vec<u32>) {
+        let (answer, profile) = self.transact(TxKind::Call(address), data, gas, Some(Profile::new(&self.described)));
+        (answer, profile.map(|profile| profile.table()).unwrap_or_default())
+    }
+
+    fn transact<'a>(
+        &'a self,
+        kind: TxKind,
+        data: Bytes,
+        gas: u64,
+        profile: Option<Profile<'a>>,
+    ) -> (Answer, Option<Profile<'a>>) {
+        let context = Context::mainnet()
+            .with_db(WrapDatabaseRef(&self.accounts))
+            .modify_cfg_chained(|cfg| {
+                cfg.set_spec_and_mainnet_gas_params(SpecId::CANCUN);
+                cfg.tx_gas_limit_cap = Some(u64::MAX);
+            })
+            .modify_block_chained(|block| block.gas_limit = u64::MAX);
+        let mut evm = Evm::new(context, EthInstructions::new_mainnet_with_spec(SpecId::CANCUN), Precompiles::default());
+        let mut transaction =
+            TxEnv { caller: SENDER, kind, data, gas_limit: u64::MAX, gas_price: 0, ..TxEnv::default() };
+        let initial = evm
+            .ctx
+            .cfg
+            .gas_params
+            .initial_tx_gas(&transaction.data, kind.is_create(), 0, 0, 0, None)
+            .initial_total_gas();
+        transaction.gas_limit = gas.saturating_add(initial);
+        evm.ctx.set_tx(transaction);
+        let mut runner = Runner { evm, profile };
+        let result = MainnetHandler::<_, EVMError<Infallible>, EthFrame<EthInterpreter>>::default().run(&mut runner);
+        let answer = match result {
+            Ok(result) => {
+                let gas = result.tx_gas_used().saturating_sub(initial);
+                match result {
+                    ExecutionResult::Success { output, .. } => {
+                        Answer { status: Status::Success, output: output.into_data(), gas }
+                    }
+                    ExecutionResult::Revert { output, .. } => Answer { status: Status::Revert, output, gas },
+                    ExecutionResult::Halt { reason: HaltReason::OutOfGas(_), .. } => {
+                        Answer { status: Status::OutOfGas, output: Bytes::new(), gas }
+                    }
+                    ExecutionResult::Halt { reason, .. } => failure(format!("{reason:?}"), gas),
+                }
+            }
+            Err(error) => failure(format!("{error:?}"), 0),
+        };
+        (answer, runner.profile)
+    }
+}
+
+fn failure(reason: String, gas: u64) -> Answer {
+    Answer { status: Status::Failure, output: reason.into_bytes().into(), gas }
+}
+
+type State<'a> = MainnetContext<WrapDatabaseRef<&'a CacheDB<EmptyDB>>>;
+type Base<'a> = Evm<State<'a>, (), EthInstructions<EthInterpreter, State<'a>>, Precompiles, EthFrame<EthInterpreter>>;
+
+/// The EVM of revm, but that frames run in `fast`, or under a profile.
+struct Runner<'a> {
+    evm: Base<'a>,
+    profile: Option<Profile<'a>>,
+}
+
+impl<'a> EvmTr for Runner<'a> {
+    type Context = State<'a>;
+    type Instructions = <Base<'a> as EvmTr>::Instructions;
+    type Precompiles = <Base<'a> as EvmTr>::Precompiles;
+    type Frame = EthFrame<EthInterpreter>;
+
+    fn all(&self) -> (&Self::Context, &Self::Instructions, &Self::Precompiles, &FrameStack<Self::Frame>) {
+        self.evm.all()
+    }
+
+    fn all_mut(
+        &mut self,
+    ) -> (&mut Self::Context, &mut Self::Instructions, &mut Self::Precompiles, &mut FrameStack<Self::Frame>) {
+        self.evm.all_mut()
+    }
+
+    fn frame_init(
+        &mut self,
+        input: FrameInit,
+    ) -> Result<FrameInitResult<'_, Self::Frame>, ContextDbError<Self::Context>> {
+        self.evm.frame_init(input)
+    }
+
+    fn frame_run(&mut self) -> Result<FrameInitOrResult<Self::Frame>, ContextDbError<Self::Context>> {
+        let depth = self.evm.frame_stack.index().unwrap_or(0);
+        let frame = self.evm.frame_stack.get();
+        let context = &mut self.evm.ctx;
+        let (instructions, costs) = (self.evm.instruction.instruction_table(), self.evm.instruction.gas_table());
+        let interpreter = &mut frame.interpreter;
+        let end = match &mut self.profile {
+            Some(profile) => profile.run(depth, interpreter, instructions, costs, context),
+            None => loop {
+                fast::run(interpreter);
+                if let Err(end) = interpreter.step(instructions, costs, context) {
+                    break end;
+                }
+            },
+        };
+        if interpreter.bytecode.action().is_none() {
+            interpreter.halt(end);
+        }
+        let action: InterpreterAction = interpreter.take_next_action();
+        frame.process_next_action(context, action).inspect(|next| {
+            if next.is_result() {
+                frame.set_finished(true);
+            }
+        })
+    }
+
+    fn frame_return_result(
+        &mut self,
+        result: FrameResult,
+    ) -> Result<Option<FrameResult>, ContextDbError<Self::Context>> {
+        self.evm.frame_return_result(result)
+    }
+}

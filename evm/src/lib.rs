@@ -1,0 +1,142 @@
+//! revm as a module of WebAssembly: an EVM, with the rules of Cancun, whose state is a few contracts.
+//!
+//! One instance serves one thread. Every call starts from the same state, so that the same call always costs the same
+//! gas. The host writes arguments to memory from `allocate`, and releases them afterwards; it reads an answer from
+//! `answer` before the next call. Addresses have 20 bytes.
+
+mod calls;
+mod fast;
+mod precompiles;
+mod profile;
+
+use calls::{Answer, Contracts};
+use revm::primitives::{Address, Bytes, TxKind};
+use std::cell::RefCell;
+
+#[derive(Default)]
+struct Instance {
+    contracts: Contracts,
+    answer: Answer,
+    profile: Vec<u32>,
+}
+
+thread_local! {
+    static INSTANCE: RefCell<Instance> = RefCell::default();
+}
+
+/// Returns room for that many bytes.
+#[unsafe(no_mangle)]
+pub extern "C" fn allocate(size: usize) -> *mut u8 {
+    let mut room = Vec::with_capacity(size.max(1));
+    let start = room.as_mut_ptr();
+    std::mem::forget(room);
+    start
+}
+
+/// Releases what `allocate` returned for that size.
+///
+/// # Safety
+/// `start` and `size` are those of one call of `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn release(start: *mut u8, size: usize) {
+    drop(unsafe { Vec::from_raw_parts(start, 0, size.max(1)) });
+}
+
+/// Sets the code of a contract.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn put(address: *const u8, code: *const u8, size: usize) {
+    let (address, code) = unsafe { (read_address(address), read(code, size)) };
+    INSTANCE.with_borrow_mut(|instance| instance.contracts.put(address, code));
+}
+
+/// Calls a contract with at most `gas` for the execution; returns a `Status`.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn call(address: *const u8, data: *const u8, size: usize, gas: u64) -> u32 {
+    let (address, data) = unsafe { (read_address(address), read(data, size)) };
+    run(TxKind::Call(address), data, gas)
+}
+
+/// Runs creation code with at most `gas`; returns a `Status`. The output is the code of the contract, which is not kept.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn create(data: *const u8, size: usize, gas: u64) -> u32 {
+    let data = unsafe { read(data, size) };
+    run(TxKind::Create, data, gas)
+}
+
+/// Describes the code of a contract for `profile`, by a `profile::Place` for each position. Contracts are numbered from 0
+/// in the order in which they are described.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn describe(address: *const u8, places: *const u8, size: usize) {
+    let (address, places) = unsafe { (read_address(address), read(places, size)) };
+    INSTANCE.with_borrow_mut(|instance| instance.contracts.describe(address, &places));
+}
+
+/// Calls a contract, as `call` does, and counts the gas of each instruction.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn profile(address: *const u8, data: *const u8, size: usize, gas: u64) -> u32 {
+    let (address, data) = unsafe { (read_address(address), read(data, size)) };
+    INSTANCE.with_borrow_mut(|instance| {
+        (instance.answer, instance.profile) = instance.contracts.profile(address, data, gas);
+        instance.answer.status as u32
+    })
+}
+
+/// Returns what the last call returned; of one that was not successful the data of the revert, or the reason as text.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> *const u8 {
+    INSTANCE.with_borrow(|instance| instance.answer.output.as_ptr())
+}
+
+/// Returns the number of bytes of `answer`.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_size() -> usize {
+    INSTANCE.with_borrow(|instance| instance.answer.output.len())
+}
+
+/// Returns the gas of the execution of the last call.
+#[unsafe(no_mangle)]
+pub extern "C" fn gas_used() -> u64 {
+    INSTANCE.with_borrow(|instance| instance.answer.gas)
+}
+
+/// Returns the table of the last call of `profile`, as `profile::Profile::table` says.
+#[unsafe(no_mangle)]
+pub extern "C" fn table() -> *const u32 {
+    INSTANCE.with_borrow(|instance| instance.profile.as_ptr())
+}
+
+/// Returns the number of words of 4 bytes of `table`.
+#[unsafe(no_mangle)]
+pub extern "C" fn table_size() -> usize {
+    INSTANCE.with_borrow(|instance| instance.profile.len())
+}
+
+fn run(kind: TxKind, data: Bytes, gas: u64) -> u32 {
+    INSTANCE.with_borrow_mut(|instance| {
+        instance.answer = instance.contracts.run(kind, data, gas);
+        instance.answer.status as u32
+    })
+}
+
+unsafe fn read(start: *const u8, size: usize) -> Bytes {
+    Bytes::copy_from_slice(unsafe { std::slice::from_raw_parts(start, size) })
+}
+
+unsafe fn read_address(start: *const u8) -> Address {
+    Address::from_slice(unsafe { std::slice::from_raw_parts(start, 20) })
+}

@@ -1,0 +1,105 @@
+"""An instance of the EVM: contracts in memory, and calls of them."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+import wasmtime
+from numpy.typing import NDArray
+
+from ..errors import ChainError
+from ._module import compiled
+
+#: The largest memory of an instance in bytes; a picture of 2048 x 2048 pixels needs about 300 MB.
+MEMORY = 1 << 30
+
+
+class Status(IntEnum):
+    """How a call ended, as evm/src/calls.rs says."""
+
+    SUCCESS = 0
+    REVERT = 1
+    OUT_OF_GAS = 2
+    #: Any other exceptional halt; the output is its name.
+    FAILURE = 3
+
+
+class Answer(NamedTuple):
+    """What a call returned, and the gas of its execution."""
+
+    status: Status
+    output: bytes
+    gas: int
+
+
+class Instance:
+    """An EVM with the rules of Cancun. Every call starts from the same state. For one thread at a time.
+
+    Calls release the lock of the interpreter. ChainError if a call needs more memory than `MEMORY`; the instance must
+    not be used afterwards.
+    """
+
+    def __init__(self) -> None:
+        """Start without contracts."""
+        engine, module = compiled()
+        self._store = wasmtime.Store(engine)
+        self._store.set_limits(memory_size=MEMORY)
+        self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
+        self._memory: Any = self._exports["memory"]
+        self._functions: dict[str, Any] = {}
+        self._codes: dict[bytes, bytes] = {}
+
+    def put(self, address: bytes, code: bytes) -> None:
+        """Set the code of a contract."""
+        if self._codes.get(address) is not code:
+            self._pass("put", address, code)
+            self._codes[address] = code
+
+    def call(self, address: bytes, data: bytes, gas: int) -> Answer:
+        """Call a contract with at most `gas` for the execution."""
+        return self._answer(self._pass("call", address, data, gas=gas))
+
+    def create(self, creation: bytes, gas: int) -> Answer:
+        """Run creation code, which is followed by the arguments of the constructor; the output is the runtime code."""
+        return self._answer(self._pass("create", creation, gas=gas))
+
+    def describe(self, address: bytes, places: bytes) -> None:
+        """Describe the code of a contract for `profile`, by 6 bytes for each position, as evm/src/profile.rs says."""
+        self._pass("describe", address, places)
+
+    def profile(self, address: bytes, data: bytes, gas: int) -> tuple[Answer, NDArray[np.uint32]]:
+        """Call a contract, and return the table of evm/src/profile.rs: the gas of each instruction."""
+        answer = self._answer(self._pass("profile", address, data, gas=gas))
+        table = self._read("table", 4 * self._run("table_size"))
+        return answer, np.frombuffer(table, "<u4")
+
+    def _pass(self, function: str, *values: bytes, gas: int | None = None) -> Any:
+        """Call an exported function with values in memory, and the size of the last."""
+        places = [self._run("allocate", len(value)) for value in values]
+        for place, value in zip(places, values, strict=True):
+            self._memory.write(self._store, value, place)
+        # a number of 64 bits is passed as a signed one
+        limit = [] if gas is None else [min(gas, (1 << 63) - 1)]
+        result = self._run(function, *places, len(values[-1]), *limit)
+        for place, value in zip(places, values, strict=True):
+            self._run("release", place, len(value))
+        return result
+
+    def _answer(self, status: int) -> Answer:
+        return Answer(Status(status), self._read("answer", self._run("answer_size")), self._run("gas_used"))
+
+    def _read(self, function: str, size: int) -> bytes:
+        place = self._run(function)
+        return bytes(self._memory.read(self._store, place, place + size)) if size else b""
+
+    def _run(self, function: str, *values: int) -> Any:
+        if function not in self._functions:
+            self._functions[function] = self._exports[function]
+        try:
+            return self._functions[function](self._store, *values)
+        except wasmtime.Trap as trap:
+            raise ChainError(
+                f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
+            ) from trap

@@ -1,0 +1,250 @@
+"""Scenes from calldata: the inverse of `_codec`, for bytes that nobody vouches for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from attrs import evolve
+
+from ..artifacts import artifact
+from ..errors import InputError
+from ._background import Background
+from ._camera import Camera
+from ._codec import (
+    CULL_BACKFACES,
+    LIGHTS,
+    ONE,
+    OPACITY,
+    OPACITY_STEP,
+    PROJECTIONS,
+    SHADINGS,
+    SPOT,
+    WIREFRAME,
+)
+from ._files.table import about
+from ._fit import MAX_COORDINATE, MAX_SCALE
+from ._light import Light
+from ._material import COEFFICIENTS, EXPONENTS, Material
+from ._object import Object
+from ._packed_mesh import WIDE, unpack
+from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
+
+WORD = 32
+#: Words of a struct Scene before its arrays, of a light, and of an object before its mesh.
+SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
+
+RECORD_HEADER = 5
+#: Bytes of the content of a record, by kind.
+RECORD_SIZES = {SPOT: 40, OPACITY: 4}
+
+#: Contents of records by kind and index.
+Records = Mapping[tuple[int, int], bytes]
+
+
+def decode(data: bytes) -> Scene:
+    """Return the scene of a call `Renderer.render`, such that `render_call` makes the same call of it again.
+
+    data: the selector and the argument in the ABI's standard encoding, untrusted. What it declares is compared with its
+    length before anything is allocated. InputError for everything that the contracts refuse, for calls that another
+    encoding made, and for numbers that a float does not hold.
+    """
+    if data[:4] != artifact("Renderer").selectors["render"]:
+        raise InputError("it is no call of render(Scene): its first four bytes are those of another function")
+    words = _Words(data[4:])
+    words.offset("the scene", WORD)
+    begin = words.place
+    width, height = words.whole("its width", 1, MAX_SIDE), words.whole("its height", 1, MAX_SIDE)
+    camera = _camera(words)
+    background = Background(words.color("the top of the background"), words.color("the bottom of the background"))
+    invert = words.whole("invert", 0, 1)
+    ambient_light = words.color("the ambient light")
+    to_lights, to_objects, to_extensions = (words.whole(f"the offset of {name}") for name in _PARTS)
+    words.expect(_PARTS[0], begin + to_lights)
+    lights = [_light(words, f"lights[{index}]") for index in range(words.count("lights", LIGHT_WORDS, MAX_LIGHTS))]
+    words.expect(_PARTS[1], begin + to_objects)
+    count = words.count("objects", 1)
+    first = words.place
+    offsets = [words.whole("the offset of an object") for _ in range(count)]
+    objects = []
+    for index, offset in enumerate(offsets):
+        words.expect(f"objects[{index}]", first + offset)
+        objects.append(_object(words, f"objects[{index}]"))
+    words.expect(_PARTS[2], begin + to_extensions)
+    records = _records(words.bytes("the extensions"), {SPOT: len(lights), OPACITY: len(objects)})
+    if words.place != len(words.data):
+        raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
+    return Scene(
+        [_with_opacity(each, records.get((OPACITY, index))) for index, each in enumerate(objects)],
+        camera,
+        [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
+        background,
+        ambient_light,
+        bool(invert),
+        width,
+        height,
+    )
+
+
+_PARTS = ("the lights", "the objects", "the extensions")
+
+
+class _Words:
+    """The words of an argument, read one after the other. Every method raises InputError where they are wrong."""
+
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+        self.place = 0
+
+    def take(self, size: int, what: str) -> bytes:
+        """Return the next bytes."""
+        if size > len(self.data) - self.place:
+            raise InputError(f"the call is cut off: {what} would lie beyond its end")
+        self.place += size
+        return self.data[self.place - size : self.place]
+
+    def whole(self, what: str, low: int = 0, high: int = 2**64) -> int:
+        """Return a number that is not negative."""
+        value = int.from_bytes(self.take(WORD, what), "big")
+        if not low <= value <= high:
+            shown = f"{value:,}" if value < 2**64 else "a larger number"
+            raise InputError(f"{what} must be from {low:,} to {high:,}, not {shown}")
+        return value
+
+    def number(self, what: str, low: float = -MAX_COORDINATE, high: float = MAX_COORDINATE) -> float:
+        """Return a Q32 number."""
+        return _number(int.from_bytes(self.take(WORD, what), "big", signed=True), what, low, high)
+
+    def vector(self, what: str, size: int = 3) -> list[float]:
+        """Return coordinates."""
+        return [self.number(what) for _ in range(size)]
+
+    def color(self, what: str) -> tuple[int, int, int]:
+        """Return red, green and blue."""
+        value = self.whole(f"{what} as a colour", 0, 0xFFFFFF)
+        return value >> 16, value >> 8 & 255, value & 255
+
+    def choice(self, what: str, names: Mapping[str, int]) -> str:
+        """Return the name of a number."""
+        value = self.whole(what, 0, max(names.values()))
+        return next(name for name, number in names.items() if number == value)
+
+    def count(self, what: str, words: int, most: int | None = None) -> int:
+        """Return the length of an array. words: of an element, at least. most: elements."""
+        count = self.whole(f"the number of {what}", 0, 2**64 if most is None else most)
+        if count * words * WORD > len(self.data) - self.place:
+            raise InputError(f"the call is cut off: it has no space for {count:,} {what}")
+        return count
+
+    def bytes(self, what: str) -> bytes:
+        """Return bytes, of which zeros fill the last word."""
+        size = self.whole(f"the length of {what}")
+        content = self.take(size, what)
+        if any(self.take(-size % WORD, what)):
+            raise InputError(f"zeros must fill the last word of {what}")
+        return content
+
+    def offset(self, what: str, expected: int) -> None:
+        """Read an offset, which must be the expected one."""
+        if self.whole(f"the offset of {what}") != expected:
+            raise InputError(f"{what} must follow what is before it, as in the ABI's standard encoding")
+
+    def expect(self, what: str, place: int) -> None:
+        """Check that an offset led to the next word."""
+        if self.place != place:
+            raise InputError(f"{what} must follow what is before it, as in the ABI's standard encoding")
+
+
+def _number(value: int, what: str, low: float, high: float) -> float:
+    if not low * ONE <= value <= high * ONE:
+        raise InputError(f"{what} must be from {low:.10g} to {high:.10g}")
+    result = value / ONE
+    if result * ONE != value:
+        raise InputError(f"{what} has more digits than a float holds: the picture could not be made again exactly")
+    return result
+
+
+def _camera(words: _Words) -> Camera:
+    eye, target, up = (words.vector(f"the camera's {name}") for name in ("eye", "target", "up"))
+    projection = words.choice("the camera's projection", PROJECTIONS)
+    orthographic = projection == "orthographic"
+    half_height = words.number(
+        "the camera's half_height", *((2.0**-12, 2.0**26) if orthographic else (2.0**-10, 2.0**10))
+    )
+    near: float | None = words.number("the camera's near distance", -MAX_COORDINATE if orthographic else 1 / ONE)
+    if orthographic and near == -MAX_COORDINATE:
+        near = None
+    return Camera(eye, target, up, projection, half_height, near)
+
+
+def _light(words: _Words, where: str) -> Light:
+    kind = "point" if words.whole(f"the kind of {where}", 0, 1) == LIGHTS["point"] else "directional"
+    vector, color = words.vector(f"the vector of {where}"), words.color(f"the colour of {where}")
+    with about(where):
+        return Light(kind, vector, color)
+
+
+def _object(words: _Words, where: str) -> Object:
+    words.offset(f"the mesh of {where}", OBJECT_WORDS * WORD)
+    position, rotation = words.vector(f"the position of {where}"), words.vector(f"the rotation of {where}", 4)
+    scale = words.number(f"the scale of {where}", 0)
+    shading = words.choice(f"the shading of {where}", SHADINGS)
+    ambient, diffuse, specular = (
+        words.number(f"the {name} coefficient of {where}", *COEFFICIENTS) for name in ("ambient", "diffuse", "specular")
+    )
+    shininess = words.whole(f"the shininess of {where}", *EXPONENTS)
+    flags = words.whole(f"the flags of {where}", 0, CULL_BACKFACES + WIREFRAME)
+    packed = words.bytes(f"the mesh of {where}")
+    with about(where):
+        mesh = unpack(packed)
+        if scale > (most := MAX_SCALE[24 if packed[0] & WIDE else 16]):
+            raise InputError(f"the scale of its mesh must be at most {most:g}, not {scale:g}")
+        if shading == "smooth" and mesh.normals is None:
+            raise InputError("smooth shading needs a mesh with normals")
+        material = Material(shading, ambient, diffuse, specular, shininess)
+        cull, wireframe = bool(flags & CULL_BACKFACES), bool(flags & WIREFRAME)
+        return Object(mesh, position, rotation, scale, material, cull, wireframe)
+
+
+def _records(data: bytes, counts: Mapping[int, int]) -> Records:
+    """Return the records of the extensions. counts: of what records of a kind may belong to."""
+    records: dict[tuple[int, int], bytes] = {}
+    place, last = 0, -1
+    while place < len(data):
+        header = data[place : place + RECORD_HEADER]
+        content = data[place + RECORD_HEADER :][: int.from_bytes(header[3:], "big")]
+        if len(header) < RECORD_HEADER or len(content) < int.from_bytes(header[3:], "big"):
+            raise InputError(f"the extensions are cut off at byte {place}")
+        key = int.from_bytes(header[:3], "big")
+        kind, index = key >> 16, key & 0xFFFF
+        if key <= last:
+            raise InputError(f"the extensions must ascend by kind and index; {kind}, {index} does not")
+        if len(content) != RECORD_SIZES.get(kind):
+            raise InputError(f"an extension of kind {kind} and {len(content)} bytes is not known")
+        if index >= counts[kind]:
+            raise InputError(f"an extension belongs to number {index} of {counts[kind]}, counted from 0")
+        records[kind, index] = content
+        place, last = place + RECORD_HEADER + len(content), key
+    return records
+
+
+def _with_spot(light: Light, record: bytes | None, where: str) -> Light:
+    if record is None:
+        return light
+    if light.kind != "point":
+        raise InputError(f"{where} must be a point light to have a cone")
+    x, y, z, inner, outer = (int.from_bytes(record[at : at + 8], "big", signed=True) for at in range(0, 40, 8))
+    direction = [_number(value, f"the direction of {where}", -MAX_COORDINATE, MAX_COORDINATE) for value in (x, y, z)]
+    # the arc cosine errs by a few units in the last place, far less than half a step of Q32
+    cosines = [_number(value, f"a cosine of {where}", -1, 1) for value in (inner, outer)]
+    with about(where):
+        return Light.spot(light.vector, direction, light.color, *(math.degrees(math.acos(each)) for each in cosines))
+
+
+def _with_opacity(thing: Object, record: bytes | None) -> Object:
+    if record is None:
+        return thing
+    opacity = int.from_bytes(record, "big") * OPACITY_STEP
+    if opacity >= 1:
+        raise InputError("an opacity in the extensions must be below 1")
+    return evolve(thing, opacity=opacity)

@@ -1,0 +1,120 @@
+"""The scene in a PNG file: a chunk with the call that renders it. docs/scene-files.md documents the chunk."""
+
+from __future__ import annotations
+
+import zlib
+from binascii import Error, unhexlify
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import InputError
+from .._codec import render_call
+from .._decode import decode
+from .._scene import Scene
+from .content import read_bytes
+from .table import about
+
+#: The extension of pictures that carry their scene.
+PICTURE = ".png"
+
+#: The kind of the chunk, and its keyword.
+CHUNK, KEYWORD = b"zTXt", b"shackled"
+#: Other chunks of text.
+TEXTS = (CHUNK, b"tEXt", b"iTXt")
+#: The most bytes of the chunk that are written unless asked for.
+MAX_CHUNK = 64 * 1024
+#: The most characters of its text that are written unless asked for: Pillow opens no picture with more.
+MAX_TEXT = 2**20
+#: The most characters that are written or read at all; libpng passes over more.
+LONGEST_TEXT = 8_000_000
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+@dataclass(frozen=True)
+class SceneChunk:
+    """A chunk zTXt with a scene. data: of the chunk, after its length and kind. characters: of its text."""
+
+    data: bytes
+    characters: int
+
+    @property
+    def is_small(self) -> bool:
+        """Whether it is written unless the caller decides."""
+        return len(self.data) <= MAX_CHUNK and self.characters <= MAX_TEXT
+
+    def check(self) -> None:
+        """Raise an InputError if it cannot be written at all."""
+        if self.characters > LONGEST_TEXT:
+            raise InputError(
+                f"the scene is too large for a PNG file: {self.characters:,} characters, of which there may be"
+                f" {LONGEST_TEXT:,}; Scene.save writes it as .json"
+            )
+
+
+def scene_chunk(scene: Scene) -> SceneChunk:
+    """Return the chunk with a scene; the same bytes for the same scene and version of zlib."""
+    text = b"0x" + render_call(scene).hex().encode()
+    return SceneChunk(KEYWORD + b"\0\0" + zlib.compress(text), len(text))
+
+
+def read_picture(path: Path) -> Scene:
+    """Return the scene that a PNG file carries. InputError, with the path, if there is none. Pixels are not read."""
+    data = read_bytes(path)
+    with about(str(path)):
+        found = [(kind, content) for kind, content in _chunks(data) if _is_scene(kind, content)]
+        if not found:
+            raise InputError(
+                f"the picture carries no scene: it has no chunk {CHUNK.decode()} with the keyword {KEYWORD.decode()},"
+                " in which Shackled writes one"
+            )
+        if len(found) > 1:
+            raise InputError(f"the picture carries {len(found)} scenes, in chunks {KEYWORD.decode()}; one is right")
+        kind, content = found[0]
+        if kind != CHUNK:
+            raise InputError(f"its scene is in a chunk {kind.decode()}, not {CHUNK.decode()}")
+        call = _call(content[len(KEYWORD) + 1 :])
+        with about(f"the chunk {KEYWORD.decode()}"):
+            return decode(call)
+
+
+def _chunks(data: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """Yield kind and content of the chunks of a PNG file; what follows its end is passed over."""
+    if not data.startswith(_SIGNATURE):
+        raise InputError("it is not a PNG file")
+    kind, place = b"", len(_SIGNATURE)
+    while kind != b"IEND":
+        size = int.from_bytes(data[place : place + 4], "big")
+        kind, end = data[place + 4 : place + 8], place + 8 + size
+        if end + 4 > len(data):
+            raise InputError("the picture is cut off")
+        if zlib.crc32(memoryview(data)[place + 4 : end]) != int.from_bytes(data[end : end + 4], "big"):
+            raise InputError(f"the picture is damaged: the checksum of its chunk {kind!r} is wrong")
+        yield kind, data[place + 8 : end]
+        place = end + 4
+
+
+def _is_scene(kind: bytes, content: bytes) -> bool:
+    return kind in TEXTS and content.startswith(KEYWORD + b"\0")
+
+
+def _call(content: bytes) -> bytes:
+    """Return the call in a compressed text. content: the method of compression, and the text."""
+    if content[:1] != b"\0":
+        raise InputError("its scene is compressed by an unknown method; 0, deflate, is right")
+    inflater = zlib.decompressobj()
+    try:
+        text = inflater.decompress(content[1:], LONGEST_TEXT + 1)
+    except zlib.error as error:
+        raise InputError(f"its scene cannot be decompressed: {error}") from None
+    if len(text) > LONGEST_TEXT:
+        raise InputError(f"its scene has more than {LONGEST_TEXT:,} characters, the most that are read")
+    if not inflater.eof or inflater.unused_data:
+        raise InputError(f"its scene {'is followed by other bytes' if inflater.eof else 'is cut off'}")
+    try:
+        if text.startswith(b"0x"):
+            return unhexlify(text[2:])
+    except Error:
+        pass
+    raise InputError(f"its chunk {KEYWORD.decode()} holds no scene: its text must be 0x and the call in hexadecimal")

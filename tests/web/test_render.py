@@ -1,0 +1,65 @@
+"""`render` of the TypeScript package gives the bytes, the gas and the errors of Python."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+import shutil
+import subprocess
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from shackled import load
+from shackled.artifacts import artifact
+from shackled.chain import ContractChain, open_chain
+from shackled.errors import RenderError
+from shackled.scene import encode
+
+SCRIPT = Path(__file__).with_name("render_calls.mjs")
+PACKAGE = files("shackled")
+NAMES = ("teapot", "icons/crown", "icons/diamond", "genesis/0", "genesis/7")
+
+pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
+
+
+def drawn_by_node(calls: list[bytes], folder: Path) -> list[dict[str, Any]]:
+    path = folder / "calls"
+    path.write_text("".join(f"{call.hex()}\n" for call in calls))
+    assets = (PACKAGE / "web" / "shackled.js", PACKAGE / "evm" / "evm.wasm", PACKAGE / "web" / "contracts.json")
+    done = subprocess.run(["node", SCRIPT, *map(str, assets), path], check=True, capture_output=True, text=True)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def drawn_by_python(call: bytes) -> dict[str, Any]:
+    chain = open_chain()
+    assert isinstance(chain, ContractChain)
+    try:
+        result = chain.call("Renderer", call)
+    except RenderError as error:
+        return {"name": "CallError", "message": str(error)}
+    size = int.from_bytes(result.output[32:64], "big")
+    return {"gas": result.gas, "sha256": hashlib.sha256(result.output[64 : 64 + size]).hexdigest()}
+
+
+def test_pictures_and_errors(tmp_path: Path) -> None:
+    selector = artifact("Renderer").selectors["render"]
+    calls = [encode(selector, load(name, size=(64, 48))) for name in NAMES]
+    chance = random.Random(1)
+    for call in calls.copy():
+        for _ in range(20):
+            broken = bytearray(call)
+            # mostly within the numbers before the mesh
+            broken[chance.randrange(4, 1200)] = chance.randrange(256)
+            # a canvas that is not too large for a test
+            broken[36 : 36 + 30], broken[68 : 68 + 30] = bytes(30), bytes(30)
+            broken[36 + 30] &= 1
+            broken[68 + 30] &= 1
+            calls.append(bytes(broken))
+    found = drawn_by_node(calls, tmp_path)
+    assert found == [drawn_by_python(call) for call in calls]
+    assert any("sha256" in each for each in found[len(NAMES) :])
+    assert len({each.get("message") for each in found}) > 10

@@ -1,0 +1,99 @@
+// Where evm.wasm and contracts.json come from.
+
+import { InputError } from "../errors.js";
+import { readStream, unpack } from "./bytes.js";
+import { checkedContracts, type Contracts } from "./contracts.js";
+import { compile } from "./evm.js";
+
+/** The most bytes of evm.wasm, and of contracts.json. */
+const MAX_ASSET = 1 << 24;
+
+/**
+ * A URL, a response, bytes, or the thing itself. "#ID" is the element of this page with that id, whose text is base64 of
+ * bytes in gzip.
+ */
+export type AssetSource<T> = string | URL | Response | BufferSource | T;
+
+/** What is needed to draw; by default the files beside this module. */
+export interface AssetSources {
+    evm?: AssetSource<WebAssembly.Module> | undefined;
+    contracts?: AssetSource<Contracts> | undefined;
+}
+
+export interface Assets {
+    module: WebAssembly.Module;
+    contracts: Contracts;
+}
+
+const DEFAULTS = { evm: "./evm.wasm", contracts: "./contracts.json" } as const;
+
+/** Load the assets. InputError where they cannot be had. */
+export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
+    const { evm, contracts } = sources;
+    const [module, found] = await Promise.all([
+        evm instanceof WebAssembly.Module ? evm : bytesOf(evm ?? beside(DEFAULTS.evm), "the EVM").then(compile),
+        isPlain(contracts) ? contracts : bytesOf(contracts ?? beside(DEFAULTS.contracts), "the contracts").then(parse),
+    ]);
+    return { module, contracts: checkedContracts(found) };
+}
+
+/** Return the bytes of a source. */
+async function bytesOf(source: AssetSource<never>, name: string): Promise<Uint8Array<ArrayBuffer>> {
+    if (source instanceof ArrayBuffer) return new Uint8Array(source);
+    if (ArrayBuffer.isView(source)) {
+        return new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
+    }
+    if (source instanceof Response) return bodyOf(source, MAX_ASSET, name);
+    return fetchBytes(String(source), MAX_ASSET, name);
+}
+
+/** Return the bytes behind a URL, or within the element "#ID" of this page. InputError where they cannot be had. */
+export async function fetchBytes(
+    url: string,
+    most: number,
+    name: string,
+    signal: AbortSignal | null = null,
+): Promise<Uint8Array<ArrayBuffer>> {
+    if (url.startsWith("#")) {
+        const element = document.getElementById(url.slice(1));
+        if (!element) throw new InputError(`${name}: there is no element with the id ${url.slice(1)}`);
+        return unpack(element.textContent, most, name);
+    }
+    if (url.startsWith("file:") && typeof process === "object") {
+        // Node cannot fetch files; bundlers for browsers do not see this import
+        const { readFileSync } = process.getBuiltinModule("node:fs");
+        return Uint8Array.from(readFileSync(new URL(url)));
+    }
+    let response: Response;
+    try {
+        response = await fetch(url, { signal });
+    } catch {
+        throw new InputError(`${name} could not be loaded from ${url.slice(0, 200)}`);
+    }
+    return bodyOf(response, most, name);
+}
+
+async function bodyOf(response: Response, most: number, name: string): Promise<Uint8Array<ArrayBuffer>> {
+    if (!response.ok) {
+        throw new InputError(
+            `${name} could not be loaded from ${response.url.slice(0, 200)}: HTTP status ${response.status}`,
+        );
+    }
+    return response.body ? readStream(response.body, most, name) : new Uint8Array();
+}
+
+function beside(name: string): string {
+    return new URL(name, import.meta.url).href;
+}
+
+function isPlain(contracts: AssetSources["contracts"]): contracts is Contracts {
+    return typeof contracts === "object" && "contracts" in contracts;
+}
+
+function parse(bytes: Uint8Array): unknown {
+    try {
+        return JSON.parse(new TextDecoder().decode(bytes)) as unknown;
+    } catch {
+        throw new InputError("the contracts are not those of contracts.json");
+    }
+}

@@ -1,0 +1,92 @@
+// Bytes as hexadecimal text and base64, words of the ABI, and streams of bounded size.
+
+import { InputError } from "../errors.js";
+
+/** Return the bytes of "0x" and hexadecimal digits. */
+export function fromHex(text: string): Uint8Array<ArrayBuffer> {
+    if (!/^0x(?:[0-9a-f]{2})*$/i.test(text)) throw new InputError("the text is not 0x and pairs of hexadecimal digits");
+    const bytes = new Uint8Array(text.length / 2 - 1);
+    for (let index = 0; index < bytes.length; index++) {
+        bytes[index] = Number.parseInt(text.slice(2 + 2 * index, 4 + 2 * index), 16);
+    }
+    return bytes;
+}
+
+/** Return bytes as "0x" and hexadecimal digits. */
+export function toHex(bytes: Uint8Array): string {
+    const parts = ["0x"];
+    for (const byte of bytes) parts.push(byte.toString(16).padStart(2, "0"));
+    return parts.join("");
+}
+
+/** Return the number of a word of 32 bytes, if it is whole and at most `most`; otherwise -1. */
+export function wordAt(bytes: Uint8Array, place: number, most: number): number {
+    if (!(place >= 0 && place + 32 <= bytes.length)) return -1;
+    const view = new DataView(bytes.buffer, bytes.byteOffset + place, 32);
+    const high = view.getBigUint64(0) | view.getBigUint64(8) | view.getBigUint64(16);
+    const value = view.getBigUint64(24);
+    return high === 0n && value <= BigInt(most) ? Number(value) : -1;
+}
+
+/** Return the `bytes` that the ABI encodes, whose offset is at `place`. InputError where they are cut off. */
+export function bytesAt(data: Uint8Array, place: number): Uint8Array {
+    const start = wordAt(data, place, data.length);
+    const size = start < 0 ? -1 : wordAt(data, start, data.length);
+    if (size < 0 || start + 32 + size > data.length)
+        throw new InputError("the answer is not bytes that the ABI encodes");
+    return data.subarray(start + 32, start + 32 + size);
+}
+
+/** Return all bytes of a stream. InputError above `most`; then the rest is not read. */
+export async function readStream(
+    stream: ReadableStream<Uint8Array>,
+    most: number,
+    name: string,
+): Promise<Uint8Array<ArrayBuffer>> {
+    const parts: Uint8Array[] = [];
+    let size = 0;
+    const reader = stream.getReader();
+    for (;;) {
+        const { done, value } = await reader.read();
+        if (done) break;
+        size += value.length;
+        if (size > most) {
+            await reader.cancel().catch(() => undefined);
+            throw new InputError(`${name} must have up to ${most.toLocaleString("en")} bytes`);
+        }
+        parts.push(value);
+    }
+    const bytes = new Uint8Array(size);
+    let place = 0;
+    for (const part of parts) {
+        bytes.set(part, place);
+        place += part.length;
+    }
+    return bytes;
+}
+
+/** Return what compressed bytes contain. InputError above `most` bytes, or where they are damaged. */
+export async function inflate(
+    bytes: Uint8Array<ArrayBuffer>,
+    format: "gzip" | "deflate",
+    most: number,
+    name: string,
+): Promise<Uint8Array<ArrayBuffer>> {
+    try {
+        return await readStream(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format)), most, name);
+    } catch (error) {
+        throw error instanceof InputError ? error : new InputError(`${name}: the compressed bytes are damaged`);
+    }
+}
+
+/** Return the bytes of a text in base64 of bytes in gzip, as pages carry files in themselves. */
+export async function unpack(text: string, most: number, name: string): Promise<Uint8Array<ArrayBuffer>> {
+    let binary: string;
+    try {
+        binary = atob(text.trim());
+    } catch {
+        throw new InputError(`${name} is not base64`);
+    }
+    const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
+    return inflate(bytes, "gzip", most, name);
+}

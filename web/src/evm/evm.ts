@@ -1,0 +1,128 @@
+// The host of evm.wasm, which evm/ builds: contracts in memory, and calls of them.
+
+import { InputError } from "../errors.js";
+
+/** How a call ended, as evm/src/calls.rs says. */
+export type Status = "success" | "revert" | "out of gas" | "failure";
+const STATUSES: readonly Status[] = ["success", "revert", "out of gas", "failure"];
+
+/** What a call returned, or the data of its revert, or the reason of its failure as text; and the gas of its execution. */
+export interface Answer {
+    status: Status;
+    output: Uint8Array;
+    gas: number;
+}
+
+/** Enough for pictures of 2048 x 2048 pixels; bounds the time of a call, and its memory to 130 MB. */
+export const GAS_LIMIT = 30_000_000_000;
+/** The most bytes of code or of a call. */
+const MAX_BYTES = 1 << 26;
+/** The memory of an instance, in bytes, above which a new one takes its place: memory of WebAssembly never shrinks. */
+const MAX_MEMORY = 1 << 30;
+const ADDRESS = 20;
+
+interface Exports {
+    memory: WebAssembly.Memory;
+    allocate(size: number): number;
+    release(start: number, size: number): void;
+    put(address: number, code: number, size: number): void;
+    call(address: number, data: number, size: number, gas: bigint): number;
+    answer(): number;
+    answer_size(): number;
+    gas_used(): bigint;
+}
+
+/** An EVM with the rules of Cancun. Every call starts from the same state, so that the same call costs the same gas. */
+export class Evm {
+    readonly #module: WebAssembly.Module;
+    readonly #codes = new Map<string, [Uint8Array, Uint8Array]>();
+    #exports: Exports | null = null;
+
+    /** Take the compiled module of evm.wasm. */
+    constructor(module: WebAssembly.Module) {
+        this.#module = module;
+    }
+
+    /** Return an EVM from the bytes of evm.wasm, a response with them, or the compiled module. */
+    static async load(source: BufferSource | Response | WebAssembly.Module): Promise<Evm> {
+        return new Evm(await compile(source));
+    }
+
+    /** Set the code of a contract. */
+    put(address: Uint8Array, code: Uint8Array): void {
+        checkAddress(address);
+        checkSize(code, "the code");
+        this.#codes.set(String(address), [address.slice(), code.slice()]);
+        if (this.#exports) this.#put(this.#exports, address, code);
+    }
+
+    /** Call a contract with at most `gas` for the execution. */
+    call(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT): Answer {
+        checkAddress(address);
+        checkSize(data, "the call");
+        if (!(gas >= 0 && gas <= Number.MAX_SAFE_INTEGER))
+            throw new InputError(`gas must be from 0 to 2^53, not ${gas}`);
+        const exports = (this.#exports ??= this.#start());
+        try {
+            const status = passed(exports, [address, data], (to, start) =>
+                exports.call(to, start, data.length, BigInt(Math.floor(gas))),
+            );
+            const place = exports.answer();
+            const output = new Uint8Array(exports.memory.buffer, place, exports.answer_size()).slice();
+            return { status: STATUSES[status] ?? "failure", output, gas: Number(exports.gas_used()) };
+        } catch (error) {
+            // an instance that trapped is not used again
+            this.#exports = null;
+            if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
+            throw new InputError("the EVM stopped: the call needs more memory than there is");
+        } finally {
+            if (exports.memory.buffer.byteLength > MAX_MEMORY) this.#exports = null;
+        }
+    }
+
+    #start(): Exports {
+        const exports = new WebAssembly.Instance(this.#module).exports as unknown as Exports;
+        for (const [address, code] of this.#codes.values()) this.#put(exports, address, code);
+        return exports;
+    }
+
+    #put(exports: Exports, address: Uint8Array, code: Uint8Array): void {
+        passed(exports, [address, code], (at, start) => exports.put(at, start, code.length));
+    }
+}
+
+/** Return the compiled module of evm.wasm. */
+export async function compile(source: BufferSource | Response | WebAssembly.Module): Promise<WebAssembly.Module> {
+    if (source instanceof WebAssembly.Module) return source;
+    // servers that do not know the type of .wasm files are no obstacle
+    return WebAssembly.compile(source instanceof Response ? await source.arrayBuffer() : source);
+}
+
+/** Return what a function returns for the places of values in memory. */
+function passed<T>(
+    exports: Exports,
+    [first, second]: readonly [Uint8Array, Uint8Array],
+    use: (first: number, second: number) => T,
+): T {
+    const places = [exports.allocate(first.length), exports.allocate(second.length)] as const;
+    // only now: `allocate` may replace the buffer
+    const memory = new Uint8Array(exports.memory.buffer);
+    memory.set(first, places[0]);
+    memory.set(second, places[1]);
+    const result = use(...places);
+    exports.release(places[0], first.length);
+    exports.release(places[1], second.length);
+    return result;
+}
+
+function checkAddress(address: Uint8Array): void {
+    if (!(address instanceof Uint8Array) || address.length !== ADDRESS) {
+        throw new InputError(`an address must be a Uint8Array of ${ADDRESS} bytes`);
+    }
+}
+
+function checkSize(bytes: Uint8Array, name: string): void {
+    if (!(bytes instanceof Uint8Array)) throw new InputError(`${name} must be a Uint8Array`);
+    if (bytes.length > MAX_BYTES)
+        throw new InputError(`${name} must have up to ${MAX_BYTES} bytes, not ${bytes.length}`);
+}

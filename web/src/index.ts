@@ -1,0 +1,11 @@
+export { InputError } from "./errors.js";
+export type { AssetSource, AssetSources } from "./evm/assets.js";
+export { CallError, type ContractName, type Contracts } from "./evm/contracts.js";
+export { Evm, type Answer, type Status } from "./evm/evm.js";
+export type { Picture } from "./picture.js";
+export { render, type RenderOptions } from "./render.js";
+export { encode, type FunctionName } from "./scene/encode.js";
+export { parseScene } from "./scene/file.js";
+export { halfHeightOf } from "./scene/staging.js";
+export type * from "./scene/types.js";
+export { describeCall, resizeCall, turnCall, type CallFacts, type Turn } from "./turn.js";

@@ -1,0 +1,288 @@
+// Scenes whose values are checked, converted and complete, with the defaults of docs/scene-files.md.
+
+import { InputError, show } from "../errors.js";
+import { fromEuler, rint, rotation, times, type Quaternion, type Vector } from "./arithmetic.js";
+import * as check from "./checks.js";
+import type { Rgb } from "./checks.js";
+import { PROJECTIONS, VIEW, frame, keyLight } from "./staging.js";
+import type * as given from "./types.js";
+
+export const MAX_SIDE = 2048;
+export const MAX_LIGHTS = 4;
+/** Width and height of a picture where none are given. */
+export const DEFAULT_SIDE = 128;
+/** Objects of staged scenes lie within. */
+const LARGEST = 1e305;
+
+export const WHITE: Rgb = [255, 255, 255];
+export const STAGED_BACKGROUND = { top: [46, 54, 72], bottom: [136, 146, 162] } as const;
+const DEFAULT_COLOR: Rgb = [200, 200, 200];
+export const SHADINGS = ["unlit", "flat", "smooth"] as const;
+export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
+
+const SCENE = ["objects", "camera", "lights", "background", "ambientLight", "invert", "width", "height"] as const;
+const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
+const BACKGROUND = ["top", "bottom"] as const;
+const LIGHTS = {
+    directional: ["kind", "direction", "color"],
+    point: ["kind", "position", "color"],
+    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle"],
+} as const;
+const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity"] as const;
+const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"] as const;
+const MESH = ["positions", "faces", "colors", "normals"] as const;
+
+/** Positions and normals have three numbers for each vertex, colours three bytes; faces three vertex numbers each. */
+export interface Mesh {
+    positions: Float64Array;
+    faces: Uint32Array;
+    colors: Uint8Array;
+    normals: Float64Array | undefined;
+}
+
+export interface Material {
+    shading: given.Shading;
+    ambient: number;
+    diffuse: number;
+    specular: number;
+    shininess: number;
+}
+
+export interface SceneObject {
+    mesh: Mesh;
+    position: Vector;
+    rotation: Quaternion;
+    scale: number;
+    material: Material;
+    cull: boolean;
+    wireframe: boolean;
+    opacity: number;
+}
+
+export interface Camera {
+    eye: Vector;
+    target: Vector;
+    up: Vector;
+    projection: given.Projection;
+    halfHeight: number;
+    near: number | undefined;
+}
+
+/** `vector` is the direction toward a directional light, the position of any other; `cone` that of a spot light. */
+export interface Light {
+    kind: given.Light["kind"];
+    vector: Vector;
+    color: Rgb;
+    cone: { direction: Vector; innerAngle: number; outerAngle: number } | undefined;
+}
+
+export interface Scene {
+    objects: SceneObject[];
+    camera: Camera;
+    lights: Light[];
+    background: { top: Rgb; bottom: Rgb };
+    ambientLight: Rgb;
+    invert: boolean;
+    width: number;
+    height: number;
+}
+
+/** Return the scene with all its values. InputError for one that is wrong, with its place. */
+export function checkedScene(scene: given.Scene): Scene {
+    check.fields(scene, "the scene", SCENE);
+    const width = check.whole(scene.width ?? DEFAULT_SIDE, "width", 1, MAX_SIDE);
+    const height = check.whole(scene.height ?? DEFAULT_SIDE, "height", 1, MAX_SIDE);
+    if (!Array.isArray(scene.objects)) throw new InputError(`objects must be a list, not ${show(scene.objects)}`);
+    const objects = scene.objects.map((each: given.SceneObject, index) => checkedObject(each, `objects[${index}]`));
+    let { camera, lights, background } = scene;
+    if (objects.length && camera === undefined && lights === undefined && background === undefined) {
+        camera = stagedCamera(objects.flatMap(worldPositions), width / height);
+        lights = [keyLight(VIEW)];
+        background = STAGED_BACKGROUND;
+    }
+    return {
+        objects,
+        camera: checkedCamera(camera ?? {}),
+        lights: checkedLights(lights ?? []),
+        background: checkedBackground(background ?? {}),
+        ambientLight: check.color(scene.ambientLight ?? WHITE, "ambientLight"),
+        invert: check.flag(scene.invert ?? false, "invert"),
+        width,
+        height,
+    };
+}
+
+export function checkedObject(object: given.SceneObject, where: string): SceneObject {
+    check.fields(object, where, OBJECT);
+    return {
+        mesh: checkedMesh(object.mesh, `${where}.mesh`),
+        position: check.vector(object.position ?? [0, 0, 0], `${where}.position`),
+        rotation: checkedRotation(object.rotation ?? [0, 0, 0, 1], `${where}.rotation`),
+        scale: check.number(object.scale ?? 1, `${where}.scale`, 0),
+        material: checkedMaterial(object.material ?? {}, `${where}.material`),
+        cull: check.flag(object.cull ?? true, `${where}.cull`),
+        wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
+        opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
+    };
+}
+
+function checkedRotation(value: given.Rotation, where: string): Quaternion {
+    return value.length === 3 ? fromEuler(check.vector(value, where)) : check.quaternion(value, where);
+}
+
+function checkedMaterial(material: given.Material, where: string): Material {
+    check.fields(material, where, MATERIAL);
+    return {
+        shading: check.choice(material.shading ?? "flat", `${where}.shading`, SHADINGS),
+        ambient: check.number(material.ambient ?? 0.3, `${where}.ambient`, 0, 4),
+        diffuse: check.number(material.diffuse ?? 0.75, `${where}.diffuse`, 0, 4),
+        specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
+        shininess: rint(check.number(material.shininess ?? 24, `${where}.shininess`, 1, 128)),
+    };
+}
+
+function checkedMesh(mesh: given.Mesh, where: string): Mesh {
+    check.fields(mesh, where, MESH);
+    const positions = rows(mesh.positions, `${where}.positions`);
+    const faces = rows(mesh.faces, `${where}.faces`);
+    const [count, faceCount] = [positions.length / 3, faces.length / 3];
+    if (!count || !faceCount) {
+        throw new InputError(`${where} needs vertices and faces; this one has ${count} and ${faceCount}`);
+    }
+    const bad = faces.findIndex((vertex) => !(Number.isInteger(vertex) && vertex >= 0 && vertex < count));
+    if (bad >= 0) {
+        const face = Math.floor(bad / 3);
+        throw new InputError(
+            `${where}.faces[${face}] names the vertex ${faces[bad]}, but vertices are numbered 0 to ${count - 1}`,
+        );
+    }
+    const normals = mesh.normals === undefined ? undefined : rows(mesh.normals, `${where}.normals`);
+    if (normals && normals.length !== positions.length) {
+        throw new InputError(`${where}.normals must be one for each of ${count} vertices, not ${normals.length / 3}`);
+    }
+    return {
+        positions,
+        faces: Uint32Array.from(faces),
+        colors: colorsOf(mesh.colors, count, `${where}.colors`),
+        normals,
+    };
+}
+
+function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Uint8Array {
+    const isOne =
+        typeof value === "string" || (check.isList(value) && value.length === 3 && typeof value[0] === "number");
+    if (value === undefined || (isOne && count !== 1)) {
+        const one = value === undefined ? DEFAULT_COLOR : check.color(value, where);
+        return Uint8Array.from({ length: 3 * count }, (_, index) => one[index % 3] as number);
+    }
+    const levels = rows(value as given.Rows, where);
+    if (levels.length !== 3 * count) {
+        throw new InputError(`${where} must be one for each of ${count} vertices, not ${levels.length / 3}`);
+    }
+    const bad = levels.findIndex((level) => !check.isLevel(level));
+    if (bad < 0) return Uint8Array.from(levels);
+    throw new InputError(`${where}[${Math.floor(bad / 3)}] must be whole numbers from 0 to 255, not ${levels[bad]}`);
+}
+
+/** Return rows of three finite numbers, one after the other. */
+function rows(value: given.Rows, where: string): Float64Array {
+    if (!check.isList(value)) throw new InputError(`${where} must be rows of three numbers, not ${show(value)}`);
+    let flat: Float64Array;
+    if (value.length && typeof value[0] !== "number") {
+        flat = new Float64Array(3 * value.length);
+        for (let index = 0; index < value.length; index++) {
+            flat.set(check.vector(value[index], `${where}[${index}]`), 3 * index);
+        }
+        return flat;
+    }
+    flat = Float64Array.from(value as ArrayLike<number>);
+    if (flat.length % 3) throw new InputError(`${where} must be rows of three numbers, not ${flat.length} in all`);
+    const bad = flat.findIndex((x) => !Number.isFinite(x));
+    if (bad < 0) return flat;
+    throw new InputError(`${where}[${Math.floor(bad / 3)}] must be three finite numbers, not ${show(value[bad])}`);
+}
+
+export function checkedCamera(camera: given.Camera): Camera {
+    check.fields(camera, "camera", CAMERA);
+    const projection = check.choice(camera.projection ?? "perspective", "camera.projection", PROJECTIONS);
+    const perspective = projection === "perspective";
+    const [low, high] = perspective ? [2 ** -10, 2 ** 10] : [1e-30, 1e30];
+    const near = camera.near === undefined ? undefined : check.number(camera.near, "camera.near");
+    if (perspective && near !== undefined && near <= 0) {
+        throw new InputError(`camera.near must be above 0 for a perspective camera, not ${near}`);
+    }
+    return {
+        eye: check.vector(camera.eye ?? [0, 0, 0], "camera.eye"),
+        target: check.vector(camera.target ?? [0, 0, -1], "camera.target"),
+        up: check.vector(camera.up ?? [0, 1, 0], "camera.up"),
+        projection,
+        halfHeight: check.number(camera.halfHeight ?? VIEW.halfHeight, "camera.halfHeight", low, high),
+        near,
+    };
+}
+
+function checkedLights(lights: readonly given.Light[]): Light[] {
+    if (!Array.isArray(lights)) throw new InputError(`lights must be a list, not ${show(lights)}`);
+    if (lights.length > MAX_LIGHTS) throw new InputError(`lights must be up to ${MAX_LIGHTS}, not ${lights.length}`);
+    return lights.map((light: given.Light, index) => checkedLight(light, `lights[${index}]`));
+}
+
+function checkedLight(light: given.Light, where: string): Light {
+    const kind = check.choice((light as given.Light | null)?.kind, `${where}.kind`, LIGHT_KINDS);
+    check.fields(light as given.SpotLight, where, LIGHTS[kind]);
+    const color = check.color(light.color ?? WHITE, `${where}.color`);
+    if (light.kind === "directional") {
+        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined };
+    }
+    const place = check.vector(light.position, `${where}.position`);
+    if (light.kind === "point") return { kind, vector: place, color, cone: undefined };
+    const direction = nonzero(light.direction, `${where}.direction`);
+    const innerAngle = check.number(light.innerAngle ?? 0, `${where}.innerAngle`, 0, 180);
+    const outerAngle = check.number(light.outerAngle ?? 45, `${where}.outerAngle`, 0, 180);
+    if (innerAngle > outerAngle) {
+        throw new InputError(`${where}.innerAngle, ${innerAngle}, must not be above its outerAngle, ${outerAngle}`);
+    }
+    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle } };
+}
+
+function nonzero(value: unknown, where: string): Vector {
+    const found = check.vector(value, where);
+    if (found.some((x) => x)) return found;
+    throw new InputError(`${where} must not be zero`);
+}
+
+function checkedBackground(value: given.Background | given.Color): { top: Rgb; bottom: Rgb } {
+    const { top, bottom }: given.Background =
+        typeof value === "string" || check.isList(value)
+            ? { top: value }
+            : check.fields(value as given.Background, "background", BACKGROUND);
+    const found = check.color(top ?? [0, 0, 0], "background.top");
+    return { top: found, bottom: bottom === undefined ? found : check.color(bottom, "background.bottom") };
+}
+
+/** Return the vertices of an object in the world. */
+export function worldPositions(object: SceneObject): Vector[] {
+    const { position, scale, mesh } = object;
+    const turn = rotation(object.rotation);
+    return Array.from({ length: mesh.positions.length / 3 }, (_, index) => {
+        const [x, y, z] = turn(times(scale, rowOf(mesh.positions, index)));
+        return [position[0] + x, position[1] + y, position[2] + z];
+    });
+}
+
+/** Return a row of three numbers. */
+export function rowOf(table: Float64Array, index: number): Vector {
+    return [table[3 * index] as number, table[3 * index + 1] as number, table[3 * index + 2] as number];
+}
+
+function stagedCamera(points: Vector[], aspect: number): given.Camera {
+    // of any size: squares of its lengths stay within floats
+    let size = 0;
+    for (const point of points) for (const x of point) size = Math.max(size, Math.abs(x));
+    if (!(size < LARGEST))
+        throw new InputError("the coordinates of the objects are too large for a camera to be placed");
+    size ||= 1;
+    const shape = points.map(([x, y, z]): Vector => [x / size, y / size, z / size]);
+    const camera = frame(shape, { ...VIEW, aspect });
+    return { ...camera, eye: times(size, camera.eye), target: times(size, camera.target) };
+}

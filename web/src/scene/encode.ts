@@ -1,0 +1,183 @@
+// Calls of contracts/src/Renderer.sol that draw a scene: the ABI encoding of contracts/src/scene/Scene.sol.
+//
+// Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
+
+import { InputError } from "../errors.js";
+import { cosine, rint } from "./arithmetic.js";
+import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject } from "./checked.js";
+import * as check from "./checks.js";
+import type { Rgb } from "./checks.js";
+import { fit, type FittedScene } from "./fit.js";
+import { pack } from "./mesh.js";
+import type { Rectangle, Scene } from "./types.js";
+
+/** The functions of the Renderer that draw a scene, and their selectors. Those of a tile take a Rectangle too. */
+export const FUNCTIONS = {
+    render: 0xa6c4c26c,
+    renderCounted: 0x7547c8c6,
+    renderDataURI: 0x5ba61092,
+    renderSVG: 0x6a94e1a6,
+    renderTile: 0x11f4bd8c,
+    renderTileCounted: 0xa7c8489b,
+} as const;
+export type FunctionName = keyof typeof FUNCTIONS;
+
+export const WORD = 32;
+/** Kinds of records in contracts/src/scene/Extensions.sol. */
+export const SPOT = 1;
+const OPACITY = 2;
+/** One, in opacities. */
+const OPAQUE = 2 ** 24;
+
+const PROJECTION_NUMBERS = { perspective: 0, orthographic: 1 } as const;
+const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
+const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
+const CULL_BACKFACES = 1;
+const WIREFRAME = 2;
+
+/**
+ * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
+ *
+ * name: the function; `renderTile` and `renderTileCounted` draw the part `tile` of the canvas. InputError for a value
+ * that is wrong.
+ */
+export function encode(scene: Scene, name: FunctionName = "render", tile?: Rectangle): Uint8Array {
+    check.choice(name, "the function", Object.keys(FUNCTIONS) as FunctionName[]);
+    const checked = checkedScene(scene);
+    if (isTiled(name) !== (tile !== undefined)) {
+        throw new InputError(isTiled(name) ? `${name} needs a tile` : `${name} takes no tile; renderTile does`);
+    }
+    const rectangle = tile ? checkedTile(tile, checked) : [];
+    const selector = new Uint8Array(4);
+    new DataView(selector.buffer).setUint32(0, FUNCTIONS[name]);
+    return joined([selector, words([WORD * (1 + rectangle.length), ...rectangle]), encodeScene(fit(checked))]);
+}
+
+/** Return whether a function takes a Rectangle. */
+export function isTiled(name: FunctionName): boolean {
+    return name.startsWith("renderTile");
+}
+
+function checkedTile({ x, y, width, height }: Rectangle, scene: CheckedScene): number[] {
+    const inside = (start: number, size: number, all: number): boolean =>
+        start >= 0 && size >= 1 && start + size <= all;
+    const numbers = [x, y, width, height];
+    if (!numbers.every(Number.isInteger) || !inside(x, width, scene.width) || !inside(y, height, scene.height)) {
+        const canvas = `the canvas of ${scene.width} x ${scene.height} pixels`;
+        throw new InputError(`the tile of ${width} x ${height} at (${x}, ${y}) does not lie on ${canvas}`);
+    }
+    return numbers;
+}
+
+/** Return the struct Scene. */
+function encodeScene(scene: FittedScene): Uint8Array {
+    const { camera } = scene;
+    const head = words([
+        scene.width,
+        scene.height,
+        ...[...camera.eye, ...camera.target, ...camera.up].map(q32),
+        PROJECTION_NUMBERS[camera.projection],
+        q32(camera.halfHeight),
+        q32(camera.near),
+        rgb(scene.background.top),
+        rgb(scene.background.bottom),
+        Number(scene.invert),
+        rgb(scene.ambientLight),
+    ]);
+    const lights = joined([words([scene.lights.length]), ...scene.lights.map(encodeLight)]);
+    const objects = arrayOfDynamic(scene.objects.map(encodeObject));
+    const first = head.length + 3 * WORD;
+    const offsets = words([first, first + lights.length, first + lights.length + objects.length]);
+    return joined([head, offsets, lights, objects, dynamicBytes(extensions(scene))]);
+}
+
+/** Return the fields that the structs do not have: records in ascending order of kind and index. */
+function extensions(scene: CheckedScene): Uint8Array {
+    const records: Uint8Array[] = [];
+    scene.lights.forEach(({ cone }, index) => {
+        if (!cone) return;
+        const content = new DataView(new ArrayBuffer(40));
+        const numbers = [...cone.direction, cosine(cone.innerAngle), cosine(cone.outerAngle)];
+        numbers.forEach((value, place) => content.setBigInt64(8 * place, q32(value)));
+        records.push(record(SPOT, index, content));
+    });
+    scene.objects.forEach((object, index) => {
+        const opacity = rint(object.opacity * OPAQUE);
+        if (opacity >= OPAQUE) return;
+        const content = new DataView(new ArrayBuffer(4));
+        content.setUint32(0, opacity);
+        records.push(record(OPACITY, index, content));
+    });
+    return joined(records);
+}
+
+function record(kind: number, index: number, content: DataView): Uint8Array {
+    if (index > 0xffff) {
+        throw new InputError(`transparent objects must be among the first 65,536 of a scene, not number ${index}`);
+    }
+    const head = new DataView(new ArrayBuffer(5));
+    head.setUint8(0, kind);
+    head.setUint16(1, index);
+    head.setUint16(3, content.byteLength);
+    return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
+}
+
+function encodeLight(light: Light): Uint8Array {
+    return words([LIGHT_NUMBERS[light.kind], ...light.vector.map(q32), rgb(light.color)]);
+}
+
+function encodeObject(object: SceneObject): Uint8Array {
+    const { material } = object;
+    const fields = [
+        ...[...object.position, ...object.rotation, object.scale].map(q32),
+        SHADING_NUMBERS[material.shading],
+        ...[material.ambient, material.diffuse, material.specular].map(q32),
+        material.shininess,
+        (object.cull ? CULL_BACKFACES : 0) | (object.wireframe ? WIREFRAME : 0),
+    ];
+    const mesh = pack(object.mesh, material.shading === "smooth");
+    return joined([words([WORD * (1 + fields.length), ...fields]), dynamicBytes(mesh)]);
+}
+
+function arrayOfDynamic(items: Uint8Array[]): Uint8Array {
+    let end = WORD * items.length;
+    const offsets = items.map((item) => (end += item.length) - item.length);
+    return joined([words([items.length, ...offsets]), ...items]);
+}
+
+function dynamicBytes(content: Uint8Array): Uint8Array {
+    return joined([words([content.length]), content, new Uint8Array(-content.length & (WORD - 1))]);
+}
+
+function rgb([red, green, blue]: Rgb): number {
+    return (red << 16) | (green << 8) | blue;
+}
+
+/** Return a number as a multiple of 2^-32, rounded to nearest, ties to even. */
+export function q32(value: number): bigint {
+    return BigInt(rint(value * 2 ** 32));
+}
+
+/** Return whole numbers of up to 63 bits as words. */
+function words(values: readonly (number | bigint)[]): Uint8Array {
+    const bytes = new Uint8Array(WORD * values.length);
+    values.forEach((value, index) => setWord(bytes, WORD * index, BigInt(value)));
+    return bytes;
+}
+
+/** Write a word. */
+export function setWord(bytes: Uint8Array, place: number, value: bigint): void {
+    if (BigInt.asIntN(64, value) !== value) throw new InputError(`a number of the scene is too large for a contract`);
+    bytes.fill(value < 0n ? 0xff : 0, place, place + WORD - 8);
+    new DataView(bytes.buffer, bytes.byteOffset).setBigInt64(place + WORD - 8, value);
+}
+
+function joined(parts: readonly Uint8Array[]): Uint8Array {
+    const bytes = new Uint8Array(parts.reduce((size, part) => size + part.length, 0));
+    let place = 0;
+    for (const part of parts) {
+        bytes.set(part, place);
+        place += part.length;
+    }
+    return bytes;
+}

@@ -1,0 +1,262 @@
+// Conversion of scenes to the number ranges of the contracts, without a change of the picture.
+// src/shackled/scene/_fit.py, whose numbers these are, says how and why.
+
+import { InputError } from "../errors.js";
+import {
+    add,
+    cross,
+    dot,
+    exponentOf,
+    largest,
+    length,
+    powerOfTwo,
+    rint,
+    rotation,
+    subtract,
+    times,
+    unit,
+    type Quaternion,
+    type Vector,
+} from "./arithmetic.js";
+import { rowOf, worldPositions, type Camera, type Light, type Mesh, type Scene, type SceneObject } from "./checked.js";
+import { MAX_SHORT, MAX_WIDE, fits, isIntegral, vertexNormals } from "./mesh.js";
+
+/** Limits of the contracts, in world units. */
+export const MAX_COORDINATE = 2 ** 26;
+export const MIN_HALF_HEIGHT = 2 ** -12;
+const STEP = 2 ** -32;
+
+/** The largest step of a mesh's grid, in pixels, before a finer grid is used. */
+const STEP_IN_PIXELS = 1 / 32;
+/** The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther. */
+const EXACT_SIZES = [2 ** -2, 2 ** 22] as const;
+/** The exponents to which others are scaled: of their largest object, and of the farthest point at most. */
+const SIZE_EXPONENT = 12;
+const REACH_EXPONENT = 25;
+/** The default near plane as a share of the farthest distance. */
+const NEAR_PART = 2 ** -10;
+/** Directions of these lengths keep their precision in multiples of 2^-32. */
+const DIRECTION_LENGTHS = [2 ** -8, 2 ** 20] as const;
+
+/** A scene whose camera has a near plane. */
+export type FittedScene = Scene & { camera: { near: number } };
+
+/** Return the scene in the number ranges of the contracts, with integer coordinates and a near plane. */
+export function fit(scene: Scene): FittedScene {
+    checkView(scene.camera);
+    const prepared = { ...scene, objects: scene.objects.map(prepare) };
+    let { camera, lights, objects } = prepared;
+    let near: number;
+    if (isExact(prepared)) {
+        near = nearPlane(prepared, 1, 1);
+    } else {
+        const factor = factorOf(prepared);
+        near = nearPlane(prepared, factor, MAX_COORDINATE);
+        camera = moveCamera(camera, factor);
+        lights = lights.map((light) => moveLight(light, scene.camera.eye, factor));
+        objects = objects.map((object) => moveObject(object, prepared, factor));
+    }
+    return {
+        ...prepared,
+        camera: { ...camera, up: direction(camera.up), near },
+        lights: lights.map(pointed),
+        objects: objects.map((object) => ({ ...object, rotation: direction(object.rotation) })),
+    };
+}
+
+function pointed(light: Light): Light {
+    if (light.kind === "directional") return { ...light, vector: direction(light.vector) };
+    return light.cone ? { ...light, cone: { ...light.cone, direction: direction(light.cone.direction) } } : light;
+}
+
+function checkView({ eye, target, up }: Camera): void {
+    const forward = subtract(target, eye);
+    if (!forward.some((x) => x)) {
+        throw new InputError(`the camera's eye and target are the same point, (${eye.join(", ")})`);
+    }
+    if (!up.some((x) => x)) throw new InputError("the camera's up must not be (0, 0, 0)");
+    if (length(cross(unit(forward), unit(up))) < 1e-9) {
+        throw new InputError(`the camera looks along its up direction, (${up.join(", ")}); choose another up`);
+    }
+}
+
+/** Return the object without unused vertices, and with the normals that smooth shading needs. */
+function prepare(object: SceneObject): SceneObject {
+    const { mesh } = object;
+    const count = mesh.positions.length / 3;
+    const normals = object.material.shading === "smooth" ? (mesh.normals ?? computedNormals(mesh)) : undefined;
+    const numbers = new Int32Array(count).fill(-1);
+    for (const vertex of mesh.faces) numbers[vertex] = 0;
+    let used = 0;
+    for (let vertex = 0; vertex < count; vertex++) if (numbers[vertex] === 0) numbers[vertex] = used++;
+    if (used === count) return { ...object, mesh: { ...mesh, normals } };
+    const kept = <T extends Float64Array | Uint8Array>(table: T): T =>
+        table.filter((_, index) => (numbers[Math.floor(index / 3)] as number) >= 0) as T;
+    return {
+        ...object,
+        mesh: {
+            positions: kept(mesh.positions),
+            faces: mesh.faces.map((vertex) => numbers[vertex] as number),
+            colors: kept(mesh.colors),
+            normals: normals && kept(normals),
+        },
+    };
+}
+
+function computedNormals({ positions, faces }: Mesh): Float64Array {
+    const { center, radius } = boxOf(positions);
+    // of any size: squares of its lengths stay within floats
+    const shape = positions.map((x, index) => (x - (center[index % 3] as number)) / (radius || 1));
+    return vertexNormals(shape, faces);
+}
+
+/** Return whether the contracts represent the scene exactly, well within their ranges. */
+function isExact({ camera, lights, objects }: Scene): boolean {
+    const lengths = [...camera.eye, ...camera.target, camera.near ?? 0];
+    if (camera.projection === "orthographic") lengths.push(camera.halfHeight);
+    for (const light of lights) if (light.kind !== "directional") lengths.push(...light.vector);
+    let reach = largest(lengths);
+    for (const { mesh, scale, position } of objects) {
+        if (!isIntegral(mesh.positions) || scale > maxScale(mesh.positions)) return false;
+        lengths.push(scale, ...position);
+        const size = mesh.positions.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+        reach = Math.max(reach, largest(position) + scale * size);
+    }
+    const view = cross(unit(subtract(camera.target, camera.eye)), unit(camera.up));
+    // by `moveCamera`: a scene decoded from a call must not be moved again
+    const isMoved = largest(camera.eye) === 0 && (camera.near !== undefined || camera.projection === "orthographic");
+    return (
+        EXACT_SIZES[0] <= reach &&
+        (reach <= EXACT_SIZES[1] || (isMoved && largest(lengths) <= MAX_COORDINATE)) &&
+        lengths.every((each) => each % STEP === 0) &&
+        (camera.projection === "perspective" || camera.halfHeight >= MIN_HALF_HEIGHT) &&
+        length(view) >= DIRECTION_LENGTHS[0]
+    );
+}
+
+/** Return the factor by which a scene is scaled, a power of two. */
+function factorOf(scene: Scene): number {
+    const { size, farthest } = extentOf(scene);
+    let reach = farthest;
+    if (scene.camera.projection === "orthographic") reach = Math.max(reach, scene.camera.halfHeight);
+    for (const light of scene.lights) {
+        if (light.kind !== "directional") {
+            // lights far beyond the scene may be moved nearer: their direction hardly changes
+            const distance = largest(subtract(light.vector, scene.camera.eye));
+            reach = Math.max(reach, Math.min(distance, 1024 * reach));
+        }
+    }
+    let exponent = reach ? REACH_EXPONENT - exponentOf(reach) : 0;
+    if (size) exponent = Math.min(exponent, SIZE_EXPONENT - exponentOf(size));
+    return powerOfTwo(Math.min(Math.max(exponent, -1000), 1000));
+}
+
+/** Return half the largest side of an object, and how far any reaches from the eye along an axis. */
+function extentOf({ objects, camera }: Scene): { size: number; farthest: number } {
+    let [size, farthest] = [0, 0];
+    for (const { mesh, scale, position, rotation: quaternion } of objects) {
+        const { center, radius } = boxOf(mesh.positions);
+        const place = subtract(add(position, rotation(quaternion)(times(scale, center))), camera.eye);
+        size = Math.max(size, scale * radius);
+        farthest = Math.max(farthest, largest(place) + scale * radius);
+    }
+    if (!Number.isFinite(farthest)) {
+        throw new InputError(
+            "the scene is too large: its coordinates, scaled and moved, are beyond what a float holds",
+        );
+    }
+    return { size, farthest };
+}
+
+function moveCamera(camera: Camera, factor: number): Camera {
+    const forward = unit(subtract(camera.target, camera.eye));
+    const up = unit(camera.up);
+    let { halfHeight } = camera;
+    if (camera.projection === "orthographic") {
+        halfHeight *= factor;
+        if (halfHeight < MIN_HALF_HEIGHT) {
+            throw new InputError(`the camera's halfHeight ${camera.halfHeight} is too small for the size of the scene`);
+        }
+    }
+    return {
+        ...camera,
+        eye: [0, 0, 0],
+        target: times(2 ** SIZE_EXPONENT, forward),
+        // upright on the line of sight, so that the cross product loses nothing
+        up: unit(subtract(up, times(dot(up, forward), forward))),
+        halfHeight,
+    };
+}
+
+/** Return the distance of the near plane, times the factor: the camera's own, or else a part of the farthest distance. */
+function nearPlane(scene: Scene, factor: number, most: number): number {
+    const { projection, near } = scene.camera;
+    if (projection === "orthographic") {
+        return Math.min(Math.max(near === undefined ? -Infinity : near * factor, -MAX_COORDINATE), MAX_COORDINATE);
+    }
+    if (near !== undefined) return Math.min(Math.max(near * factor, STEP), MAX_COORDINATE);
+    const { farthest } = extentOf(scene);
+    return farthest ? Math.max(Math.min(farthest * factor * NEAR_PART, most), STEP) : 1;
+}
+
+function moveLight(light: Light, eye: Vector, factor: number): Light {
+    if (light.kind === "directional") return light;
+    const place = times(factor, subtract(light.vector, eye));
+    // a light so far away keeps its direction
+    const distance = largest(place);
+    return { ...light, vector: distance ? times(Math.min(1, 2 ** REACH_EXPONENT / distance), place) : place };
+}
+
+function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObject {
+    let { mesh } = object;
+    let center: Vector = [0, 0, 0];
+    let step = 1;
+    if (!isIntegral(mesh.positions) || object.scale * factor > maxScale(mesh.positions)) {
+        const box = boxOf(mesh.positions);
+        center = box.center;
+        step = box.radius / stepsOf(object, box.radius, scene, factor);
+        const grid = mesh.positions.map((x, index) => (step ? rint((x - (center[index % 3] as number)) / step) : 0));
+        mesh = { ...mesh, positions: grid };
+    }
+    const turned = rotation(object.rotation)(times(object.scale, center));
+    const place = subtract(add(object.position, turned), scene.camera.eye);
+    return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor };
+}
+
+/** Return how many steps the grid of an object has across half its largest side. */
+function stepsOf(object: SceneObject, radius: number, scene: Scene, factor: number): number {
+    const { camera } = scene;
+    let pixels = scene.height / (2 * camera.halfHeight);
+    if (camera.projection === "perspective") {
+        const forward = unit(subtract(camera.target, camera.eye));
+        const depths = worldPositions(object).map((place) => dot(subtract(place, camera.eye), forward));
+        const nearest = depths.reduce((least, depth) => Math.min(least, depth));
+        pixels /= Math.max(nearest, nearPlane(scene, factor, MAX_COORDINATE) / factor);
+    }
+    const size = object.scale * radius;
+    if (size * pixels <= STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;
+    // the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
+    return Math.trunc(Math.min(Math.max(Math.sqrt((size * factor) / STEP), MAX_SHORT), MAX_WIDE));
+}
+
+/** Return the scale up to which the contracts draw a mesh of these coordinates, which depends on their bits. */
+function maxScale(positions: Float64Array): number {
+    return fits(positions, MAX_SHORT) ? 2 ** 12 : 2 ** 4;
+}
+
+/** Return the middle of the bounding box, and the largest distance from it along an axis. */
+function boxOf(positions: Float64Array): { center: Vector; radius: number } {
+    const [low, high] = [rowOf(positions, 0), rowOf(positions, 0)];
+    positions.forEach((x, index) => {
+        const axis = (index % 3) as 0 | 1 | 2;
+        low[axis] = Math.min(low[axis], x);
+        high[axis] = Math.max(high[axis], x);
+    });
+    const [a, b] = [times(0.5, low), times(0.5, high)];
+    return { center: add(a, b), radius: Math.max(...subtract(b, a)) };
+}
+
+export function direction<V extends Vector | Quaternion>(v: V): V {
+    const size = largest(v);
+    return DIRECTION_LENGTHS[0] <= size && size <= DIRECTION_LENGTHS[1] ? v : unit(v);
+}

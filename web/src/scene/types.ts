@@ -1,0 +1,131 @@
+// What a scene is made of. docs/scene-files.md describes the fields; units and ranges are those of scene files.
+
+/** Rows of three numbers, as arrays or one after the other. */
+export type Rows = ArrayLike<number> | readonly ArrayLike<number>[];
+
+/** x, y, z. */
+export type Vector3 = readonly [number, number, number];
+
+/**
+ * Red, green and blue in whole numbers 0..255, or in fractions 0..1 of which one at least is not whole; "#rrggbb", or the
+ * CSS name of a colour.
+ */
+export type Color = readonly [number, number, number] | string;
+
+/** Three angles in degrees about the axes x, then y, then z; or a quaternion x, y, z, w of any length but zero. */
+export type Rotation = Vector3 | readonly [number, number, number, number];
+
+/** A triangle mesh; counter-clockwise faces are seen from the front. */
+export interface Mesh {
+    /** The vertices. */
+    positions: Rows;
+    /** Three vertex numbers, from 0, for each triangle. */
+    faces: Rows;
+    /** Red, green and blue of each vertex, 0..255; or one colour for all. Light grey by default. */
+    colors?: Rows | Color | undefined;
+    /** The normal of each vertex; computed for smooth shading where there are none. */
+    normals?: Rows | undefined;
+}
+
+export type Shading = "unlit" | "flat" | "smooth";
+
+/** Coefficients of Blinn-Phong shading, each 0..4; `shininess` is a whole number, 1..128. */
+export interface Material {
+    shading?: Shading | undefined;
+    ambient?: number | undefined;
+    diffuse?: number | undefined;
+    specular?: number | undefined;
+    shininess?: number | undefined;
+}
+
+/** A mesh in the world: a vertex v is at position + rotation(scale * v). */
+export interface SceneObject {
+    mesh: Mesh;
+    position?: Vector3 | undefined;
+    rotation?: Rotation | undefined;
+    scale?: number | undefined;
+    material?: Material | undefined;
+    /** Whether faces that turn away from the viewer are left out; true by default. */
+    cull?: boolean | undefined;
+    /** Whether only the edges are drawn. */
+    wireframe?: boolean | undefined;
+    /** 0..1. Objects below 1 are drawn after the others, in their order. */
+    opacity?: number | undefined;
+}
+
+export type Projection = "perspective" | "orthographic";
+
+/** A camera; by default at the origin, looking down -z. */
+export interface Camera {
+    eye?: Vector3 | undefined;
+    target?: Vector3 | undefined;
+    up?: Vector3 | undefined;
+    projection?: Projection | undefined;
+    /** Half the height of what the picture shows: at distance 1 in perspective (`halfHeightOf`), else in world units. */
+    halfHeight?: number | undefined;
+    /** Distance of the near plane. */
+    near?: number | undefined;
+}
+
+/** A light at infinity; `direction` is that toward the light. */
+export interface DirectionalLight {
+    kind: "directional";
+    direction: Vector3;
+    color?: Color | undefined;
+}
+
+/** A light that shines in all directions, and does not fade. */
+export interface PointLight {
+    kind: "point";
+    position: Vector3;
+    color?: Color | undefined;
+}
+
+/** A light that shines into a cone about `direction`; its angles are in degrees, 0..180. */
+export interface SpotLight {
+    kind: "spot";
+    position: Vector3;
+    direction: Vector3;
+    color?: Color | undefined;
+    /** Up to which its light is full; 0 by default. */
+    innerAngle?: number | undefined;
+    /** At which its light ends; 45 by default. */
+    outerAngle?: number | undefined;
+}
+
+export type Light = DirectionalLight | PointLight | SpotLight;
+
+/** A vertical gradient; `bottom` is the colour of the top by default. */
+export interface Background {
+    top?: Color | undefined;
+    bottom?: Color | undefined;
+}
+
+/**
+ * Objects, drawn in their order with one depth buffer, seen by a camera.
+ *
+ * Without camera, lights and background, objects are staged: the camera sees all of them from a little above and to the
+ * side, and a white light shines from the upper left.
+ */
+export interface Scene {
+    objects: readonly SceneObject[];
+    camera?: Camera | undefined;
+    /** Up to four. */
+    lights?: readonly Light[] | undefined;
+    background?: Background | Color | undefined;
+    /** The colour of the light that comes from everywhere; white by default. */
+    ambientLight?: Color | undefined;
+    /** Whether each byte v of the picture becomes 255 - v. */
+    invert?: boolean | undefined;
+    /** In pixels, 1..2048; 128 by default. */
+    width?: number | undefined;
+    height?: number | undefined;
+}
+
+/** A part of the canvas, in pixels from the top left corner. */
+export interface Rectangle {
+    x: number;
+    y: number;
+    width: number;
+    height: number;
+}

@@ -1,0 +1,609 @@
+// The custom element <shackled-view>.
+
+import { InputError } from "../errors.js";
+import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
+import type { CallFacts } from "../turn.js";
+import { Client, Interrupted } from "./client.js";
+import { listen, type Change } from "./gestures.js";
+import type { Checked, Drawn, Source, Wish } from "./protocol.js";
+import { MAX_FILE } from "./source.js";
+import { Speed, type Size } from "./speed.js";
+import { STYLE } from "./style.js";
+
+/** What the event `turn` tells: degrees, and a factor. */
+export type TurnDetail = Change;
+
+/** What the event `picture` tells of the picture at rest, in the contract's own pixels. */
+export interface PictureDetail {
+    gas: number;
+    width: number;
+    height: number;
+    /** That the contracts took. */
+    milliseconds: number;
+    /** Of red, green and blue of all pixels, rows from the top; null in pages that browsers give no cryptography. */
+    sha256: string | null;
+}
+
+const START: Change = { azimuth: 0, elevation: 0, zoom: 1 };
+const MAX_SIDE = 2048;
+const MAX_ZOOM = 50;
+/** Milliseconds without movement, after which the picture at rest is drawn. */
+const REST = 160;
+/** Milliseconds, by an estimate that is usually far too high, above which the picture at rest is not larger than the call's. */
+const PATIENCE = 15_000;
+/** A picture at rest that takes longer than this is given up when the viewer moves. */
+const INTERRUPT = 60;
+/** Milliseconds in which the speed of a drag that was let go falls to a third, and the speed at which it ends. */
+const INERTIA = 160;
+const SLOWEST = 0.01;
+/** Milliseconds that a picture may take, unless the attribute `timeout` says otherwise; and a check by a node. */
+const TIMEOUT = 30_000;
+const CHECK_TIMEOUT = 300_000;
+const SOURCES = ["src", "rpc", "studio", "pointer"];
+
+/** Shows a scene as the contracts draw it, in a worker. docs/view.md describes its attributes, properties and events. */
+export class ShackledView extends HTMLElement {
+    /** Where evm.wasm and contracts.json come from, for all elements without attributes `evm` and `contracts`. */
+    static assets: AssetSources = {};
+    static readonly observedAttributes = [...SOURCES, "exact", "label"];
+    static readonly #loaded = new Map<string, Promise<Assets>>();
+
+    readonly #parts: Parts;
+    #source: Source | null = null;
+    #call: Uint8Array<ArrayBuffer> | null = null;
+    #facts: CallFacts | null = null;
+    #turn: Change = { ...START };
+    #picture: (PictureDetail & { pixels: Uint8ClampedArray<ArrayBuffer> }) | null = null;
+
+    #client: Client | null = null;
+    #connected: AbortController | null = null;
+    #speed = new Speed();
+    /** Increases with every scene; what belongs to an earlier one is dropped. */
+    #generation = 0;
+    /** The size of all frames of a movement; null at rest. */
+    #moving: Size | null = null;
+    #held = false;
+    #dirty = false;
+    #drawing: Wish | null = null;
+    #checking = false;
+    #rest = 0;
+    #inertia = 0;
+
+    constructor() {
+        super();
+        this.#parts = build(this.attachShadow({ mode: "open" }));
+        const { exact, panel, more, reset, form } = this.#parts;
+        exact.onclick = () => this.toggleAttribute("exact");
+        more.onclick = () => {
+            panel.hidden = !panel.hidden;
+            more.setAttribute("aria-expanded", String(!panel.hidden));
+        };
+        reset.onclick = () => this.reset();
+        form.onsubmit = (event) => {
+            event.preventDefault();
+            void this.check(this.#parts.url.value.trim());
+        };
+    }
+
+    /** The bytes of the call that is shown, unturned; null before there is one. Set them to show another. */
+    get call(): Uint8Array | null {
+        return this.#call && new Uint8Array(this.#call);
+    }
+
+    set call(call: Uint8Array) {
+        if (!(call instanceof Uint8Array)) throw new InputError("call must be a Uint8Array");
+        this.#show({ file: new Uint8Array(call) });
+    }
+
+    /** Show a scene file: its JSON as text, or as a value. */
+    set scene(scene: string | object) {
+        const text = typeof scene === "string" ? scene : JSON.stringify(scene);
+        this.#show({ file: new TextEncoder().encode(text) });
+    }
+
+    /** Show the scene of a file: the bytes of a call, a scene file, or a PNG file that Shackled wrote. */
+    async open(file: Blob): Promise<void> {
+        if (file.size > MAX_FILE) {
+            this.#fail(`a file must have up to ${MAX_FILE.toLocaleString("en")} bytes`);
+            return;
+        }
+        this.#show({ file: new Uint8Array(await file.arrayBuffer()) });
+    }
+
+    /** From where the scene is seen: degrees to the right and upward, and a factor. */
+    get turn(): TurnDetail {
+        return { ...this.#turn };
+    }
+
+    set turn(turn: Partial<TurnDetail>) {
+        cancelAnimationFrame(this.#inertia);
+        this.#move(() => this.#face({ ...START, ...turn }));
+    }
+
+    /** The last picture at rest, with the contract's own pixels in RGBA; null before there is one. */
+    get picture(): (PictureDetail & { pixels: Uint8ClampedArray }) | null {
+        return this.#picture;
+    }
+
+    /** See the scene as its call does. */
+    reset(): void {
+        cancelAnimationFrame(this.#inertia);
+        this.#move(() => this.#face(START));
+    }
+
+    /** Have a node compute the same picture, and compare all bytes. url: of its JSON-RPC. The element shows the outcome. */
+    async check(url: string): Promise<Checked> {
+        const { outcome, send } = this.#parts;
+        const show = (checked: Checked | null): void => {
+            outcome.textContent = checked?.message ?? "Asking the node ...";
+            if (checked) outcome.dataset["outcome"] = checked.outcome;
+            else delete outcome.dataset["outcome"];
+        };
+        let checked: Checked = { outcome: "unknown", message: "There is no picture to check." };
+        if (this.#client && this.#facts && !this.#checking) {
+            show(null);
+            this.#checking = send.disabled = true;
+            try {
+                checked = await this.#client.ask("check", { url, wish: this.#wish(1) }, CHECK_TIMEOUT);
+            } catch (error) {
+                checked = { outcome: "unknown", message: `The check was interrupted: ${messageOf(error)}.` };
+            } finally {
+                this.#checking = send.disabled = false;
+            }
+        }
+        show(checked);
+        return checked;
+    }
+
+    connectedCallback(): void {
+        this.#connected = new AbortController();
+        const { signal } = this.#connected;
+        const { stage } = this.#parts;
+        listen(
+            stage,
+            {
+                change: (change, held) => this.#change(change, held),
+                release: (speed) => this.#release(speed),
+                reset: () => this.reset(),
+            },
+            signal,
+        );
+        this.#listenToFiles(signal);
+        // pictures that nobody sees cost nothing
+        const observer = new IntersectionObserver(
+            (entries) => {
+                if (!entries.some((entry) => entry.isIntersecting)) return;
+                observer.disconnect();
+                this.#client = new Client(this.#assets());
+                if (this.#source) this.#show(this.#source);
+                else this.#load();
+            },
+            { rootMargin: "200px" },
+        );
+        observer.observe(this);
+        signal.addEventListener("abort", () => observer.disconnect());
+    }
+
+    disconnectedCallback(): void {
+        this.#connected?.abort();
+        this.#connected = null;
+        this.#generation++;
+        clearTimeout(this.#rest);
+        cancelAnimationFrame(this.#inertia);
+        this.#client?.stop();
+        this.#client = null;
+        this.#drawing = this.#moving = null;
+    }
+
+    attributeChangedCallback(name: string, before: string | null, after: string | null): void {
+        const { exact, stage } = this.#parts;
+        if (name === "label") stage.setAttribute("aria-label", after || "3D scene");
+        if (name === "exact") {
+            exact.setAttribute("aria-pressed", String(after !== null));
+            if ((before === null) !== (after === null)) this.#settle();
+        }
+        if (SOURCES.includes(name) && before !== after) {
+            this.#source = null;
+            // attributes that are set one after the other are one source
+            queueMicrotask(() => this.#load());
+        }
+    }
+
+    /** Begin with what the attributes name. */
+    #load(): void {
+        if (!this.#client || this.#source) return;
+        const [src, rpc, studio, pointer] = SOURCES.map((name) => this.getAttribute(name)) as (string | null)[];
+        if (src) {
+            const generation = ++this.#generation;
+            const url = src.startsWith("#") ? src : new URL(src, document.baseURI).href;
+            fetchBytes(url, MAX_FILE, "the scene", this.#connected?.signal).then(
+                (file) => generation === this.#generation && this.#show({ file }),
+                (error: unknown) => generation === this.#generation && this.#fail(messageOf(error)),
+            );
+        } else if (rpc && studio && pointer) {
+            this.#show({ rpc, studio, pointer });
+        }
+    }
+
+    #assets(): Promise<Assets> {
+        const { assets } = ShackledView;
+        const own = { evm: this.getAttribute("evm"), contracts: this.getAttribute("contracts") };
+        const key = JSON.stringify(own);
+        const known = ShackledView.#loaded.get(key);
+        if (known) return known;
+        const loaded = loadAssets({ evm: own.evm ?? assets.evm, contracts: own.contracts ?? assets.contracts });
+        ShackledView.#loaded.set(key, loaded);
+        // what could not be loaded may be there later
+        loaded.catch(() => ShackledView.#loaded.delete(key));
+        return loaded;
+    }
+
+    #listenToFiles(signal: AbortSignal): void {
+        const { stage } = this.#parts;
+        const mark = (event: DragEvent, on: boolean): void => {
+            event.preventDefault();
+            stage.classList.toggle("drop", on);
+        };
+        this.addEventListener("dragover", (event) => mark(event, true), { signal });
+        this.addEventListener("dragleave", (event) => mark(event, false), { signal });
+        this.addEventListener(
+            "drop",
+            (event) => {
+                mark(event, false);
+                const file = event.dataTransfer?.files[0];
+                if (file) void this.open(file);
+            },
+            { signal },
+        );
+    }
+
+    /** Show another scene. */
+    #show(source: Source): void {
+        this.#source = source;
+        if (this.#client) void this.#open(this.#client, source);
+    }
+
+    async #open(client: Client, source: Source): Promise<void> {
+        const generation = ++this.#generation;
+        cancelAnimationFrame(this.#inertia);
+        clearTimeout(this.#rest);
+        client.stop();
+        this.#drawing = this.#moving = null;
+        this.#facts = this.#call = this.#picture = null;
+        this.#turn = { ...START };
+        this.#speed = new Speed();
+        this.#busy(true);
+        this.#say("");
+        try {
+            const { call, facts } = await client.ask("open", source, "file" in source ? this.#timeout : CHECK_TIMEOUT);
+            if (generation !== this.#generation) return;
+            client.call = this.#call = call;
+            this.#facts = facts;
+            this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
+            await this.#drawAtRest();
+        } catch (error) {
+            if (generation !== this.#generation) return;
+            this.#fail(messageOf(error), error);
+            if (this.#picture) return;
+            // nothing of the scene before it remains
+            const { canvas, poster, bar, panel, more } = this.#parts;
+            canvas.hidden = bar.hidden = panel.hidden = true;
+            more.setAttribute("aria-expanded", "false");
+            poster.hidden = false;
+        }
+    }
+
+    get #timeout(): number {
+        const given = Number(this.getAttribute("timeout"));
+        return given > 0 ? given : TIMEOUT;
+    }
+
+    // ---- movement ----
+
+    #change(change: Partial<Change>, held: boolean): void {
+        cancelAnimationFrame(this.#inertia);
+        if (!this.#facts) return;
+        this.#held = held;
+        const { azimuth = 0, elevation = 0, zoom = 1 } = change;
+        if (!azimuth && !elevation && zoom === 1) return;
+        this.#move(() => this.#turnBy(azimuth, elevation, zoom));
+    }
+
+    #turnBy(azimuth: number, elevation: number, zoom: number): void {
+        const { azimuth: a, elevation: e, zoom: z } = this.#turn;
+        this.#face({ azimuth: a + azimuth, elevation: e + elevation, zoom: z * zoom });
+    }
+
+    /** Go on for a moment at the speed at which the scene was let go. */
+    #release(speed: { azimuth: number; elevation: number }): void {
+        this.#held = false;
+        this.#settle();
+        if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+        let last = performance.now();
+        let { azimuth, elevation } = speed;
+        const step = (now: number): void => {
+            const time = Math.max(now - last, 0);
+            last = now;
+            if (Math.hypot(azimuth, elevation) < SLOWEST) return;
+            this.#move(() => this.#turnBy(azimuth * time, elevation * time, 1));
+            const decay = Math.exp(-time / INERTIA);
+            azimuth *= decay;
+            elevation *= decay;
+            this.#inertia = requestAnimationFrame(step);
+        };
+        this.#inertia = requestAnimationFrame(step);
+    }
+
+    /** Take a turn, within its range. */
+    #face({ azimuth, elevation, zoom }: Change): void {
+        const [low, high] = this.#facts?.elevations ?? [-90, 90];
+        const clamp = (value: number, least: number, most: number): number => Math.min(Math.max(value, least), most);
+        if (![azimuth, elevation, zoom].every(Number.isFinite)) throw new InputError("turn must consist of numbers");
+        this.#turn = {
+            // within half a turn, so that numbers stay short
+            azimuth: azimuth - 360 * Math.round(azimuth / 360),
+            elevation: clamp(elevation, low, high),
+            zoom: clamp(zoom, 1 / MAX_ZOOM, MAX_ZOOM),
+        };
+        const { reset } = this.#parts;
+        reset.hidden = !(this.#turn.azimuth || this.#turn.elevation || this.#turn.zoom !== 1);
+        this.dispatchEvent(new CustomEvent<TurnDetail>("turn", { detail: this.turn, bubbles: true, composed: true }));
+    }
+
+    /** Change the turn, and draw frames of one size until the viewer rests. */
+    #move(change: () => void): void {
+        if (!this.#facts) return;
+        if (!this.#moving) {
+            this.#moving = this.#speed.movingSize([this.#facts.width, this.#facts.height], this.#shownSize());
+            this.#parts.stage.dataset["moving"] = "";
+            const wish = this.#drawing;
+            const slow = wish && this.#speed.predict(wish.width * wish.height * wish.samples ** 2) > INTERRUPT;
+            if (slow && !this.#checking) {
+                this.#client?.stop();
+                this.#drawing = null;
+            }
+        }
+        change();
+        this.#dirty = true;
+        this.#settle();
+        void this.#drawFrames();
+    }
+
+    /** Draw the picture at rest, once the viewer has not moved for a moment. */
+    #settle(): void {
+        clearTimeout(this.#rest);
+        this.#rest = window.setTimeout(() => {
+            if (this.#held) return;
+            if (this.#drawing) {
+                this.#settle();
+                return;
+            }
+            this.#moving = null;
+            delete this.#parts.stage.dataset["moving"];
+            void this.#drawAtRest().catch((error: unknown) => this.#fail(messageOf(error), error));
+        }, REST);
+    }
+
+    async #drawFrames(): Promise<void> {
+        if (this.#drawing) return;
+        try {
+            while (this.#dirty && this.#moving) {
+                this.#dirty = false;
+                const [width, height] = this.#moving;
+                const drawn = await this.#draw({ ...this.#wish(1), width, height });
+                if (!drawn || !this.#moving) return;
+                this.#paint(drawn, this.hasAttribute("exact"));
+                const { milliseconds } = drawn;
+                this.dispatchEvent(new CustomEvent("frame", { detail: { width, height, milliseconds } }));
+            }
+        } catch (error) {
+            this.#fail(messageOf(error), error);
+        }
+    }
+
+    // ---- pictures ----
+
+    #wish(samples: 1 | 2): Wish {
+        const { width, height } = this.#facts ?? { width: 0, height: 0 };
+        return { turn: { ...this.#turn }, width, height, samples, hashed: false };
+    }
+
+    /** Return a picture; null if it was given up for another. */
+    async #draw(wish: Wish): Promise<Drawn | null> {
+        const [client, generation] = [this.#client, this.#generation];
+        if (!client) return null;
+        this.#drawing = wish;
+        try {
+            const drawn = await client.ask("draw", wish, this.#timeout);
+            if (generation !== this.#generation) return null;
+            this.#speed.add(wish.width * wish.height * wish.samples ** 2, drawn.milliseconds);
+            return drawn;
+        } catch (error) {
+            if (error instanceof Interrupted) return null;
+            throw error;
+        } finally {
+            if (this.#drawing === wish) this.#drawing = null;
+        }
+    }
+
+    /** Draw the contract's own pixels, and where they are not to be shown, the mean of four for each. */
+    async #drawAtRest(): Promise<void> {
+        if (!this.#facts || this.#drawing) return;
+        this.#busy(true);
+        const { width, height } = this.#facts;
+        const drawn = await this.#draw({ ...this.#wish(1), hashed: true });
+        if (!drawn || this.#moving) return;
+        const { gas, milliseconds, sha256, pixels } = drawn;
+        const first = !this.#picture;
+        const shown = this.#shownSize();
+        const smooth = !this.hasAttribute("exact") && 2 * Math.max(...shown) <= MAX_SIDE;
+        this.#picture = { gas, width, height, milliseconds, sha256, pixels };
+        if (first || !smooth) this.#paint(drawn, !smooth);
+        this.#say("");
+        this.#report(this.#picture, smooth ? shown : null);
+        if (smooth) {
+            const [width, height] = shown;
+            const finer = await this.#draw({ ...this.#wish(2), width, height });
+            if (!finer || this.#moving) return;
+            this.#paint(finer, false);
+        }
+        this.#busy(false);
+        // the first picture was slow, since the browser had not compiled the EVM yet: measure the speed of movements
+        if (first) await this.#draw(this.#wish(1));
+    }
+
+    #paint({ pixels, width, height }: Drawn, exact: boolean): void {
+        const { canvas, poster, veil } = this.#parts;
+        canvas.width = width;
+        canvas.height = height;
+        canvas.classList.toggle("exact", exact);
+        canvas.getContext("2d")?.putImageData(new ImageData(pixels, width, height), 0, 0);
+        canvas.hidden = false;
+        poster.hidden = veil.hidden = true;
+    }
+
+    /**
+     * Return the size of the smoothed picture at rest: that of its place on the screen, at least that of the call, and the
+     * latter where it would take too long. Of exact pixels, the call's.
+     */
+    #shownSize(): Size {
+        const { width, height } = this.#facts ?? { width: 1, height: 1 };
+        if (this.hasAttribute("exact")) return [width, height];
+        const wanted = (this.#parts.stage.clientWidth * devicePixelRatio) / width;
+        const scale = Math.min(wanted, MAX_SIDE / 2 / Math.max(width, height));
+        if (scale <= 1) return [width, height];
+        const [w, h] = [Math.round(width * scale), Math.round(height * scale)];
+        return this.#speed.predict(4 * w * h) > PATIENCE ? [width, height] : [w, h];
+    }
+
+    #report(picture: PictureDetail, shown: Size | null): void {
+        const { figures, hash, exact, bar } = this.#parts;
+        bar.hidden = false;
+        const { gas, width, height, milliseconds, sha256 } = picture;
+        const words = [`${width} x ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
+        figures.replaceChildren(
+            ...[...words, ...(shown ? [`smoothed to ${shown[0]} x ${shown[1]}`] : [])].map((text) =>
+                create("span", { text }),
+            ),
+        );
+        hash.textContent = sha256 ?? "not available: the page is neither from https nor from this machine";
+        exact.hidden = 2 * Math.max(width, height) > MAX_SIDE;
+        const detail: PictureDetail = { gas, width, height, milliseconds, sha256 };
+        this.dispatchEvent(new CustomEvent<PictureDetail>("picture", { detail, bubbles: true, composed: true }));
+    }
+
+    #busy(busy: boolean): void {
+        const { stage, veil, canvas } = this.#parts;
+        stage.setAttribute("aria-busy", String(busy));
+        veil.hidden = !(busy && canvas.hidden);
+    }
+
+    #fail(message: string, error?: unknown): void {
+        if (error instanceof Interrupted) return;
+        this.#busy(false);
+        this.#moving = null;
+        delete this.#parts.stage.dataset["moving"];
+        this.#say(`${message.charAt(0).toUpperCase()}${message.slice(1)}.`);
+        this.dispatchEvent(new ErrorEvent("error", { message }));
+    }
+
+    #say(message: string): void {
+        const { error } = this.#parts;
+        error.textContent = message;
+        error.hidden = !message;
+    }
+}
+
+function messageOf(error: unknown): string {
+    return (error instanceof Error ? error.message : String(error)).slice(0, 500);
+}
+
+function duration(milliseconds: number): string {
+    return milliseconds < 1000
+        ? `${Math.max(1, Math.round(milliseconds))} ms`
+        : `${(milliseconds / 1000).toFixed(1)} s`;
+}
+
+type Parts = ReturnType<typeof build>;
+
+function build(root: ShadowRoot) {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(STYLE);
+    root.adoptedStyleSheets = [sheet];
+
+    const canvas = create("canvas", { part: "canvas", hidden: "" });
+    const poster = create("slot", {});
+    const veil = create("span", { class: "veil", text: "Drawing ...", hidden: "" });
+    const stage = create(
+        "div",
+        {
+            ...{ class: "stage", part: "stage", tabindex: "0", role: "application", "aria-label": "3D scene" },
+            "aria-roledescription": "picture that can be turned",
+            "aria-describedby": "help",
+        },
+        [canvas, poster, veil],
+    );
+    const keys = "Drag or use the arrow keys to turn it, the wheel or plus and minus to zoom, Home to go back.";
+    const help = create("p", { id: "help", class: "hidden", text: keys });
+    const error = create("p", { class: "error", part: "error", role: "alert", hidden: "" });
+
+    const figures = create("p", { class: "figures", part: "figures", role: "status" });
+    const reset = button("Reset", { hidden: "", title: "See the scene as at first (Home)" });
+    const exact = button("Exact pixels", {
+        "aria-pressed": "false",
+        title: "Show the contract's own pixels; otherwise each is the mean of 2 x 2",
+    });
+    const more = button("Check", { "aria-expanded": "false", "aria-controls": "panel" });
+    const buttons = create("div", { class: "buttons" }, [reset, exact, more]);
+    const bar = create("div", { class: "bar", part: "bar", hidden: "" }, [figures, buttons]);
+
+    const hash = create("code", {});
+    const url = create("input", {
+        ...{ type: "url", required: "", placeholder: "https://...", "aria-label": "Address of a node (JSON-RPC)" },
+        spellcheck: "false",
+        autocomplete: "off",
+    });
+    const send = create("button", { type: "submit", text: "Ask the node" });
+    const form = create("form", {}, [url, send]);
+    const outcome = create("p", { class: "outcome", role: "status" });
+    const panel = create("div", { class: "panel", part: "panel", id: "panel", hidden: "" }, [
+        create("p", {}, ["SHA-256 of the exact pixels: ", hash]),
+        create("p", { text: "A node of your choice can compute the same picture; all bytes are compared." }),
+        form,
+        outcome,
+    ]);
+    root.append(stage, help, bar, error, panel);
+    return {
+        canvas,
+        poster,
+        veil,
+        stage,
+        error,
+        figures,
+        reset,
+        exact,
+        more,
+        bar,
+        hash,
+        url,
+        send,
+        form,
+        outcome,
+        panel,
+    };
+}
+
+function button(text: string, attributes: Record<string, string>): HTMLButtonElement {
+    return create("button", { type: "button", text, ...attributes });
+}
+
+function create<K extends keyof HTMLElementTagNameMap>(
+    tag: K,
+    { text, ...attributes }: Record<string, string>,
+    children: (Node | string)[] = [],
+): HTMLElementTagNameMap[K] {
+    const element = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    element.append(...(text === undefined ? children : [text]));
+    return element;
+}

@@ -1,0 +1,48 @@
+// How long pictures of a size take, and the size at which they are drawn while the viewer moves.
+
+/** Milliseconds that a picture may take while the viewer moves. */
+const FRAME = 33;
+/** Sizes while the viewer moves, as fractions of that at rest, and below the call's own as fractions of that. */
+const LARGER = [1, 0.75, 0.5];
+const SMALLER = [1, 0.75, 0.5, 0.25];
+/** Which share of the time does not depend on the number of pixels, beyond the sizes that are known. */
+const FIXED = 0.25;
+const MIN_SIDE = 16;
+
+/** Width and height in pixels. */
+export type Size = readonly [number, number];
+
+export class Speed {
+    /** Milliseconds by the number of pixels. */
+    readonly #seen = new Map<number, number>();
+
+    /** Note how long a picture took. Later ones count more: the browser compiles what runs often. */
+    add(pixels: number, milliseconds: number): void {
+        const before = this.#seen.get(pixels) ?? milliseconds;
+        this.#seen.set(pixels, Math.min((before + milliseconds) / 2, milliseconds));
+    }
+
+    /** Return how long a picture will take, in milliseconds; 0 if none was drawn yet. */
+    predict(pixels: number): number {
+        const known = [...this.#seen].sort(([a], [b]) => a - b);
+        const high = known.find(([size]) => size >= pixels);
+        const low = known.findLast(([size]) => size <= pixels);
+        if (low && high && low !== high) {
+            return low[1] + ((high[1] - low[1]) * (pixels - low[0])) / (high[0] - low[0]);
+        }
+        const near = low ?? high;
+        return near ? near[1] * (FIXED + ((1 - FIXED) * pixels) / near[0]) : 0;
+    }
+
+    /** Return the largest size that is fast enough to move. own: that of the call. shown: that at rest, no smaller. */
+    movingSize(own: Size, shown: Size): Size {
+        const sizes = [...LARGER.map((part) => scaled(shown, part)), ...SMALLER.map((part) => scaled(own, part))];
+        const allowed = sizes.filter(([width], index) => index >= LARGER.length || width > own[0]);
+        return allowed.find(([width, height]) => this.predict(width * height) <= FRAME) ?? (allowed.at(-1) as Size);
+    }
+}
+
+function scaled(size: Size, part: number): Size {
+    const [width, height] = size.map((side) => Math.min(side, Math.max(MIN_SIDE, Math.round(side * part))));
+    return [width as number, height as number];
+}

@@ -1,0 +1,5 @@
+/** A bundled script, as text: web/build.mjs. */
+declare module "worker:*" {
+    const script: string;
+    export default script;
+}

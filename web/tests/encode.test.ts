@@ -1,0 +1,104 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { encode, halfHeightOf, parseScene, type Scene } from "../src/index.js";
+
+const MESH = {
+    positions: [
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+    ],
+    faces: [[0, 1, 2]],
+};
+const SCENE: Scene = { objects: [{ mesh: MESH }], camera: { eye: [0, 0, 3] } };
+
+test("rows may be flat, or typed arrays", () => {
+    const expected = encode(SCENE);
+    const flat = { positions: MESH.positions.flat(), faces: MESH.faces.flat() };
+    assert.deepEqual(encode({ ...SCENE, objects: [{ mesh: flat }] }), expected);
+    const typed = { positions: Float32Array.from(flat.positions), faces: Uint16Array.from(flat.faces) };
+    assert.deepEqual(encode({ ...SCENE, objects: [{ mesh: typed }] }), expected);
+});
+
+test("colours of every kind", () => {
+    const of = (ambientLight: NonNullable<Scene["ambientLight"]>): Uint8Array => encode({ ...SCENE, ambientLight });
+    const expected = of([255, 128, 0]);
+    assert.deepEqual(of("#ff8000"), expected);
+    assert.deepEqual(of("FF8000"), expected);
+    assert.deepEqual(of([1, 0.5, 0]), expected);
+    assert.deepEqual(of("tomato"), of([255, 99, 71]));
+    // whole numbers are not fractions
+    assert.notDeepEqual(of([1, 1, 1]), of("white"));
+    const mesh = { ...MESH, colors: "tomato" };
+    const rows = { ...MESH, colors: [255, 99, 71, 255, 99, 71, 255, 99, 71] };
+    assert.deepEqual(encode({ ...SCENE, objects: [{ mesh }] }), encode({ ...SCENE, objects: [{ mesh: rows }] }));
+});
+
+test("a scene file as text tells fractions from whole numbers", () => {
+    const text = (color: string): string =>
+        `{"objects": [], "ambient_light": ${color}, "background": {"top": [0, 0, 1]}}`;
+    assert.deepEqual(parseScene(text("[1.0, 0.0, 1.0]")).ambientLight, [255, 0, 255]);
+    assert.deepEqual(parseScene(text("[1, 0, 1]")).ambientLight, [1, 0, 1]);
+    assert.deepEqual(parseScene(text('"\\u0074omato"')).ambientLight, [255, 99, 71]);
+    assert.deepEqual(parseScene(JSON.parse(text("[1.0, 0.0, 1.0]")) as object).ambientLight, [1, 0, 1]);
+});
+
+test("the field of view is a tangent", () => {
+    assert.ok(Math.abs(halfHeightOf(90) - 1) < 1e-15);
+    assert.throws(() => halfHeightOf(180), /the field of view in degrees must be a finite number from 0.2 to 179.8/);
+});
+
+test("wrong scenes are refused, with the place", () => {
+    const cases: [unknown, RegExp][] = [
+        [undefined, /the scene must be an object with objects, camera/],
+        [{}, /objects must be a list, not undefined/],
+        [{ ...SCENE, ambient_light: 1 }, /the scene has the unknown key "ambient_light"; known are .*ambientLight/],
+        [{ ...SCENE, width: 0 }, /width must be a whole number from 1 to 2048, not 0/],
+        [{ ...SCENE, objects: [{}] }, /objects\[0\]\.mesh must be an object with positions, .* not undefined/],
+        [
+            { ...SCENE, objects: [{ mesh: { ...MESH, faces: [[0, 1, 3]] } }] },
+            /faces\[0\] names the vertex 3, .* 0 to 2/,
+        ],
+        [{ ...SCENE, objects: [{ mesh: { ...MESH, positions: [1, 2] } }] }, /positions must be rows of three numbers/],
+        [{ ...SCENE, objects: [{ mesh: { ...MESH, positions: [[0, 0, NaN]] } }] }, /positions\[0\] must be 3 finite/],
+        [{ ...SCENE, objects: [{ mesh: MESH, scale: -1 }] }, /objects\[0\]\.scale must be .* at least 0, not -1/],
+        [{ ...SCENE, objects: [{ mesh: MESH, rotation: [0, 0, 0, 0] }] }, /rotation must not be the zero quaternion/],
+        [{ ...SCENE, objects: [{ mesh: MESH, material: { shading: "shiny" } }] }, /shading must be one of unlit, flat/],
+        [{ ...SCENE, camera: { eye: [0, 0, -1] } }, /eye and target are the same point/],
+        [{ ...SCENE, camera: { up: [0, 0, 2] } }, /the camera looks along its up direction, \(0, 0, 2\)/],
+        [{ ...SCENE, lights: [null] }, /lights\[0\]\.kind must be one of directional, point, spot, not undefined/],
+        [
+            { ...SCENE, lights: [{ kind: "point", direction: [0, 1, 0] }] },
+            /lights\[0\] has the unknown key "direction"/,
+        ],
+        [{ ...SCENE, lights: [{ kind: "directional", direction: [0, 0, 0] }] }, /direction must not be zero/],
+        [{ ...SCENE, background: "no colour" }, /background\.top must be red, .* name of a colour, not "no colour"/],
+    ];
+    for (const [scene, message] of cases) assert.throws(() => encode(scene as Scene), { name: "InputError", message });
+});
+
+test("tiles lie on the canvas, and belong to functions of tiles", () => {
+    assert.throws(() => encode(SCENE, "draw" as "render"), /the function must be one of render, .* not "draw"/);
+    assert.throws(() => encode(SCENE, "renderTile"), /renderTile needs a tile/);
+    assert.throws(() => encode(SCENE, "render", { x: 0, y: 0, width: 1, height: 1 }), /render takes no tile/);
+    for (const tile of [{ x: -1 }, { width: 0 }, { x: 120, width: 9 }, { y: 0.5 }]) {
+        const whole = { x: 0, y: 0, width: 1, height: 1, ...tile };
+        assert.throws(() => encode(SCENE, "renderTile", whole), /does not lie on the canvas of 128 x 128 pixels/);
+    }
+});
+
+test("wrong scene files are refused, with the place", () => {
+    const cases: [string, RegExp][] = [
+        ["{", /the scene is not valid JSON: /],
+        ["[]", /a scene must be a table with keys of background/],
+        ['{"size": [1, 2, 3]}', /size must be a number of pixels, or width and height/],
+        ['{"objects": [{"mesh": "teapot.obj"}]}', /objects\[0\]\.mesh must be a table .* no files are read/],
+        ['{"camera": {"fov": 40, "half_height": 1}}', /camera\.fov and camera\.half_height exclude each other/],
+        ['{"camera": {"eye": [0, 0, 1]}}', /camera must have an eye and a target, or neither/],
+        ['{"camera": {"fov": 40, "projection": "orthographic"}}', /camera\.fov is for the perspective projection/],
+        ['{"lights": [{"kind": "spot", "position": [0, 0, 1]}]}', /lights\[0\] must have a direction, as its kind/],
+        ['{"lights": [{"kind": "point", "position": [0, 0, 1], "inner_angle": 1}]}', /must have no inner_angle/],
+        ['{"canvasDim": 64, "verts": []}', /faces is missing/],
+    ];
+    for (const [text, message] of cases) assert.throws(() => parseScene(text), { name: "InputError", message });
+});
