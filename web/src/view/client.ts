@@ -36,8 +36,10 @@ export class Client {
 
     /** Return the worker's answer. ViewError for its refusal, or after so many milliseconds, which end the worker. */
     async ask<K extends Kind>(kind: K, value: Requests[K][0], milliseconds: number): Promise<Requests[K][1]> {
-        const worker = (this.#worker ??= this.#start());
-        return this.#post(await worker, kind, value, milliseconds);
+        const starting = (this.#worker ??= this.#start());
+        const worker = await starting;
+        if (starting !== this.#worker) throw new Interrupted();
+        return this.#post(worker, kind, value, milliseconds);
     }
 
     /** End the worker, with all that it was asked; the next question starts another. */

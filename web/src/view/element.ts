@@ -44,8 +44,17 @@ const SOURCES = ["src", "rpc", "studio", "pointer"];
 /** Shows a scene as the contracts draw it, in a worker. docs/view.md describes its attributes, properties and events. */
 export class ShackledView extends HTMLElement {
     /** Where evm.wasm and contracts.json come from, for all elements without attributes `evm` and `contracts`. */
-    static assets: AssetSources = {};
+    static get assets(): AssetSources {
+        return this.#sources;
+    }
+
+    static set assets(sources: AssetSources) {
+        this.#sources = sources;
+        this.#loaded.clear();
+    }
+
     static readonly observedAttributes = [...SOURCES, "exact", "label"];
+    static #sources: AssetSources = {};
     static readonly #loaded = new Map<string, Promise<Assets>>();
 
     readonly #parts: Parts;
@@ -65,6 +74,7 @@ export class ShackledView extends HTMLElement {
     #held = false;
     #dirty = false;
     #drawing: Wish | null = null;
+    #opening = false;
     #checking = false;
     #rest = 0;
     #inertia = 0;
@@ -156,6 +166,13 @@ export class ShackledView extends HTMLElement {
     }
 
     connectedCallback(): void {
+        // what the page set before it knew the class
+        for (const name of ["call", "scene"] as const) {
+            const own = Object.getOwnPropertyDescriptor(this, name);
+            if (!own) continue;
+            delete (this as Partial<Record<typeof name, unknown>>)[name];
+            this[name] = own.value as Uint8Array & string;
+        }
         this.#connected = new AbortController();
         const { signal } = this.#connected;
         const { stage } = this.#parts;
@@ -193,6 +210,7 @@ export class ShackledView extends HTMLElement {
         this.#client?.stop();
         this.#client = null;
         this.#drawing = this.#moving = null;
+        this.#opening = false;
     }
 
     attributeChangedCallback(name: string, before: string | null, after: string | null): void {
@@ -202,6 +220,7 @@ export class ShackledView extends HTMLElement {
             exact.setAttribute("aria-pressed", String(after !== null));
             if ((before === null) !== (after === null)) this.#settle();
         }
+        if (name === "rpc" && after) this.#parts.url.value = after;
         if (SOURCES.includes(name) && before !== after) {
             this.#source = null;
             // attributes that are set one after the other are one source
@@ -267,8 +286,9 @@ export class ShackledView extends HTMLElement {
         const generation = ++this.#generation;
         cancelAnimationFrame(this.#inertia);
         clearTimeout(this.#rest);
-        client.stop();
+        if (this.#drawing || this.#opening) client.stop();
         this.#drawing = this.#moving = null;
+        this.#opening = true;
         this.#facts = this.#call = this.#picture = null;
         this.#turn = { ...START };
         this.#speed = new Speed();
@@ -277,12 +297,14 @@ export class ShackledView extends HTMLElement {
         try {
             const { call, facts } = await client.ask("open", source, "file" in source ? this.#timeout : CHECK_TIMEOUT);
             if (generation !== this.#generation) return;
+            this.#opening = false;
             client.call = this.#call = call;
             this.#facts = facts;
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
             await this.#drawAtRest();
         } catch (error) {
             if (generation !== this.#generation) return;
+            this.#opening = false;
             this.#fail(messageOf(error), error);
             if (this.#picture) return;
             // nothing of the scene before it remains
