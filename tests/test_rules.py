@@ -16,7 +16,8 @@ import shackled
 from shackled.artifacts import artifact, contracts
 
 ROOT = Path(__file__).resolve().parent.parent
-PICTURES = {".png", ".gif", ".bmp", ".ico"}
+#: Files that are not text.
+BINARY = {".png", ".gif", ".bmp", ".ico", ".wasm"}
 
 #: Folders with a package.json.
 NPM_PACKAGES = ("contracts", "web")
@@ -39,7 +40,7 @@ def files() -> dict[str, Path]:
 @pytest.fixture(scope="module")
 def texts(files: dict[str, Path]) -> dict[str, str]:
     """The text files of the repository."""
-    found = {name: path.read_text("utf-8") for name, path in files.items() if path.suffix not in PICTURES}
+    found = {name: path.read_text("utf-8") for name, path in files.items() if path.suffix not in BINARY}
     assert "pyproject.toml" in found
     return found
 

@@ -22,8 +22,6 @@ from shackled.artifacts import artifact
 from shackled.errors import ShackledError
 from shackled.gas import CallFrame, render_call, source_map, trace
 
-#: Instructions whose price varies.
-VARIES = {0x00, 0x0A, 0x20, 0x37, 0x3E, 0x51, 0x52, 0x53, 0x5E, *range(0xF0, 0x100)}
 #: JUMPDEST begins a basic block; STOP, JUMP, JUMPI, RETURN, REVERT and INVALID end one.
 JUMPDEST, ENDS = 0x5B, {0x00, 0x56, 0x57, 0xF3, 0xFD, 0xFE}
 
@@ -56,18 +54,18 @@ def blocks(root: CallFrame, contract: str, function: str) -> list[Block]:
 
     opcodes: dict[int, Any] = CANCUN_OPCODES
     costs: Counter[int] = Counter()
+    counts: Counter[int] = Counter()
     for frame in _frames(root, contract):
         if _name(frame) == function:
             for each in frame.costs.values():
                 costs.update(each)
+            counts += frame.counts
     found: list[Block] = []
     for block in _split(artifact(contract).runtime):
         gas = sum(costs[at] for at, _, _ in block)
         if gas:
-            fixed = ((at, opcodes[op].gas_cost) for at, op, _ in block if op not in VARIES)
-            times = next((costs[at] // price for at, price in fixed), 0)
             texts = (f"0x{pushed.hex()}" if pushed else _mnemonic(opcodes.get(op), op) for _, op, pushed in block)
-            found.append(Block(block[0][0], times, gas, tuple(texts)))
+            found.append(Block(block[0][0], counts[block[0][0]], gas, tuple(texts)))
     return found
 
 

@@ -2,24 +2,25 @@
 
 use crate::{
     fast,
+    precompiles::Precompiles,
     profile::{Described, Place, Profile},
 };
 use revm::{
-    Context, MainBuilder, MainContext,
+    Context, MainContext,
     bytecode::Bytecode,
     context::{
-        ContextSetters, TxEnv,
+        ContextSetters, Evm, TxEnv,
         result::{EVMError, ExecutionResult, HaltReason},
     },
     context_interface::FrameStack,
     database::{CacheDB, EmptyDB, WrapDatabaseRef},
     handler::{
-        EthFrame, EvmTr, FrameInitOrResult, FrameResult, Handler, MainnetContext, MainnetEvm, MainnetHandler,
+        EthFrame, EvmTr, FrameInitOrResult, FrameResult, Handler, MainnetContext, MainnetHandler,
         evm::{ContextDbError, FrameInitResult},
+        instructions::EthInstructions,
     },
     interpreter::{
-        InterpreterAction, interpreter_action::FrameInit, interpreter::EthInterpreter,
-        interpreter_types::LoopControl,
+        InterpreterAction, interpreter::EthInterpreter, interpreter_action::FrameInit, interpreter_types::LoopControl,
     },
     primitives::{Address, Bytes, HashMap, TxKind, address, hardfork::SpecId},
     state::AccountInfo,
@@ -82,17 +83,22 @@ impl Contracts {
         gas: u64,
         profile: Option<Profile<'a>>,
     ) -> (Answer, Option<Profile<'a>>) {
-        let mut evm = Context::mainnet()
+        let context = Context::mainnet()
             .with_db(WrapDatabaseRef(&self.accounts))
             .modify_cfg_chained(|cfg| {
                 cfg.set_spec_and_mainnet_gas_params(SpecId::CANCUN);
                 cfg.tx_gas_limit_cap = Some(u64::MAX);
             })
-            .modify_block_chained(|block| block.gas_limit = u64::MAX)
-            .build_mainnet();
+            .modify_block_chained(|block| block.gas_limit = u64::MAX);
+        let mut evm = Evm::new(context, EthInstructions::new_mainnet_with_spec(SpecId::CANCUN), Precompiles::default());
         let mut transaction =
             TxEnv { caller: SENDER, kind, data, gas_limit: u64::MAX, gas_price: 0, ..TxEnv::default() };
-        let initial = evm.ctx.cfg.gas_params.initial_tx_gas(&transaction.data, kind.is_create(), 0, 0, 0, None).initial_total_gas();
+        let initial = evm
+            .ctx
+            .cfg
+            .gas_params
+            .initial_tx_gas(&transaction.data, kind.is_create(), 0, 0, 0, None)
+            .initial_total_gas();
         transaction.gas_limit = gas.saturating_add(initial);
         evm.ctx.set_tx(transaction);
         let mut runner = Runner { evm, profile };
@@ -101,7 +107,9 @@ impl Contracts {
             Ok(result) => {
                 let gas = result.tx_gas_used().saturating_sub(initial);
                 match result {
-                    ExecutionResult::Success { output, .. } => Answer { status: Status::Success, output: output.into_data(), gas },
+                    ExecutionResult::Success { output, .. } => {
+                        Answer { status: Status::Success, output: output.into_data(), gas }
+                    }
                     ExecutionResult::Revert { output, .. } => Answer { status: Status::Revert, output, gas },
                     ExecutionResult::Halt { reason: HaltReason::OutOfGas(_), .. } => {
                         Answer { status: Status::OutOfGas, output: Bytes::new(), gas }
@@ -120,7 +128,7 @@ fn failure(reason: String, gas: u64) -> Answer {
 }
 
 type State<'a> = MainnetContext<WrapDatabaseRef<&'a CacheDB<EmptyDB>>>;
-type Base<'a> = MainnetEvm<State<'a>>;
+type Base<'a> = Evm<State<'a>, (), EthInstructions<EthInterpreter, State<'a>>, Precompiles, EthFrame<EthInterpreter>>;
 
 /// The EVM of revm, but that frames run in `fast`, or under a profile.
 struct Runner<'a> {

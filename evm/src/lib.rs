@@ -6,6 +6,7 @@
 
 mod calls;
 mod fast;
+mod precompiles;
 mod profile;
 
 use calls::{Answer, Contracts};

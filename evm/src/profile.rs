@@ -54,6 +54,12 @@ struct Function {
     entry: u32,
 }
 
+/// Function, stage, and the first position in units of pages.
+type Page = (u32, u8, usize);
+
+/// Positions of a page.
+const PAGE: usize = 64;
+
 /// The parent of the first function.
 const NONE: u32 = u32::MAX;
 
@@ -74,8 +80,10 @@ pub struct Profile<'a> {
     described: &'a HashMap<Address, Described>,
     functions: Vec<Function>,
     numbers: HashMap<Function, u32>,
-    /// Count and gas by function, stage and position.
-    costs: HashMap<(u32, u8, u32), (u32, u64)>,
+    /// Count and gas of each position, by pages of neighbouring positions, and the page that was used last.
+    pages: Vec<[(u32, u64); PAGE]>,
+    page_numbers: HashMap<Page, usize>,
+    last: (Page, usize),
     calls: Vec<Call<'a>>,
 }
 
@@ -85,7 +93,9 @@ impl<'a> Profile<'a> {
             described,
             functions: Vec::new(),
             numbers: HashMap::default(),
-            costs: HashMap::default(),
+            pages: Vec::new(),
+            page_numbers: HashMap::default(),
+            last: ((NONE, 0, 0), 0),
             calls: Vec::new(),
         }
     }
@@ -185,7 +195,15 @@ impl<'a> Profile<'a> {
 
     fn add(&mut self, call: &Call, at: usize, gas: u64) {
         if call.described.is_some() {
-            let (count, sum) = self.costs.entry((call.function, call.stage, at as u32)).or_default();
+            let page = (call.function, call.stage, at / PAGE);
+            if self.last.0 != page {
+                let number = *self.page_numbers.entry(page).or_insert_with(|| {
+                    self.pages.push([(0, 0); PAGE]);
+                    self.pages.len() - 1
+                });
+                self.last = (page, number);
+            }
+            let (count, sum) = &mut self.pages[self.last.1][at % PAGE];
             *count += 1;
             *sum += gas;
         }
@@ -196,10 +214,13 @@ impl<'a> Profile<'a> {
     pub fn table(self) -> Vec<u32> {
         let mut words = vec![self.functions.len() as u32];
         words.extend(self.functions.iter().flat_map(|each| [each.parent, each.contract, each.entry]));
-        let mut costs: Vec<_> = self.costs.into_iter().collect();
-        costs.sort_unstable();
-        for ((function, stage, at), (count, gas)) in costs {
-            words.extend([function, stage as u32, at, count, gas as u32, (gas >> 32) as u32]);
+        let mut pages: Vec<_> = self.page_numbers.into_iter().collect();
+        pages.sort_unstable();
+        for ((function, stage, page), number) in pages {
+            for (place, &(count, gas)) in self.pages[number].iter().enumerate().filter(|(_, (count, _))| *count > 0) {
+                let at = (page * PAGE + place) as u32;
+                words.extend([function, stage as u32, at, count, gas as u32, (gas >> 32) as u32]);
+            }
         }
         words
     }

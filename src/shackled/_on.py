@@ -19,7 +19,7 @@ class Processes:
     """Worker processes on this machine.
 
     jobs: number of processes, 1..256; None for one per processor.
-    evm: "pyrevm", "pyevm" or "reference"; None for the fastest that is installed.
+    evm: "revm", "pyrevm", "pyevm" or "reference"; None for the first.
     """
 
     jobs: int | None = None

@@ -31,8 +31,8 @@ def render(
     """Render a picture.
 
     thing, size, look: as in `load`.
-    on: where the calls run: the name of an EVM ("pyrevm", "pyevm", "reference"), `Processes`, `Nodes` or `Cluster`;
-        None for the fastest EVM that is installed. The pixels are the same everywhere.
+    on: where the calls run: the name of an EVM ("revm", "pyrevm", "pyevm", "reference"), `Processes`, `Nodes` or
+        `Cluster`; None for revm, which is always there. The pixels are the same everywhere.
     gas_limit: gas that a call may use.
     tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
     listener: receives the progress of a picture of several tiles.

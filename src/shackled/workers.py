@@ -1,7 +1,5 @@
 """Call functions in worker processes, which may be killed at any time.
 
-Threads do not help an embedded EVM: pyrevm and py-evm hold the interpreter's lock while they run.
-
 The processes are started as separate programs and not by `multiprocessing`, which would run the main script again in
 each of them. They end with this process, however it ends.
 """
@@ -71,7 +69,7 @@ class Worker:
     ) -> None:
         """Start nothing yet.
 
-        prepare: called in each new process with the arguments. memory: limit of address space in bytes, where the
+        prepare: called in each new process with the arguments. memory: limit of written memory in bytes, where the
         system has such a limit. niceness: added to that of this process.
         """
         self._prepare = (prepare, *arguments)
@@ -282,7 +280,7 @@ def _restrict(memory: int | None, niceness: int) -> None:
         return
     if memory is None:
         return
-    for what, bound in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0)):
+    for what, bound in ((resource.RLIMIT_DATA, memory), (resource.RLIMIT_CORE, 0)):
         _, hard = resource.getrlimit(what)
         if hard == resource.RLIM_INFINITY or bound <= hard:
             with suppress(OSError, ValueError):  # some systems know the limit and do not take it

@@ -11,7 +11,7 @@ from attrs import evolve
 
 from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact, contracts
-from shackled.chain import CHAINS, ContractChain, EmbeddedChain, PyEvmChain, PyrevmChain, open_chain
+from shackled.chain import CHAINS, ContractChain, EmbeddedChain, RevmChain, open_chain
 from shackled.errors import OutOfGasError
 from shackled.ethereum import intrinsic_gas
 from shackled.image import decode_bmp
@@ -31,18 +31,19 @@ SCENE = Scene(
 )
 
 
-@pytest.fixture(params=["pyrevm", "pyevm"])
+@pytest.fixture(params=["revm", "pyrevm", "pyevm"])
 def chain(request: pytest.FixtureRequest) -> EmbeddedChain:
-    if request.param == "pyrevm":
-        pytest.importorskip("pyrevm")
+    if request.param != "revm":
+        pytest.importorskip(CHAINS[request.param])
     chain = open_chain(request.param)
     assert isinstance(chain, EmbeddedChain)
     return chain
 
 
-def test_both_machines_agree_on_bytes_and_gas() -> None:
-    pytest.importorskip("pyrevm")
-    fast, slow = PyrevmChain(), PyEvmChain()
+@pytest.mark.parametrize("name", ["pyrevm", "pyevm"])
+def test_evms_agree_on_bytes_and_gas(name: str) -> None:
+    pytest.importorskip(CHAINS[name])
+    fast, slow = RevmChain(), open_chain(name)
     for scene in (SCENE, evolve(SCENE, objects=[], invert=True)):
         assert fast.draw(scene) == slow.draw(scene)
         assert fast.count(scene) == slow.count(scene)
@@ -109,16 +110,16 @@ def test_chains_by_name() -> None:
     assert isinstance(open_chain(), ContractChain)
     assert open_chain() is open_chain()
     assert open_chain("pyevm").name == "embedded EVM (py-evm)"
-    assert set(CHAINS) == {"pyrevm", "pyevm", "reference"}
-    with pytest.raises(InputError, match="there is no chain 'hardhat'; the chains are pyrevm, pyevm, reference"):
+    assert set(CHAINS) == {"revm", "pyrevm", "pyevm", "reference"}
+    with pytest.raises(InputError, match="there is no chain 'hardhat'; the chains are revm, pyrevm, pyevm, reference"):
         open_chain("hardhat")
 
 
-def test_the_fallback_without_pyrevm(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_chain_that_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shackled.chain._opening.find_spec", lambda name: name != "pyrevm" or None)
     open_chain.cache_clear()
     try:
-        assert open_chain().name == "embedded EVM (py-evm)"
+        assert open_chain().name == "embedded EVM (revm)"
         with pytest.raises(InputError, match="'pyrevm' needs a package that is not installed"):
             open_chain("pyrevm")
     finally:

@@ -144,7 +144,7 @@ def test_flame_graphs(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     Path("folder.svg").mkdir()
-    assert "use --chain pyrevm or pyevm" in error(capsys, 2, "--chain", "reference")
+    assert "use --chain revm, pyrevm or pyevm" in error(capsys, 2, "--chain", "reference")
     assert ".json or .svg" in error(capsys, 2, "--profile", "flame.png")
     assert "does not exist" in error(capsys, 2, "--profile", "nowhere/flame.svg")
     assert "is a folder" in error(capsys, 2, "--profile", "folder.svg")
@@ -157,26 +157,6 @@ def test_mistakes_are_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> No
     assert "--background must be" in error(capsys, 2, "--background", "#000000,#111111,#222222")
     assert "--fov and --half-height" in error(capsys, 2, "--no-stages", "--fov", "30", "--half-height", "1")
     assert run(["gas", "missing.obj"]) == 2
-
-
-def test_without_a_tracer_it_says_what_to_install(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    whole = report(capsys, "--no-stages")
-    monkeypatch.setattr("shackled.gas._trace.find_spec", lambda name: None)
-    assert report(capsys, "--no-stages") == whole
-    advice = "gas by stage needs the package py-evm: pip install 'shackled[profile]'\n"
-    assert run(["gas", "shape.obj", "--json", "--size", "20x12"]) == 0
-    output, messages = capsys.readouterr()
-    assert json.loads(output) == whole
-    assert messages == advice
-    assert run(["gas", "shape.obj", "--size", "20x12"]) == 0
-    output, messages = capsys.readouterr()
-    assert f"{whole['gas']:,} of the execution, exact" in output
-    assert "where it fits" in output
-    assert messages.endswith(advice)
-    assert "shackled[profile]" in error(capsys, 2, "--profile", "a.svg")
-    assert not Path("a.svg").exists()
 
 
 @needs_anvil

@@ -63,7 +63,7 @@ def test_one_json_object_says_it_all(capsys: pytest.CaptureFixture[str]) -> None
 
 def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) -> None:
     reports = {}
-    for chain in ("pyrevm", "pyevm", "reference"):
+    for chain in ("revm", "pyrevm", "pyevm", "reference"):
         assert run(["render", "shape.obj", "--size", "16", "--json", "--chain", chain]) == 0
         reports[chain] = json.loads(capsys.readouterr().out)
     assert len({report["sha256"] for report in reports.values()}) == 1
@@ -186,7 +186,7 @@ WRONG = [
     (["render", "shape.obj", "--size", "3000"], "from 1 to 2048 pixels a side"),
     (["render", "shape.obj", "--size", "big"], "WIDTHxHEIGHT"),
     (["render", "shape.obj", "--size", "-5"], "--size"),
-    (["render", "shape.obj", "--chain", "moon"], "the chains are pyrevm, pyevm, reference"),
+    (["render", "shape.obj", "--chain", "moon"], "the chains are revm, pyrevm, pyevm, reference"),
     (["render", "shape.obj", "--rotate", "1,2"], "--rotate must be three numbers"),
     (["render", "shape.obj", "--rotate", "nan,0,0"], "finite"),
     (["render", "shape.obj", "--eye", "a,b,c"], "--eye must be three numbers"),
@@ -309,9 +309,9 @@ def test_too_large_a_mesh_names_the_way_out(capsys: pytest.CaptureFixture[str]) 
 def test_refusals_and_interrupts_exit_with_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from shackled.chain import EmbeddedChain, PyrevmChain
+    from shackled.chain import EmbeddedChain, RevmChain
 
-    monkeypatch.setattr("shackled._render.open_chain", lambda *_: PyrevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled._render.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
     assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
 

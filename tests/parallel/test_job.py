@@ -13,7 +13,7 @@ from attrs import evolve
 
 import shackled
 from shackled import ChainError, Image, InputError, Nodes, Processes, Scene, load
-from shackled.chain import PyrevmChain, open_chain
+from shackled.chain import RevmChain, open_chain
 from shackled.parallel import (
     COMPARED_GAS,
     ChainBackend,
@@ -46,7 +46,7 @@ def whole() -> Image:
         Where(tile=(1000, 1000)),
         Where(gas_limit=4_000_000),
         Where("reference", tile=(96, 35)),
-        Where("pyrevm", jobs=2),
+        Where("revm", jobs=2),
         Where(jobs=2, gas_limit=5_000_000),
     ],
     ids=str,
@@ -66,7 +66,7 @@ def test_tiles_are_the_whole(whole: Image, where: Where) -> None:
 def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
-    assert isinstance(chain, PyrevmChain)
+    assert isinstance(chain, RevmChain)
     job = render_frames([SCENE], Where(gas_limit=limit))
     tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE, chain), None)
     assert 1 < len(tiles) <= job.calls
@@ -78,7 +78,7 @@ def test_parts_fit_their_gas() -> None:
 
 def test_the_cost_is_told_about_right() -> None:
     chain = open_chain()
-    assert isinstance(chain, PyrevmChain)
+    assert isinstance(chain, RevmChain)
     for name, side in (("teapot", 512), ("cube", 300), ("genesis/3", 400)):
         scene = evolve(load(name), width=side, height=side)
         gas = chain.draw(scene).gas
@@ -144,8 +144,8 @@ def test_the_interface_of_python(tmp_path: Path) -> None:
         ({"tile": 0}, "sides of a `tile` must be whole numbers from 1"),
         ({"tile": "big"}, r"`tile` must be one number or \(width, height\)"),
         ({"on": "http://127.0.0.1:1"}, r"`on` must be Nodes\('http://127.0.0.1:1'\) for a node, not its address alone"),
-        ({"on": "moon"}, "the chains are pyrevm, pyevm, reference"),
-        ({"on": 5}, "`on` must be one of pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
+        ({"on": "moon"}, "the chains are revm, pyrevm, pyevm, reference"),
+        ({"on": 5}, "`on` must be one of revm, pyrevm, pyevm, reference, Processes, Nodes or Cluster, not 5"),
         ({"on": Nodes("nowhere")}, "must be the address of a node"),
         ({"on": Nodes("http://127.0.0.1:1", verify="most")}, "`verify` must be all, some or none, not 'most'"),
         ({"on": Processes(2, open_chain("reference"))}, "pass its name"),  # type: ignore[arg-type]
@@ -165,14 +165,14 @@ def test_nodes_need_addresses() -> None:
 def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, whole: Image) -> None:
     slow = open_chain("pyevm")
     monkeypatch.setattr("shackled.parallel._job.open_chain", lambda name: slow)
-    job = render_frames([SCENE], Where("pyrevm", gas_limit=4_000_000))
+    job = render_frames([SCENE], Where("revm", gas_limit=4_000_000))
     assert job.estimated_gas is None
     assert job.calls > 1
     assert job.images[0].bmp == whole.bmp
     monkeypatch.setattr("shackled.parallel._backends.open_chain", lambda name: open_chain(name) if name else slow)
     # NumPy draws what nodes are compared with
     judge, small, cube = Verifier(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
-    piece, right = draw_part(open_chain("pyrevm"), cube, small), judge.draw(cube, small)
+    piece, right = draw_part(open_chain("revm"), cube, small), judge.draw(cube, small)
     assert right.gas is None
     assert piece.bmp == right.bmp
 
@@ -180,7 +180,7 @@ def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, w
 def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:
     """All of what takes little gas, in any number of tiles; of the rest what is asked for."""
     chain = open_chain()
-    assert isinstance(chain, PyrevmChain)
+    assert isinstance(chain, RevmChain)
     node, cheap = ChainBackend(chain, untrusted=True), estimate(SCENE, chain)
     dear = replace(cheap, fixed=float(COMPARED_GAS))
     large = evolve(SCENE, width=2048, height=1024)

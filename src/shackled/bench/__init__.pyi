@@ -1,4 +1,4 @@
-from ._deploy import PyEvmDeployer, PyrevmDeployer, deployment_gas
+from ._deploy import deployment_gas
 from ._engines import open_engines, time_engine
 from ._linear import DIVISIONS, LOOKS, SIDES, SQUARE_SIDE, cubes, squares
 from ._measure import call, call_renderer, cost, gas
@@ -15,8 +15,6 @@ __all__ = [
     "SIDES",
     "SQUARE_SIDE",
     "ExperimentReport",
-    "PyEvmDeployer",
-    "PyrevmDeployer",
     "Runner",
     "call",
     "call_renderer",

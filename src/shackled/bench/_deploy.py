@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from ..artifacts import RENDERER, artifact
-from ..chain import DEFAULT_GAS_LIMIT, SENDER, PyEvmChain, PyrevmChain
+from ..chain import DEFAULT_GAS_LIMIT, RevmChain
 from ..deploy import STANDARD
 from ..ethereum import intrinsic_gas
+from ..evm import Instance
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from ._plots import ORIGINAL, OURS
 from ._report import Cell, ExperimentReport, millions, table
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Extra gas of a transaction that creates a contract.
 CREATION = 32000
+#: Gas of a word of creation code (EIP-3860).
+INITCODE_WORD = 2
 
 
 def run(runner: Runner) -> ExperimentReport:
@@ -66,31 +68,9 @@ def run(runner: Runner) -> ExperimentReport:
 
 def deployment_gas(contract: str) -> int:
     """Measure the gas of the transaction that deploys a contract."""
-    return (PyrevmDeployer() if find_spec("pyrevm") else PyEvmDeployer()).gas_of(contract)
-
-
-class PyrevmDeployer(PyrevmChain):
-    """Measures in pyrevm."""
-
-    def gas_of(self, contract: str) -> int:
-        """Return the gas of the transaction."""
-        code = self.creation(contract)
-        evm = self._evm()
-        evm.deploy("0x" + SENDER.hex(), code, None, DEFAULT_GAS_LIMIT)
-        used: int = evm.result.gas_used
-        return used
-
-
-class PyEvmDeployer(PyEvmChain):
-    """Measures in py-evm, which does not count intrinsic gas."""
-
-    def gas_of(self, contract: str) -> int:
-        """Return the gas of the transaction."""
-        from eth.constants import CREATE_CONTRACT_ADDRESS
-
-        code = self.creation(contract)
-        state = self._state()
-        place = bytes.fromhex("c0de") + bytes(18)
-        message = self._message(code, b"", CREATE_CONTRACT_ADDRESS, DEFAULT_GAS_LIMIT, create_address=place)
-        computation = state.computation_class.apply_create_message(state, message, self._transaction)
-        return int(computation.get_gas_used()) + intrinsic_gas(code) + CREATION
+    chain, evm = RevmChain(), Instance()
+    code = chain.creation(contract)
+    for address, each in chain.codes().items():
+        evm.put(address, each)
+    gas = evm.create(code, DEFAULT_GAS_LIMIT).gas
+    return gas + intrinsic_gas(code) + CREATION + INITCODE_WORD * -(-len(code) // 32)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: The embedded EVMs: their names in figures and in text.
-ENGINES = {"pyrevm": "pyrevm", "pyevm": "py-evm"}
+ENGINES = {"revm": "revm, as WebAssembly", "pyrevm": "pyrevm", "pyevm": "py-evm"}
 #: A call is repeated until the calls have taken this many seconds together; the shortest counts.
 ENOUGH = 1.0
 

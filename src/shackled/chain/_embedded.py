@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import threading
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cached_property
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..artifacts import artifact
 from ..errors import ChainError, RenderError
@@ -112,6 +115,24 @@ class RevmChain(EmbeddedChain):
         if answer.status != Status.SUCCESS:
             raise _failed(answer, gas_limit)
         return CallResult(answer.output, answer.gas, intrinsic_gas(data))
+
+    def profile(
+        self, contract: str, data: bytes, places: Callable[[str], bytes]
+    ) -> tuple[CallResult, list[str], NDArray[np.uint32]]:
+        """Call a contract, and count the gas of each instruction.
+
+        places: returns the description of a contract for `Instance.describe`, by its name. Also returns the names of
+        the contracts in the order of their numbers, and the table of `Instance.profile`.
+        """
+        address = self.address(contract)
+        evm = Instance()
+        for name, each in self._addresses.items():
+            evm.put(each, self._codes[each])
+            evm.describe(each, places(name))
+        answer, table = evm.profile(address, data, self.gas_limit)
+        if answer.status != Status.SUCCESS:
+            raise _failed(answer, self.gas_limit)
+        return CallResult(answer.output, answer.gas, intrinsic_gas(data)), list(self._addresses), table
 
     @contextmanager
     def _instance(self) -> Iterator[Instance]:

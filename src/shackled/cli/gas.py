@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,7 +11,7 @@ import typer
 
 from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
 from ..errors import InputError
-from ..gas import TRACER, Profile, can_trace, counting, flame_graph, make_report, render_call, speedscope
+from ..gas import Profile, counting, flame_graph, make_report, render_call, speedscope
 from ..whole_file import check_output_file, write_output
 from .gas_progress import Progress
 from .gas_tables import print_profile, print_report
@@ -77,19 +76,14 @@ def gas(
         _check_price(eth_price, "--eth-price", "US dollars an ether")
     if path is not None and not stages:
         raise InputError("--profile and --no-stages exclude each other: give one of them")
-    traced = stages and can_trace()
-    if path is not None and not traced:
-        raise InputError(f"--profile needs {TRACER}")
     place = counting(open_chain(chain))
     node = _open_node(rpc, address, rpc_timeout)
     scene = load_with(input, look)
     with Progress(quiet=as_json) as progress:
-        report = make_report(scene, place, lower, upper, traced, progress.step, progress.traced, node)
+        report = make_report(scene, place, lower, upper, stages, progress.step, node)
         counted = None if node is None else node.call("Renderer", render_call(scene))
     if path is not None and report.profile is not None:
         _write_profile(path, report.profile, input)
-    if stages and not traced:
-        print(f"gas by stage needs {TRACER}", file=sys.stderr)
     if as_json:
         more: dict[str, Any] = {} if path is None else {"profile": str(path)}
         if node is not None and counted is not None:

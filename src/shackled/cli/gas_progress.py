@@ -1,14 +1,12 @@
-"""Show the progress of `shackled gas` on stderr: the bracket as it narrows, then the trace."""
+"""Show the progress of `shackled gas` on stderr: the bracket as it narrows."""
 
 from __future__ import annotations
 
 import sys
 from types import TracebackType
 
-from rich.console import Console, Group
+from rich.console import Console
 from rich.live import Live
-from rich.progress import BarColumn, TaskProgressColumn, TextColumn
-from rich.progress import Progress as Bars
 from rich.table import Table
 from rich.text import Text
 
@@ -27,7 +25,6 @@ class Progress:
         self._console = Console(stderr=True)
         self._quiet = quiet
         self._steps: list[SearchStep] = []
-        self._bars = Bars(TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), console=self._console)
         self._live: Live | None = None
 
     def __enter__(self) -> Progress:
@@ -53,22 +50,14 @@ class Progress:
             verdict = "suffices" if step.enough else "runs out"
             print(f"call {len(self._steps):2}: {step.limit:>14,} {verdict}; {bracket(step)}", file=sys.stderr)
 
-    def traced(self, used: int, total: int) -> None:
-        """Show the progress of the trace, in gas."""
-        if self._live is not None:
-            if not self._bars.tasks:
-                self._bars.add_task("tracing", total=total)
-            self._bars.update(self._bars.tasks[0].id, completed=used)
-            self._live.update(self._view())
-
-    def _view(self) -> Group:
+    def _view(self) -> Table:
         table = Table("call", "gas limit", "", "remaining", "bracket", box=None, header_style="dim")
         table.columns[0].justify = table.columns[1].justify = "right"
         first = max(0, len(self._steps) - ROWS)
         for number, step in enumerate(self._steps[first:], first + 1):
             verdict = Text("suffices", "green") if step.enough else Text("runs out", "red")
             table.add_row(str(number), f"{step.limit:,}", verdict, _bar(step), bracket(step))
-        return Group(table, self._bars) if self._bars.tasks else Group(table)
+        return table
 
 
 def bracket(step: SearchStep) -> str:

@@ -168,12 +168,10 @@ class Pool:
         )
         return stages
 
-    async def stage_gas(
-        self, visitor: str, state: State, longest: int | None = None, progress: Progress | None = None
-    ) -> dict[str, int]:
-        """Trace the gas of each stage in order of execution; about a second for two million gas."""
+    async def stage_gas(self, visitor: str, state: State, longest: int | None = None) -> dict[str, int]:
+        """Trace the gas of each stage in order of execution."""
         gas: dict[str, int] = await self._ask(
-            self._slow, visitor, "gas", "stage_gas", state, longest, uploads=state.source, progress=progress
+            self._slow, visitor, "gas", "stage_gas", state, longest, uploads=state.source
         )
         return gas
 

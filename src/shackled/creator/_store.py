@@ -17,12 +17,11 @@ class Limits:
 
     gas: of one call.
     seconds, slow_seconds, reading_seconds: time limits of a live picture, of a long task, and of reading a file.
-    memory: bytes of address space of a worker process.
+    memory: bytes that a worker process may write.
     upload: bytes of an uploaded file. unpacked, entries: bytes and number of the files in an archive.
     triangles: of each mesh of a file; larger meshes are simplified. all_triangles: of all meshes together.
     stored: bytes of all uploads in memory; the least recently used ones are dropped.
     waiting: jobs in each queue.
-    traced_gas: gas of pictures that may be traced.
     gif_frames, gif_pixels: number of frames of a GIF, and pixels of all its frames together.
     """
 
@@ -38,7 +37,6 @@ class Limits:
     all_triangles: int = 60_000
     stored: int = 256 * MEGABYTE
     waiting: int = 1000
-    traced_gas: int = 150_000_000
     gif_frames: int = 120
     gif_pixels: int = 24_000_000
 

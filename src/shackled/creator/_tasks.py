@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 from ..artifacts import artifact
 from ..chain import EmbeddedChain, open_chain, returned_bytes, returned_counts
 from ..datasets import require
-from ..errors import InputError, RenderError
+from ..errors import RenderError
 from ..gas import render_call
 from ..image import decode_bmp
 from ..scene import Scene, full_turn, resize, simplify_scene
@@ -140,17 +140,10 @@ class Tasks:
         return [StagePicture(each.name, each.title, each.detail, png(each.pixels, 1)) for each in made]
 
     def stage_gas(self, state: State, longest: int | None) -> dict[str, int]:
-        """Trace the gas of each stage in order of execution; about a second for two million gas."""
+        """Trace the gas of each stage in order of execution."""
         from ..gas import profile
 
-        scene = shrunk(self.scene(state), longest)
-        total = self._chain().draw(scene).gas or 0
-        if total > self._limits.traced_gas:
-            raise InputError(
-                f"gas is traced for pictures of up to {self._limits.traced_gas:,} gas; this one takes {total:,}: choose"
-                " a smaller size or fewer triangles"
-            )
-        return profile(scene, lambda used: self._progress(used, total)).stages()
+        return profile(shrunk(self.scene(state), longest)).stages()
 
     def compare(self, state: State, url: str) -> Comparison:
         """Render the picture on a node and compare it with ours."""

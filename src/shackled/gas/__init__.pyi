@@ -7,21 +7,19 @@ from ._search import FIRST_LIMIT, SearchStep, search, suffices
 from ._source_map import source_map
 from ._speedscope import speedscope
 from ._stages import STAGES
-from ._trace import TRACER, CallFrame, can_trace, trace
+from ._trace import CallFrame, trace
 
 __all__ = [
     "FIRST_LIMIT",
     "KEPT",
     "MARGIN",
     "STAGES",
-    "TRACER",
     "WIDTH",
     "CallFrame",
     "GasReport",
     "Limit",
     "Profile",
     "SearchStep",
-    "can_trace",
     "counting",
     "engine_calls",
     "flame_graph",

@@ -45,7 +45,7 @@ class ExactGas:
 def counting(chain: Chain) -> ContractChain:
     """Return the chain if it counts gas; otherwise raise InputError."""
     if not isinstance(chain, ContractChain):
-        raise InputError(f"the {chain.name} counts no gas: use `chain` pyrevm or pyevm")
+        raise InputError(f"the {chain.name} counts no gas: use `chain` revm, pyrevm or pyevm")
     return chain
 
 

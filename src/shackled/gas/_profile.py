@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -79,12 +79,9 @@ class Profile:
         return [(place, function, each) for (place, function), each in gas.most_common()]
 
 
-def profile(scene: Scene, report: Callable[[int], None] | None = None) -> Profile:
-    """Profile a render in py-evm, at some two million gas a second.
-
-    report: called from time to time with the gas that has been used. Raises InputError if py-evm is not installed.
-    """
-    root, result = trace("Renderer", render_call(scene), report)
+def profile(scene: Scene) -> Profile:
+    """Profile a render in the embedded EVM."""
+    root, result = trace("Renderer", render_call(scene))
     gas: Counter[tuple[str, tuple[str, ...], str, int]] = Counter()
     _collect(root, (), gas)
     found = Profile(tuple(LineCost(*key, each) for key, each in gas.items() if each))
@@ -104,7 +101,7 @@ def _collect(frame: CallFrame, callers: tuple[str, ...], gas: Counter[tuple[str,
             inlined = place.function if place is not None and not _is_own(frame, mapped, place) else None
             key = stage, (*calls, inlined) if inlined and inlined != name else calls, line[0], line[1]
             gas[key] += each
-    for called in frame.calls.values():
+    for called in frame.calls:
         _collect(called, calls, gas)
 
 

@@ -99,19 +99,15 @@ def make_report(
     upper: int | None = None,
     stages: bool = True,
     on_step: Callable[[SearchStep], None] | None = None,
-    on_trace: Callable[[int, int], None] | None = None,
     searched: Caller | None = None,
 ) -> GasReport:
     """Measure a render, search for its gas limit between two bounds, and trace it.
 
-    on_step: called after each step of the search. on_trace: called during the trace with the gas that it has used and
-    the total. searched: where to search; None is `chain`. Raises InputError if stages are wanted and py-evm is not
-    installed.
+    on_step: called after each step of the search. searched: where to search; None is `chain`.
     """
     exact = measure(scene, chain)
     data = render_call(scene)
     found = search(suffices(searched or chain, "Renderer", data), lower, upper, on_step)
     triangles, lit_pixels = chain.count(scene)
-    report = None if on_trace is None else lambda used: on_trace(used, exact.gas)
-    costs = profile(scene, report) if stages else None
+    costs = profile(scene) if stages else None
     return GasReport(scene, exact, found, triangles, lit_pixels, costs, chain.name)

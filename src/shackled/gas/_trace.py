@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable
+from collections import Counter, defaultdict
 from dataclasses import dataclass, field
-from importlib.util import find_spec
-from typing import Any
+from functools import cache
 
-from ..chain import CallResult, PyEvmChain
-from ..errors import InputError
+import numpy as np
+
+from ..artifacts import artifact
+from ..chain import CallResult, RevmChain
 from ._source_map import source_map
-from ._stages import REST, stages_of
+from ._stages import REST, STAGES, stages_of
 
-_JUMPS, _FIRST_CALL = (0x56, 0x57), 0xF0
-
-#: Instructions between two reports of progress.
-_STRIDE = 1 << 16
+#: A place of evm/src/profile.rs. Numbers count from 1, 0 is none.
+_PLACE = np.dtype([("stage", "u1"), ("jump", "u1"), ("function", "<u2"), ("entry", "<u2")])
+_JUMPS = {"-": 0, "i": 1, "o": 2}
+#: Words of a function, and of a position, in its table.
+_FUNCTION, _POSITION = 3, 6
 
 
 @dataclass(eq=False)
@@ -24,142 +25,53 @@ class CallFrame:
     """A function with its callers; one frame for all calls by the same way.
 
     contract: the name of its artifact. entry: the position at which it begins; 0 is the contract itself. costs: gas by
-    stage and position of the instruction, without that of calls.
+    stage and position of the instruction, without that of calls. counts: how often each position was executed.
     """
 
     contract: str
     entry: int
-    parent: CallFrame | None
-    costs: defaultdict[str, defaultdict[int, int]] = field(
-        default_factory=lambda: defaultdict(lambda: defaultdict(int))
-    )
-    calls: dict[tuple[str, int], CallFrame] = field(default_factory=dict)
-
-    def call(self, contract: str, entry: int) -> CallFrame:
-        """Return the frame of a function that is called here."""
-        key = contract, entry
-        if key not in self.calls:
-            self.calls[key] = CallFrame(contract, entry, self)
-        return self.calls[key]
+    costs: defaultdict[str, dict[int, int]] = field(default_factory=lambda: defaultdict(dict))
+    counts: Counter[int] = field(default_factory=Counter)
+    calls: list[CallFrame] = field(default_factory=list)
 
     def frames(self) -> list[CallFrame]:
         """Return this frame and all below it."""
-        return [self, *(frame for each in self.calls.values() for frame in each.frames())]
+        return [self, *(frame for each in self.calls for frame in each.frames())]
 
     def gas(self) -> int:
         """Return the gas of this frame without what it calls."""
         return sum(sum(costs.values()) for costs in self.costs.values())
 
 
-#: The requirement of tracing, for messages.
-TRACER = "the package py-evm: pip install 'shackled[profile]'"
+def trace(contract: str, data: bytes) -> tuple[CallFrame, CallResult]:
+    """Make a call in the embedded EVM; return the frame of the contract, and the result."""
+    result, names, table = RevmChain().profile(contract, data, _places)
+    count = int(table[0])
+    functions = table[1 : 1 + _FUNCTION * count].reshape(-1, _FUNCTION).tolist()
+    frames = [CallFrame(names[number], entry) for _, number, entry in functions]
+    for frame, (parent, _, _) in zip(frames, functions, strict=True):
+        if parent < count:
+            frames[parent].calls.append(frame)
+    for number, stage, at, times, low, high in table[1 + _FUNCTION * count :].reshape(-1, _POSITION).tolist():
+        frames[number].costs[STAGES[stage - 1] if stage else REST][at] = low | high << 32
+        frames[number].counts[at] += times
+    assert sum(frame.gas() for frame in frames) == result.gas
+    return frames[0], result
 
 
-def can_trace() -> bool:
-    """Return whether there is an EVM that can be traced."""
-    return find_spec("eth") is not None
-
-
-def trace(contract: str, data: bytes, report: Callable[[int], None] | None = None) -> tuple[CallFrame, CallResult]:
-    """Make a call in py-evm; return the frame of the contract, and the result.
-
-    report: called from time to time with the gas that has been used. Raises InputError if py-evm is not installed.
-    """
-    if not can_trace():
-        raise InputError(f"gas by stage and line needs {TRACER}")
-    chain = _Tracer(report)
-    result = chain.call(contract, data)
-    assert chain.root is not None
-    assert sum(frame.gas() for frame in chain.root.frames()) == result.gas
-    return chain.root, result
-
-
-class _Tracer(PyEvmChain):
-    """Records the gas of the last call."""
-
-    def __init__(self, report: Callable[[int], None] | None) -> None:
-        super().__init__()
-        self.root: CallFrame | None = None
-        self._report = report
-
-    def _state(self) -> Any:
-        state = super()._state()
-        self.root = None
-        #: The caller and its stage; and the gas of the call that ended last.
-        self._caller: tuple[CallFrame | None, str] = None, REST
-        self._called = 0
-        tracer, base = self, state.computation_class
-
-        def apply_computation(cls: Any, state: Any, message: Any, *rest: Any, **named: Any) -> Any:
-            if message.is_create or message.code_address not in tracer._addresses.values():
-                return base.apply_computation.__func__(cls, state, message, *rest, **named)
-            with cls(state, message, *rest) as computation:
-                computation.contracts_created = []
-                tracer._run_code(computation)
-            return computation
-
-        members = {"apply_computation": classmethod(apply_computation)}
-        state.computation_class = type("TracedComputation", (base,), members)
-        return state
-
-    def _run_code(self, computation: Any) -> None:
-        """Run the loop of py-evm, and count the gas of each instruction."""
-        from eth.exceptions import Halt
-        from eth.vm.logic.invalid import InvalidOpcode
-
-        address = computation.msg.code_address
-        contract = next(name for name, each in self._addresses.items() if each == address)
-        mapped = source_map(contract)
-        stages = stages_of(mapped)
-        jumps = {at: place.jump for at, place in mapped.places.items() if place.jump in "io"}
-        caller, stage = self._caller
-        frame = CallFrame(contract, 0, None) if caller is None else caller.call(contract, 0)
-        if self.root is None:
-            self.root = frame
-        #: Frame and stage of each open call, and its return position.
-        returns: list[tuple[CallFrame, str, int]] = []
-        costs = frame.costs[stage]
-        code, meter, opcodes = computation.code, computation._gas_meter, computation.opcodes
-        start = before = meter.gas_remaining
-        countdown = _STRIDE
-        for opcode in code:
-            at = code.program_counter - 1
-            new = stages.get(at, stage)
-            if new != stage:
-                stage = new
-                costs = frame.costs[stage]
-            operation = opcodes.get(opcode) or InvalidOpcode(opcode)
-            halted = False
-            if opcode >= _FIRST_CALL:
-                self._caller, self._called = (frame, stage), 0
-            try:
-                operation(computation=computation)
-            except Halt:
-                halted = True
-            after = meter.gas_remaining
-            costs[at] += before - after
-            before = after
-            if opcode >= _FIRST_CALL:
-                # the callee counts its own gas
-                costs[at] -= self._called
-            if halted:
-                break
-            if opcode in _JUMPS and at in jumps and code.program_counter != at + 1:
-                target = code.program_counter
-                if jumps[at] == "i":
-                    returns.append((frame, stage, at + 1))
-                    frame = frame.call(contract, target)
-                elif any(target == back for _, _, back in returns):
-                    back = -1
-                    while back != target:
-                        frame, stage, back = returns.pop()
-                elif returns and mapped.places[target].function not in (None, mapped.entries.get(frame.entry)):
-                    frame, stage, _ = returns.pop()
-                # else a common end of several functions, which the compiler made
-                costs = frame.costs[stage]
-            countdown -= 1
-            if not countdown:
-                countdown = _STRIDE
-                if self._report is not None:
-                    self._report(start - after)
-        self._called = start - before
+@cache
+def _places(contract: str) -> bytes:
+    """Return what evm/src/profile.rs wants to know of each position of a contract."""
+    mapped = source_map(contract)
+    stages = stages_of(mapped)
+    numbers: dict[str, int] = {}
+    places = np.zeros(len(artifact(contract).runtime), _PLACE)
+    for at, place in mapped.places.items():
+        stage, function, entry = stages.get(at), place.function, mapped.entries.get(at)
+        places[at] = (
+            0 if stage is None else STAGES.index(stage) + 1,
+            _JUMPS[place.jump],
+            0 if function is None else numbers.setdefault(function, len(numbers) + 1),
+            0 if entry is None else numbers.setdefault(entry, len(numbers) + 1),
+        )
+    return places.tobytes()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Protocol
 
-from ..chain import Chain, Drawing, EmbeddedChain, PyrevmChain, open_chain, out_of_gas
+from ..chain import Chain, Drawing, EmbeddedChain, open_chain, out_of_gas
 from ..errors import InputError, RenderError
 from ..scene import Rectangle, Scene
 from ..workers import Worker, WorkerEndedError
@@ -139,19 +139,14 @@ class ProcessBackend:
 
 
 class Verifier:
-    """Renders parts again in this process, to compare them with the answers of untrusted backends.
-
-    The compiled EVM renders them where it is installed, else the NumPy reference: the same bytes, and no gas.
-    """
+    """Renders parts again in the embedded EVM, to compare them with the answers of untrusted backends."""
 
     def __init__(self, every: bool) -> None:
         """Open the chain. every: whether each part is compared, or a random sample."""
         self._every = every
         self._chain = open_chain(None)
-        if isinstance(self._chain, PyrevmChain):
-            self._chain.address("Renderer")  # set up here, before several threads ask for it
-        else:
-            self._chain = open_chain("reference")
+        assert isinstance(self._chain, EmbeddedChain)
+        self._chain.address("Renderer")  # set up here, before several threads ask for it
 
     def selects(self, first: bool) -> bool:
         """Return whether to compare a part. first: whether it is the first one of its backend."""

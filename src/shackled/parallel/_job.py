@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..chain import Drawing, PyrevmChain, open_chain
+from ..chain import ContractChain, Drawing, open_chain
 from ..image import Image, decode_bmp, encode_bmp
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
@@ -114,9 +114,10 @@ def plan(
 
 def _estimate(scene: Scene, backends: Sequence[Backend], where: Where) -> Estimate | None:
     """Estimate the cost of a frame; return None where that would take as long as the frame itself."""
-    chain = open_chain(None)
-    if not isinstance(chain, PyrevmChain) or any(backend.name.startswith("NumPy") for backend in backends):
+    if any(backend.name.startswith("NumPy") for backend in backends):
         return None
+    chain = open_chain(None)
+    assert isinstance(chain, ContractChain)
     return estimate(scene, chain)
 
 

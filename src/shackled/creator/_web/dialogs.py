@@ -75,7 +75,7 @@ async def stages(visitor: Visitor) -> None:
     html = {
         "fits": fragment("fits", fits=fits),
         "stages": fragment("waiting"),
-        "gas": fragment("waiting", text="traced"),
+        "gas": fragment("waiting"),
     }
     await visitor.tell({"open": "stages", "html": html})
     state = visitor.state
@@ -83,14 +83,10 @@ async def stages(visitor: Visitor) -> None:
     pictures = [(stage.title, stage.detail, base64.b64encode(stage.png).decode()) for stage in made]
     await visitor.tell({"html": {"stages": fragment("stages", pictures=pictures)}})
     try:
-        gas = await visitor.pool.stage_gas(visitor.name, state, progress=visitor.progress(_traced))
+        gas = await visitor.pool.stage_gas(visitor.name, state)
         await visitor.tell({"html": {"gas": fragment("gas", gas=gas)}})
     except ShackledError as error:
         await visitor.tell({"html": {"gas": fragment("sentence", text=str(error))}})
-
-
-def _traced(done: int, total: int) -> Message:
-    return {"texts": {"traced": f"Tracing in the EVM, instruction by instruction: {done / max(total, 1):.0%}"}}
 
 
 async def compare(visitor: Visitor) -> None:
