@@ -260,16 +260,26 @@ def test_elevation_ends_above_the_scene(show: Opener) -> None:
     assert view.turn() == {"azimuth": 10, "elevation": 0, "zoom": 1}
 
 
-def test_no_inertia_where_motion_is_reduced(show: Opener) -> None:
-    view = show(reduced_motion="reduce")
+@pytest.mark.parametrize("preference", ["reduce", "no-preference"])
+def test_inertia_but_where_motion_is_reduced(show: Opener, preference: str) -> None:
+    view = show(reduced_motion=preference)
     box = view.stage.bounding_box()
     view.page.mouse.move(box["x"] + 100, box["y"] + 100)
     view.page.mouse.down()
     view.page.mouse.move(box["x"] + 160, box["y"] + 100, steps=4)
     view.page.mouse.up()
     turned = view.turn()
-    time.sleep(0.3)
-    assert view.turn() == turned
+    time.sleep(0.5)
+    assert (view.turn() == turned) == (preference == "reduce")
+
+
+def test_the_picture_at_rest_does_not_delay_a_drag(show: Opener) -> None:
+    view = show(call_of(load("teapot", size=1000)))
+    # the larger picture is being drawn; what was given up is no error
+    turned = view.after(lambda: view.drag(40, 10))
+    assert turned["width"] == 1000
+    assert view.run("this.errors") == []
+    view.after(view.press("Home"))
 
 
 def test_exact_pixels(show: Opener) -> None:

@@ -63,8 +63,8 @@ export async function fetchBytes(
         if (!element) throw new InputError(`${name}: there is no element with the id ${url.slice(1)}`);
         return unpack(element.textContent, most, name);
     }
-    if (url.startsWith("file:") && typeof process === "object") {
-        // Node cannot fetch files; bundlers for browsers do not see this import
+    if (url.startsWith("file:") && inNode()) {
+        // which cannot fetch files; bundlers for browsers do not see this import
         const { readFileSync } = process.getBuiltinModule("node:fs");
         return Uint8Array.from(readFileSync(new URL(url)));
     }
@@ -84,6 +84,10 @@ async function bodyOf(response: Response, most: number, name: string): Promise<U
         );
     }
     return response.body ? readStream(response.body, most, name) : new Uint8Array();
+}
+
+function inNode(): boolean {
+    return typeof process === "object" && "getBuiltinModule" in process;
 }
 
 function isPlain(contracts: AssetSources["contracts"]): contracts is Contracts {

@@ -31,6 +31,8 @@ const MAX_ZOOM = 50;
 const REST = 160;
 /** Milliseconds, by an estimate that is usually far too high, above which the picture at rest is not larger than the call's. */
 const PATIENCE = 15_000;
+/** Where the place of the picture has become so many times larger, it is drawn again. */
+const ENLARGED = 1.2;
 /** A picture at rest that takes longer than this is given up when the viewer moves. */
 const INTERRUPT = 60;
 /** Milliseconds in which the speed of a drag that was let go falls to a third, and the speed at which it ends. */
@@ -186,6 +188,12 @@ export class ShackledView extends HTMLElement {
             signal,
         );
         this.#listenToFiles(signal);
+        const sizes = new ResizeObserver(() => {
+            const { canvas, stage } = this.#parts;
+            const [shown, place] = [canvas.width, stage.clientWidth * devicePixelRatio];
+            if (this.#picture && !this.hasAttribute("exact") && place > ENLARGED * shown) this.#settle();
+        });
+        sizes.observe(stage);
         // pictures that nobody sees cost nothing
         const observer = new IntersectionObserver(
             (entries) => {
@@ -198,7 +206,10 @@ export class ShackledView extends HTMLElement {
             { rootMargin: "200px" },
         );
         observer.observe(this);
-        signal.addEventListener("abort", () => observer.disconnect());
+        signal.addEventListener("abort", () => {
+            sizes.disconnect();
+            observer.disconnect();
+        });
     }
 
     disconnectedCallback(): void {
@@ -460,7 +471,7 @@ export class ShackledView extends HTMLElement {
         const shown = this.#shownSize();
         const smooth = !this.hasAttribute("exact") && 2 * Math.max(...shown) <= MAX_SIDE;
         this.#picture = { gas, width, height, milliseconds, sha256, pixels };
-        if (first || !smooth) this.#paint(drawn, !smooth);
+        if (first || !smooth) this.#paint(drawn, this.hasAttribute("exact"));
         this.#say("");
         this.#report(this.#picture, smooth ? shown : null);
         if (smooth) {
