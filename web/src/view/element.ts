@@ -191,7 +191,8 @@ export class ShackledView extends HTMLElement {
         const sizes = new ResizeObserver(() => {
             const { canvas, stage } = this.#parts;
             const [shown, place] = [canvas.width, stage.clientWidth * devicePixelRatio];
-            if (this.#picture && !this.hasAttribute("exact") && place > ENLARGED * shown) this.#settle();
+            const resting = this.#picture && !this.#drawing && !this.#moving && !this.hasAttribute("exact");
+            if (resting && place > ENLARGED * shown) this.#settle();
         });
         sizes.observe(stage);
         // pictures that nobody sees cost nothing
