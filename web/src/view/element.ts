@@ -602,7 +602,9 @@ function build(root: ShadowRoot) {
     const outcome = create("p", { class: "outcome", role: "status" });
     const panel = create("div", { class: "panel", part: "panel", id: "panel", hidden: "" }, [
         create("p", {}, ["SHA-256 of the exact pixels: ", hash]),
-        create("p", { text: "A node of your choice can compute the same picture; all bytes are compared." }),
+        create("p", {
+            text: "A node of your choice is sent the scene and computes the same picture; all bytes are compared.",
+        }),
         form,
         outcome,
     ]);
