@@ -312,6 +312,26 @@ def test_means_of_four_pixels(show: Opener) -> None:
     assert np.array_equal(np.array(data).reshape(height, width, 4)[..., :3], means)
 
 
+def test_a_turn_given_with_the_scene(show: Opener) -> None:
+    view = show()
+    data = base64.b64encode(call_of(scene())).decode()
+    script = "(view.call = Uint8Array.from(atob(argument), c => c.charCodeAt(0)), view.turn = {azimuth: 20}, null)"
+    turned = view.after(lambda: view.run(script, data))
+    assert view.turn()["azimuth"] == 20
+    assert turned["sha256"] != sha256(render(scene()))
+    # a new scene is shown as it is
+    drop(view, call_of(scene()))
+    view.wait("this.pictures.at(-1).sha256 === this.pictures[0].sha256")
+    assert view.turn()["azimuth"] == 0
+
+
+def test_what_is_no_turn(show: Opener) -> None:
+    view = show()
+    with pytest.raises(playwright.Error, match="turn must consist of numbers"):
+        view.run("(view.turn = {azimuth: NaN}, null)")
+    view.after(view.press("ArrowLeft"))
+
+
 def test_scene_files_and_pictures(show: Opener) -> None:
     view = show()
     other = load("icons/diamond", size=32)
@@ -396,6 +416,7 @@ def test_check_by_a_node(show: Opener) -> None:
         )
         # and turned
         view.after(view.press("ArrowLeft"))
+        assert view.page.locator(".outcome").inner_text() == ""
         assert checked(view, node.url)["outcome"] == "equal"
 
 

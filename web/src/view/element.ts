@@ -76,6 +76,7 @@ export class ShackledView extends HTMLElement {
     #held = false;
     #dirty = false;
     #drawing: Wish | null = null;
+    #queued = false;
     #opening = false;
     #checking = false;
     #rest = 0;
@@ -129,7 +130,8 @@ export class ShackledView extends HTMLElement {
 
     set turn(turn: Partial<TurnDetail>) {
         cancelAnimationFrame(this.#inertia);
-        this.#move(() => this.#face({ ...START, ...turn }));
+        if (this.#facts) this.#move(() => this.#face({ ...START, ...turn }));
+        else this.#face({ ...START, ...turn });
     }
 
     /** The last picture at rest, with the contract's own pixels in RGBA; null before there is one. */
@@ -200,8 +202,8 @@ export class ShackledView extends HTMLElement {
             (entries) => {
                 if (!entries.some((entry) => entry.isIntersecting)) return;
                 observer.disconnect();
-                this.#client = new Client(this.#assets());
-                if (this.#source) this.#show(this.#source);
+                this.#client = new Client(() => this.#assets());
+                if (this.#source) void this.#open(this.#client, this.#source);
                 else this.#load();
             },
             { rootMargin: "200px" },
@@ -235,8 +237,13 @@ export class ShackledView extends HTMLElement {
         if (name === "rpc" && after) this.#parts.url.value = after;
         if (SOURCES.includes(name) && before !== after) {
             this.#source = null;
+            if (this.#queued) return;
             // attributes that are set one after the other are one source
-            queueMicrotask(() => this.#load());
+            this.#queued = true;
+            queueMicrotask(() => {
+                this.#queued = false;
+                this.#load();
+            });
         }
     }
 
@@ -272,6 +279,7 @@ export class ShackledView extends HTMLElement {
     #listenToFiles(signal: AbortSignal): void {
         const { stage } = this.#parts;
         const mark = (event: DragEvent, on: boolean): void => {
+            if (!event.dataTransfer?.types.includes("Files")) return;
             event.preventDefault();
             stage.classList.toggle("drop", on);
         };
@@ -291,6 +299,8 @@ export class ShackledView extends HTMLElement {
     /** Show another scene. */
     #show(source: Source): void {
         this.#source = source;
+        this.#turn = { ...START };
+        this.#parts.reset.hidden = true;
         if (this.#client) void this.#open(this.#client, source);
     }
 
@@ -302,8 +312,8 @@ export class ShackledView extends HTMLElement {
         this.#drawing = this.#moving = null;
         this.#opening = true;
         this.#facts = this.#call = this.#picture = null;
-        this.#turn = { ...START };
         this.#speed = new Speed();
+        this.#clearOutcome();
         this.#busy(true);
         this.#say("");
         try {
@@ -312,6 +322,8 @@ export class ShackledView extends HTMLElement {
             this.#opening = false;
             client.call = this.#call = call;
             this.#facts = facts;
+            const { azimuth, elevation, zoom } = this.#turn;
+            if (azimuth || elevation || zoom !== 1) this.#face(this.#turn);
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
             await this.#drawAtRest();
         } catch (error) {
@@ -351,6 +363,7 @@ export class ShackledView extends HTMLElement {
     /** Go on for a moment at the speed at which the scene was let go. */
     #release(speed: { azimuth: number; elevation: number }): void {
         this.#held = false;
+        if (!this.#moving) return;
         this.#settle();
         if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
         let last = performance.now();
@@ -368,6 +381,12 @@ export class ShackledView extends HTMLElement {
         this.#inertia = requestAnimationFrame(step);
     }
 
+    /** The outcome of a check is that of one picture. */
+    #clearOutcome(): void {
+        if (!this.#checking) this.#parts.outcome.textContent = "";
+        delete this.#parts.outcome.dataset["outcome"];
+    }
+
     /** Take a turn, within its range. */
     #face({ azimuth, elevation, zoom }: Change): void {
         const [low, high] = this.#facts?.elevations ?? [-90, 90];
@@ -381,12 +400,14 @@ export class ShackledView extends HTMLElement {
         };
         const { reset } = this.#parts;
         reset.hidden = !(this.#turn.azimuth || this.#turn.elevation || this.#turn.zoom !== 1);
+        this.#clearOutcome();
         this.dispatchEvent(new CustomEvent<TurnDetail>("turn", { detail: this.turn, bubbles: true, composed: true }));
     }
 
     /** Change the turn, and draw frames of one size until the viewer rests. */
     #move(change: () => void): void {
         if (!this.#facts) return;
+        change();
         if (!this.#moving) {
             this.#moving = this.#speed.movingSize([this.#facts.width, this.#facts.height], this.#shownSize());
             this.#parts.stage.dataset["moving"] = "";
@@ -397,7 +418,6 @@ export class ShackledView extends HTMLElement {
                 this.#drawing = null;
             }
         }
-        change();
         this.#dirty = true;
         this.#settle();
         void this.#drawFrames();
