@@ -34,6 +34,7 @@ EXTRA_OF = {
     "bench": "bench",
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
+    "web/_widget.py": "jupyter",
 }
 
 

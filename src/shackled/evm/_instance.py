@@ -10,7 +10,7 @@ import wasmtime
 from numpy.typing import NDArray
 
 from ..errors import ChainError
-from ._module import compiled
+from ._module import new_store
 
 #: The largest memory of an instance in bytes; a picture of 2048 x 2048 pixels needs about 300 MB.
 MEMORY = 1 << 30
@@ -43,8 +43,7 @@ class Instance:
 
     def __init__(self) -> None:
         """Start without contracts."""
-        engine, module = compiled()
-        self._store = wasmtime.Store(engine)
+        self._store, module = new_store()
         self._store.set_limits(memory_size=MEMORY)
         self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
         self._memory: Any = self._exports["memory"]
