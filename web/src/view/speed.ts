@@ -1,7 +1,7 @@
 // How long pictures of a size take, and the size at which they are drawn while the viewer moves.
 
-/** Milliseconds that a picture may take while the viewer moves. */
-const FRAME = 33;
+/** Milliseconds that a picture may take while the viewer moves: 25 a second. */
+const FRAME = 40;
 /** Sizes while the viewer moves, as fractions of that at rest, and below the call's own as fractions of that. */
 const LARGER = [1, 0.75, 0.5];
 const SMALLER = [1, 0.75, 0.5, 0.25, 0.125];
