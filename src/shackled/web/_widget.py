@@ -21,14 +21,9 @@ if TYPE_CHECKING:
 SCRIPT = """
 export default {
     render({ model, el }) {
-        const unpack = (name) => {
-            const stream = new Blob([model.get(name)]).stream().pipeThrough(new DecompressionStream("gzip"));
-            return new Response(stream);
-        };
         const view = document.createElement("shackled-view");
-        const { assets } = view.constructor;
-        assets.evm ??= unpack("_evm");
-        assets.contracts ??= unpack("_contracts");
+        const View = view.constructor;
+        if (!View.assets.evm) View.assets = { evm: model.get("_evm"), contracts: model.get("_contracts") };
         view.style.maxWidth = "24rem";
         const { buffer, byteOffset, byteLength } = model.get("_call");
         view.call = new Uint8Array(buffer, byteOffset, byteLength);
