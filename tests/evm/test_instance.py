@@ -51,7 +51,7 @@ def test_other_threads_run_during_a_call() -> None:
 
 
 def test_threads_share_a_chain() -> None:
-    chain, found = RevmChain(), []
+    chain, found = RevmChain(), list[bool]()
     chain.put(ADDRESS, bytes.fromhex("5f355f5260205ff3"))
 
     def call(number: int) -> None:
