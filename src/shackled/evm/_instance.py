@@ -15,6 +15,10 @@ from ._module import new_store
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
 
+#: Calls get at most this much gas, a day's work: from 2^45 on it would pay for more memory than the 32-bit
+#: numbers of the module can address.
+MOST_GAS = (1 << 45) - 1
+
 
 class Status(IntEnum):
     """How a call ended, as evm/src/calls.rs says."""
@@ -78,8 +82,7 @@ class Instance:
         places = [self._run("allocate", len(value)) for value in values]
         for place, value in zip(places, values, strict=True):
             self._memory.write(self._store, value, place)
-        # a number of 64 bits is passed as a signed one
-        limit = [] if gas is None else [min(gas, (1 << 63) - 1)]
+        limit = [] if gas is None else [min(gas, MOST_GAS)]
         result = self._run(function, *places, len(values[-1]), *limit)
         for place, value in zip(places, values, strict=True):
             self._run("release", place, len(value))
