@@ -107,7 +107,7 @@ pictures: $(DEV) ## draw the pictures of the documentation
 
 fuzz: $(DEV) ## contracts against the reference over 2,000 random scenes, property tests on new examples
 	$(BIN)/python tests/differential.py --count 2000
-	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
+	HYPOTHESIS_PROFILE=new $(BIN)/pytest -n 2 tests/evm tests/scene tests/test_bad_input_on_chain.py tests/test_differential.py tests/test_properties.py
 
 conformance: $(DEV) opengl ## contracts against OpenGL over 500 random scenes and every built-in piece
 	$(BIN)/python tests/conformance

@@ -2,13 +2,12 @@
 
     python -m benchmarks.stages FILE ...     any mesh or scene file
 
-As `shackled gas` profiles it, beside the least that each stage could need. Needs py-evm.
+As `shackled gas` profiles it, beside the least that each stage could need.
 """
 
 from __future__ import annotations
 
 import sys
-from importlib.util import find_spec
 
 from shackled import Scene, load
 from shackled.bench import millions, table
@@ -33,11 +32,6 @@ POINT_PIXEL = 680
 #: Memory for a depth of 8 bytes; there are no more than the pixels of a band.
 DEPTH_MEMORY = 2.75
 BAND_PIXELS = 16384
-
-
-def missing() -> str | None:
-    """Return the package that is needed and not installed, or None."""
-    return None if find_spec("eth") else "py-evm"
 
 
 def gas_by_stage(scene: Scene) -> dict[str, int]:
@@ -66,9 +60,6 @@ def floor_of(scene: Scene, work: Workload) -> dict[str, int]:
 
 def section() -> Section:
     """Make the table of some scenes."""
-    lack = missing()
-    if lack is not None:
-        return Section(TITLE, f"skipped: needs {lack}", {})
     return report(_examples())
 
 
@@ -110,10 +101,6 @@ def _examples() -> dict[str, Scene]:
 
 def main() -> int:
     """Print the stages of the files that are named."""
-    lack = missing()
-    if lack is not None:
-        print(f"this needs {lack}", file=sys.stderr)
-        return 1
     print(report({name: load(name) for name in sys.argv[1:]}).text if sys.argv[1:] else section().text)
     return 0
 

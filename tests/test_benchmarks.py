@@ -24,7 +24,6 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @pytest.mark.parametrize("look", ["unlit", "matte"])
 def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
-    pytest.importorskip("pyrevm", reason="py-evm would take minutes")
     scenes = squares(look) + linear_cubes(look)
     triangles = np.array([scene.triangles for scene in scenes], float)
     pixels = np.array([scene.width * scene.height for scene in scenes], float)
@@ -89,7 +88,6 @@ def rows(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-@pytest.mark.skipif(stages.missing() is not None, reason=f"needs {stages.missing()}")
 def test_the_stages_add_up() -> None:
     scene = staged_teapot("flat", 24)
     spent = stages.gas_by_stage(scene)

@@ -10,7 +10,6 @@ from benchmarks import shared, snapshot
 
 @pytest.fixture(scope="module")
 def measured() -> snapshot.Snapshot:
-    pytest.importorskip("pyrevm", reason="in py-evm the figures, which are the same, take minutes")
     return snapshot.take()
 
 

@@ -7,7 +7,6 @@ import os
 import re
 import xml.etree.ElementTree as ElementTree
 from base64 import b64decode
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +18,7 @@ from PIL import Image as PillowImage
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, OutputError, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, ContractChain, PyEvmChain, PyrevmChain, open_chain
+from shackled.chain import CallResult, ContractChain, RevmChain, open_chain
 from shackled.image import FORMATS, check_output, decode_bmp
 from shackled.scene import encode
 
@@ -206,7 +205,7 @@ def test_a_picture_is_one_call(monkeypatch: pytest.MonkeyPatch) -> None:
         made.append(data[:4])
         return run(to, data, gas_limit)
 
-    chain = PyrevmChain() if find_spec("pyrevm") else PyEvmChain()
+    chain = RevmChain()
     expected = chain.count(SCENE)
     run = chain._run
     monkeypatch.setattr(chain, "_run", counted)

@@ -46,7 +46,6 @@ Rows = list[dict[str, str]]
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of all experiments but the slow ones, each made once."""
-    pytest.importorskip("pyrevm", reason="py-evm would take minutes")
     folder = tmp_path_factory.mktemp("bench")
     names = [name for name in EXPERIMENTS if name not in SLOW]
     assert run(["bench", *names, "--quick", "--processes", "1", "-o", str(folder)]) == 0
@@ -234,7 +233,7 @@ def test_output(made: Path) -> None:
 def test_engines_agree(tmp_path: Path) -> None:
     assert run(["bench", "engines", "--quick", "-o", str(tmp_path)]) == 0
     rows = rows_of(tmp_path, "engines")
-    assert "pyevm" in {row["engine"] for row in rows}
+    assert "revm" in {row["engine"] for row in rows}
     assert {row["gas"] for row in rows} == {str(cost(scenes.cube(8)).gas)}
     assert all(float(row["seconds"]) > 0 for row in rows)
 

@@ -125,8 +125,6 @@ def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:
     ids=" ".join,
 )
 def test_a_full_disk_behind_a_file(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    if arguments[0] == "gas":
-        pytest.importorskip("eth", reason="a profile needs py-evm")
     name = arguments[-1]
     Path(name).symlink_to("/dev/full")
     assert run_command(arguments) == 1

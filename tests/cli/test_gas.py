@@ -12,10 +12,6 @@ import pytest
 import typer
 
 from nodes import anvil, needs_anvil
-
-pytest.importorskip("eth", reason="stages need py-evm")
-pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
-
 from shackled import load, render
 from shackled.cli.app import app, run
 from shackled.cli.look_options import option_of

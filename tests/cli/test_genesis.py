@@ -18,7 +18,6 @@ from shackled.reference.genesis.random import keccak256
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    pytest.importorskip("pyrevm", reason="in py-evm this takes minutes")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("SHACKLED_CACHE", str(tmp_path / "cache"))
     return tmp_path

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from tools.anvil import AnvilChain
 
 from nodes import ANVIL, needs_anvil
@@ -15,7 +14,6 @@ from shackled.gas import measure, render_call, search, suffices
 
 @needs_anvil
 def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("pyrevm")
     assert ANVIL is not None
     scene = scenes["smooth"]
     data = render_call(scene)
@@ -36,7 +34,7 @@ def test_a_node_that_only_answers_calls_gives_the_same(scenes: dict[str, Scene])
     assert refusals
     for refused in refusals:
         assert isinstance(refused, OutOfGasError) or (isinstance(refused, RevertError) and refused.data == out_of_gas)
-    chain = open_chain("pyrevm")
+    chain = open_chain()
     assert isinstance(chain, ContractChain)
     assert on_node == search(suffices(chain, "Renderer", data))
     assert on_node.gas > measure(scene, chain).gas

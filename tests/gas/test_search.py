@@ -77,8 +77,7 @@ def test_all_but_a_64th() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("pyrevm", reason="the search would take py-evm minutes")
-    chain = open_chain("pyrevm")
+    chain = open_chain()
     assert isinstance(chain, ContractChain)
     scene = scenes[name]
     data = render_call(scene)
@@ -96,9 +95,8 @@ def test_the_search_and_the_exact_figure_agree(name: str, scenes: dict[str, Scen
 
 
 def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("pyrevm")
     pytest.importorskip("eth")
-    fast, slow = open_chain("pyrevm"), open_chain("pyevm")
+    fast, slow = open_chain(), open_chain("pyevm")
     assert isinstance(fast, ContractChain)
     assert isinstance(slow, ContractChain)
     data = render_call(scenes["empty"])
@@ -109,8 +107,7 @@ def test_another_evm_needs_the_same_limit(scenes: dict[str, Scene]) -> None:
 
 
 def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("pyrevm")
-    chain = open_chain("pyrevm")
+    chain = open_chain()
     assert isinstance(chain, ContractChain)
     data = render_call(evolve(scenes["empty"], width=5))
     zero_width = bytearray(data)
@@ -122,8 +119,7 @@ def test_a_refusal_is_not_taken_for_too_little_gas(scenes: dict[str, Scene]) -> 
 
 @pytest.mark.parametrize("name", ["smooth", "mixed", "large"])
 def test_the_calls_of_the_engines_are_those_that_the_renderer_makes(name: str, scenes: dict[str, Scene]) -> None:
-    pytest.importorskip("pyrevm")
-    chain = open_chain("pyrevm")
+    chain = open_chain()
     assert isinstance(chain, ContractChain)
     scene = scenes["smooth"]
     if name != "smooth":

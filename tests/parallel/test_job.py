@@ -20,7 +20,6 @@ from shackled.parallel import (
     Part,
     PartStore,
     ProcessBackend,
-    Verifier,
     Where,
     choose_verifier,
     draw_part,
@@ -162,19 +161,10 @@ def test_nodes_need_addresses() -> None:
             Nodes(*urls)
 
 
-def test_where_only_the_slow_evm_is_installed(monkeypatch: pytest.MonkeyPatch, whole: Image) -> None:
-    slow = open_chain("pyevm")
-    monkeypatch.setattr("shackled.parallel._job.open_chain", lambda name: slow)
-    job = render_frames([SCENE], Where("revm", gas_limit=4_000_000))
+def test_the_reference_estimates_no_gas(whole: Image) -> None:
+    job = render_frames([SCENE], Where("reference"))
     assert job.estimated_gas is None
-    assert job.calls > 1
     assert job.images[0].bmp == whole.bmp
-    monkeypatch.setattr("shackled.parallel._backends.open_chain", lambda name: open_chain(name) if name else slow)
-    # NumPy draws what nodes are compared with
-    judge, small, cube = Verifier(every=True), Rectangle(0, 0, 16, 16), evolve(load("cube"), width=96, height=96)
-    piece, right = draw_part(open_chain("revm"), cube, small), judge.draw(cube, small)
-    assert right.gas is None
-    assert piece.bmp == right.bmp
 
 
 def test_how_much_is_compared(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -94,3 +94,11 @@ def test_limits_that_are_none(limit: int) -> None:
 def test_what_cannot_be_simplified_so_far() -> None:
     with pytest.raises(InputError, match=r"^a mesh of 2112 triangles cannot be simplified to 1: "):
         simplify(sphere(), 1)
+
+
+def test_where_the_package_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.scene._simplify.find_spec", lambda name: None)
+    pot = teapot(2)
+    assert simplify(pot, 10_000) is pot
+    with pytest.raises(InputError, match=re.escape("pip install 'shackled[simplify]'")):
+        simplify(pot, 20)

@@ -11,7 +11,6 @@ from benchmarks.snapshot import changes
 
 @pytest.mark.filterwarnings("default")
 def test_no_figure_rises() -> None:
-    pytest.importorskip("pyrevm", reason="in py-evm the figures, which are the same, take minutes")
     worse, better = changes({"studio": studio.recorded()}, {"studio": studio.take()})
     if better:
         warnings.warn("\n  ".join(["figures have fallen, run python -m benchmarks.studio:", *better]), stacklevel=1)

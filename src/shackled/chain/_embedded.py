@@ -215,11 +215,7 @@ class PyEvmChain(EmbeddedChain):
     def _run(self, address: bytes, data: bytes, gas_limit: int) -> CallResult:
         from eth.exceptions import OutOfGas, Revert
 
-        state = self._state()
-        for warm in (SENDER, address):
-            state.mark_address_warm(warm)
-        message = self._message(self._codes[address], data, address, gas_limit)
-        computation = state.computation_class.apply_message(state, message, self._transaction)
+        computation = self.execute(address, data, gas_limit)
         if computation.is_error:
             if isinstance(computation.error, Revert):
                 raise revert_error(bytes(computation.output), gas_limit)
@@ -227,6 +223,14 @@ class PyEvmChain(EmbeddedChain):
                 raise out_of_gas(gas_limit)
             raise RenderError(f"the call failed: {computation.error!r}")
         return CallResult(bytes(computation.output), computation.get_gas_used(), intrinsic_gas(data))
+
+    def execute(self, address: bytes, data: bytes, gas_limit: int) -> Any:
+        """Call the code at an address, and return the computation of py-evm."""
+        state = self._state()
+        for warm in (SENDER, address):
+            state.mark_address_warm(warm)
+        message = self._message(self._codes[address], data, address, gas_limit)
+        return state.computation_class.apply_message(state, message, self._transaction)
 
     def _state(self) -> Any:
         from eth.constants import BLANK_ROOT_HASH

@@ -13,6 +13,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ _entered = False
 _allowed: list[str] = []
 _inside: str | None = None
 
-#: Modules that readers import late.
+#: Modules that readers import late, if they are installed.
 _NEEDED = ("fast_simplification",)
 
 #: Audit events that reading a file does not need.
@@ -59,7 +60,7 @@ def enter_sandbox() -> None:
         return
     import PIL.Image
 
-    for name in _NEEDED:
+    for name in filter(find_spec, _NEEDED):
         import_module(name)
     artifact("Renderer")  # kept in memory, for the scenes of pictures
     PIL.Image.init()

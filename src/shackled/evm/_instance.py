@@ -12,8 +12,12 @@ from numpy.typing import NDArray
 from ..errors import ChainError
 from ._module import new_store
 
-#: The largest memory of an instance in bytes; a picture of 2048 x 2048 pixels needs about 300 MB.
+#: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
+
+#: Calls get at most this much gas, a day's work: from 2^45 on it would pay for more memory than the 32-bit
+#: numbers of the module can address.
+MOST_GAS = (1 << 45) - 1
 
 
 class Status(IntEnum):
@@ -44,7 +48,6 @@ class Instance:
     def __init__(self) -> None:
         """Start without contracts."""
         self._store, module = new_store()
-        self._store.set_limits(memory_size=MEMORY)
         self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._functions: dict[str, Any] = {}
@@ -79,8 +82,7 @@ class Instance:
         places = [self._run("allocate", len(value)) for value in values]
         for place, value in zip(places, values, strict=True):
             self._memory.write(self._store, value, place)
-        # a number of 64 bits is passed as a signed one
-        limit = [] if gas is None else [min(gas, (1 << 63) - 1)]
+        limit = [] if gas is None else [min(gas, MOST_GAS)]
         result = self._run(function, *places, len(values[-1]), *limit)
         for place, value in zip(places, values, strict=True):
             self._run("release", place, len(value))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 
 import numpy as np
 from attrs import evolve
-from fast_simplification import replay_simplification
-from fast_simplification import simplify as collapse_edges
 from numpy.typing import NDArray
 
 from ..checks import integer
@@ -27,7 +26,7 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
 
     Each vertex has the colour of the nearest vertex that was collapsed into it. Normals are dropped. A mesh that is
     small enough is returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
-    target cannot be reached; it names a number that can.
+    target cannot be reached (it names a number that can), or fast-simplification is not installed.
     """
     most = integer(max_triangles)
     if most is None or most < 1:
@@ -36,6 +35,11 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
         )
     if mesh.triangles <= most:
         return mesh
+    if find_spec("fast_simplification") is None:
+        raise InputError(
+            f"simplifying {mesh.triangles} triangles to {most} needs a package that is not installed: "
+            "pip install 'shackled[simplify]'"
+        )
     positions, faces, colors = _simplified(mesh, most, tries)
     if not 0 < len(faces) <= most:
         found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
@@ -77,6 +81,9 @@ def _connect(mesh: Mesh) -> _Surface:
 def _collapse(
     positions: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8], target: int, agg: int
 ) -> _Surface:
+    from fast_simplification import replay_simplification
+    from fast_simplification import simplify as collapse_edges
+
     if len(faces) == 0:
         return positions, faces, colors
     _, _, collapses = collapse_edges(

@@ -40,11 +40,6 @@ def random_seeds(count: int) -> Iterator[bytes]:
     return (keccak256(b"test" + number.to_bytes(4, "big")) for number in range(count))
 
 
-@pytest.fixture(scope="module", autouse=True)
-def fast() -> None:
-    pytest.importorskip("pyrevm", reason="in py-evm this takes minutes")
-
-
 def test_pieces_are_those_of_the_model() -> None:
     kinds = set()
     for seed in random_seeds(SEEDS):

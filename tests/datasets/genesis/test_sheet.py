@@ -17,7 +17,6 @@ from shackled.reference.genesis import generate
 
 @pytest.fixture(autouse=True)
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    pytest.importorskip("pyrevm", reason="in py-evm this takes minutes")
     monkeypatch.setenv("SHACKLED_CACHE", str(tmp_path / "cache"))
     return tmp_path / "cache"
 

@@ -1,0 +1,157 @@
+"""The embedded EVM as a program: threads, bounds of memory, and the cache of its machine code."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+from shackled import ChainError
+from shackled.chain import RevmChain
+from shackled.evm import Instance, Status
+
+ADDRESS = bytes(18) + b"\xc0\xde"
+#: JUMPDEST PUSH0 JUMP: 11 gas a round, until the gas ends.
+ENDLESS = bytes.fromhex("5b5f56")
+
+
+def instance(code: bytes) -> Instance:
+    made = Instance()
+    made.put(ADDRESS, code)
+    return made
+
+
+def test_other_threads_run_during_a_call() -> None:
+    """Calls release the lock of the interpreter."""
+    made, seconds = instance(ENDLESS), 0.0
+
+    def call() -> None:
+        nonlocal seconds
+        started = time.perf_counter()
+        made.call(ADDRESS, b"", 500_000_000)
+        seconds = time.perf_counter() - started
+
+    for _ in range(5):
+        thread = threading.Thread(target=call)
+        thread.start()
+        longest, last = 0.0, time.perf_counter()
+        while thread.is_alive():
+            now = time.perf_counter()
+            longest, last = max(longest, now - last), now
+        thread.join()
+        # the longest time without a step here; the whole call if it held the lock
+        if longest < seconds / 2:
+            return
+    pytest.fail(f"no other thread ran for {longest:.2f} s of a call of {seconds:.2f} s")
+
+
+def test_threads_share_a_chain() -> None:
+    chain, found = RevmChain(), list[bool]()
+    chain.put(ADDRESS, bytes.fromhex("5f355f5260205ff3"))
+
+    def call(number: int) -> None:
+        data = number.to_bytes(32, "big")
+        found.extend(chain.run(ADDRESS, data).output == data for _ in range(200))
+
+    threads = [threading.Thread(target=call, args=(number,)) for number in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [True] * 1600
+
+
+def push(value: int) -> bytes:
+    return b"\x7f" + value.to_bytes(32, "big")
+
+
+@pytest.mark.parametrize("instruction", [0x51, 0x52, 0x53])
+@pytest.mark.parametrize(
+    "place", [1 << 30, (1 << 31) - 32, 1 << 31, (1 << 32) - 33, (1 << 32) - 32, (1 << 32) - 1, 1 << 32, 1 << 60]
+)
+def test_memory_is_bounded(place: int, instruction: int) -> None:
+    """Whatever the gas, a call cannot take more; and the chain serves others afterwards."""
+    chain = RevmChain(1 << 63)
+    chain.put(ADDRESS, b"\x60\x01" + push(place) + bytes([instruction, 0x59, 0x5F, 0x52, 0x60, 0x20, 0x5F, 0xF3]))
+    with pytest.raises(ChainError, match=r"needs more than 1,024 MB of memory|did not suffice"):
+        chain.run(ADDRESS, b"")
+    chain.put(bytes(20), b"")
+    assert chain.run(bytes(20), b"").output == b""
+
+
+def test_large_data() -> None:
+    """That which is passed counts, too."""
+    made = instance(bytes.fromhex("365f5260205ff3"))
+    assert int.from_bytes(made.call(ADDRESS, bytes(50 << 20), 100_000).output, "big") == 50 << 20
+    with pytest.raises(ChainError, match="needs more than 1,024 MB of memory"):
+        made.call(ADDRESS, bytes(1100 << 20), 100_000)
+
+
+def test_a_failure_does_not_spoil_an_instance() -> None:
+    made = instance(ENDLESS)
+    for _ in range(3):
+        assert made.call(ADDRESS, b"", 1_000).status == Status.OUT_OF_GAS
+    made.put(ADDRESS, b"\x00")
+    assert made.call(ADDRESS, b"", 0).status == Status.SUCCESS
+
+
+# ---- the cache ----
+
+PROGRAM = """
+from shackled.evm import Instance
+made = Instance()
+made.put(bytes(20), bytes.fromhex("602a5f5260205ff3"))
+print(made.call(bytes(20), b"", 99))
+"""
+ANSWER = f"Answer(status=<Status.SUCCESS: 0>, output={bytes(31) + b'*'!r}, gas=16)"
+
+
+def start(cache: Path) -> subprocess.Popen[str]:
+    """Start a process whose cache is in a folder."""
+    environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
+    return subprocess.Popen(
+        [sys.executable, "-c", PROGRAM], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def check(process: subprocess.Popen[str]) -> None:
+    with process:
+        output, errors = process.communicate(timeout=120)
+    assert (output.strip(), errors) == (ANSWER, "")
+
+
+def cached(cache: Path) -> list[Path]:
+    return list((cache / "shackled").iterdir())
+
+
+needs_xdg = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the variable is that of Linux")
+
+
+@needs_xdg
+def test_two_processes_at_once(tmp_path: Path) -> None:
+    for process in [start(tmp_path), start(tmp_path)]:
+        check(process)
+    assert [path.suffix for path in cached(tmp_path)] == [".bin"]
+
+
+@needs_xdg
+def test_a_damaged_cache(tmp_path: Path) -> None:
+    """It is compiled and written again."""
+    check(start(tmp_path))
+    (path,) = cached(tmp_path)
+    whole = path.read_bytes()
+    for damaged in (whole[:-1], whole[:5000] + bytes(50) + whole[5050:]):
+        path.write_bytes(damaged)
+        check(start(tmp_path))
+        assert path.read_bytes() == whole
+
+
+@needs_xdg
+def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "shackled").write_text("a file where the folder would be")
+    check(start(tmp_path))

@@ -1,0 +1,67 @@
+"""The same calls in the EVM of the package, in pyrevm and in py-evm: status, output and gas of each.
+
+Names of failures are left out: they differ between versions of revm.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from shackled.chain import SENDER, PyEvmChain
+from shackled.ethereum import intrinsic_gas, to_hex
+from shackled.evm import Answer, Instance, Status
+
+#: Where code under test is put.
+ADDRESS = bytes(18) + b"\xc0\xde"
+
+Codes = dict[bytes, bytes]
+
+
+class Ours:
+    """The EVM of the package, one instance for all calls."""
+
+    def __init__(self) -> None:
+        self.instance = Instance()
+
+    def call(self, codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
+        for each, code in codes.items():
+            self.instance.put(each, code)
+        answer = self.instance.call(address, data, gas)
+        return answer._replace(output=b"") if answer.status == Status.FAILURE else answer
+
+
+def pyrevm_call(codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
+    """Call in a new EVM of pyrevm; skip the test where it is not installed."""
+    pyrevm: Any = pytest.importorskip("pyrevm")
+    evm = pyrevm.EVM(spec_id="Cancun")
+    for each, code in codes.items():
+        evm.insert_account_info(to_hex(each), pyrevm.AccountInfo(code=code))
+    intrinsic = intrinsic_gas(data)
+    try:
+        output = bytes(evm.message_call(to_hex(SENDER), to_hex(address), data, None, gas + intrinsic))
+        status = Status.SUCCESS
+    except RuntimeError as error:
+        reason, output = evm.result.reason, b""
+        if reason == "Revert":
+            status, output = Status.REVERT, bytes.fromhex(str(error).partition("output: 0x")[2].rstrip(" }"))
+        elif reason.startswith("OutOfGas"):
+            status = Status.OUT_OF_GAS
+        else:
+            status = Status.FAILURE
+    return Answer(status, output, evm.result.gas_used - intrinsic)
+
+
+def pyevm_call(codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
+    """Call in py-evm; skip the test where it is not installed."""
+    exceptions: Any = pytest.importorskip("eth.exceptions")
+    chain = PyEvmChain()
+    for each, code in codes.items():
+        chain.put(each, code)
+    computation = chain.execute(address, data, gas)
+    status = Status.SUCCESS
+    if computation.is_error:
+        kinds = {exceptions.Revert: Status.REVERT, exceptions.OutOfGas: Status.OUT_OF_GAS}
+        status = next((kinds[kind] for kind in kinds if isinstance(computation.error, kind)), Status.FAILURE)
+    return Answer(status, bytes(computation.output), computation.get_gas_used())
