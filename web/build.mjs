@@ -24,7 +24,8 @@ const workers = {
 };
 
 const common = { bundle: true, format: "esm", target: "es2022", charset: "utf8", legalComments: "none" };
-const modules = { ...common, entryPoints: { shackled: "src/index.ts", view: "src/view/index.ts" }, plugins: [workers] };
+const modules = { ...common, plugins: [workers] };
+const forPython = { shackled: "src/index.ts", view: "src/view/index.ts", live: "src/view/live.ts" };
 
 const builds = {
     package: async () => {
@@ -43,7 +44,7 @@ const builds = {
             outdir: "dist/tests",
         });
     },
-    python: (folder) => build({ ...modules, minify: true, outdir: folder }),
+    python: (folder) => build({ ...modules, entryPoints: forPython, minify: true, outdir: folder }),
 };
 
 const [what, ...rest] = process.argv.slice(2);

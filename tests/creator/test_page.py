@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import io
 import time
@@ -53,9 +54,13 @@ def visit(server: Started, browser: Any) -> Iterator[NewPage]:
     contexts: list[Any] = []
     faults: list[str] = []
 
-    def open_page(path: str = "", width: int = 1280, height: int = 800, refused: bool = False, **options: Any) -> Any:
+    def open_page(
+        path: str = "", width: int = 1280, height: int = 800, refused: bool = False, script: str = "", **options: Any
+    ) -> Any:
         context = browser.new_context(viewport={"width": width, "height": height}, **options)
         contexts.append(context)
+        if script:
+            context.add_init_script(script)
         page = context.new_page()
         page.set_default_timeout(PATIENCE)
         page.on("console", lambda message: _check_console(message, faults, refused))
@@ -160,8 +165,73 @@ def test_the_picture_is_the_contracts_own(visit: NewPage) -> None:
     assert "one transaction" in page.inner_text("[data-text=fits]")
 
 
-def test_dragging_orbits(visit: NewPage) -> None:
+def ready(page: Any) -> None:
+    """Waits until the page can draw the pictures of a movement."""
+    page.wait_for_selector("#picture[data-ready=true]")
+
+
+def painted(page: Any) -> int:
+    """How many pictures of movements the page has drawn."""
+    return int(page.get_attribute("#picture", "data-painted") or 0)
+
+
+@pytest.mark.parametrize("follow", [False, True], ids=["", "lights that follow"])
+def test_dragging_costs_the_server_nothing(visit: NewPage, server: Started, follow: bool) -> None:
     page = visit()
+    if follow:
+        after(page, lambda: page.evaluate("document.getElementById('lights_follow').click()"))
+    ready(page)
+    first, before = number(page), pixels(page)
+    azimuth = page.input_value("[id='camera.azimuth']")
+    used = server.processor_seconds()
+    drag(page, 150, 40, hold=True)
+    box = page.locator("#view").bounding_box()
+    for step in range(40):
+        page.mouse.move(box["x"] + box["width"] / 2 + 150 - 3 * step, box["y"] + box["height"] / 2)
+        page.wait_for_timeout(25)
+    assert painted(page) > 10
+    assert number(page) == first
+    assert server.processor_seconds() - used < 0.5
+    assert page.input_value("[id='camera.azimuth']") != azimuth
+    assert page.inner_text("[data-text=gas-label]").startswith("Gas, at ")
+    drawn = page.evaluate("document.getElementById('picture').toDataURL()")
+    shown = after(page, page.mouse.up)
+    assert shown != before
+    assert number(page) == first + 1
+    rested = page.evaluate("document.getElementById('picture').toDataURL()")
+    assert _difference(drawn, rested) < 12  # other sizes, the same view
+    assert after(page, press(page, "Control+z")) == before
+
+
+def _difference(one: str, other: str) -> float:
+    """The mean difference of two pictures at data URLs, in levels at 16 x 16 pixels."""
+    small = []
+    for url in (one, other):
+        image = PillowImage.open(io.BytesIO(base64.b64decode(url.partition(",")[2]))).convert("RGB")
+        small.append(np.asarray(image.resize((16, 16), PillowImage.Resampling.BOX), dtype=float))
+    return float(np.abs(small[0] - small[1]).mean())
+
+
+def test_keys_and_wheel_end_where_they_rest(visit: NewPage) -> None:
+    page = visit()
+    ready(page)
+    first = number(page)
+    shown = after(page, press(page, "ArrowLeft", "ArrowLeft", "+", "Shift+ArrowUp"))
+    assert (number(page), painted(page) > 0) == (first + 1, True)
+    page.hover("#view")
+    assert after(page, lambda: page.mouse.wheel(0, 300)) != shown
+    assert number(page) == first + 2
+    assert page.get_attribute("#picture", "data-draft") == "false"
+    # what comes next does not wait
+    press(page, "ArrowLeft", "i")()
+    page.wait_for_function(
+        "before => Number(document.getElementById('picture').dataset.number) > before", arg=first + 2
+    )
+    page.wait_for_function("() => document.getElementById('invert').checked")
+
+
+def test_dragging_without_webassembly(visit: NewPage) -> None:
+    page = visit(script="delete globalThis.WebAssembly")
     before, first, used = pixels(page), number(page), gas(page)
     # what passes by is written down, for who rests for a moment gets the picture in full
     page.evaluate(
@@ -187,6 +257,7 @@ def test_dragging_orbits(visit: NewPage) -> None:
     assert gas(page) != used
     assert page.evaluate("document.getElementById('picture').width") == shackled.load("icons/diamond").width
     assert page.get_attribute("#picture", "data-draft") == "false"
+    assert painted(page) == 0
 
 
 def test_wheel_and_fit(visit: NewPage) -> None:

@@ -18,6 +18,7 @@ from typing import cast
 import pytest
 from tools.page_server import Started, creator
 
+from shackled import render
 from shackled.cli.app import run
 
 pytest.importorskip("starlette", reason="the page needs starlette")
@@ -37,6 +38,8 @@ from shackled.creator import (
     unpack_upload,
 )
 from shackled.errors import InputError
+from shackled.scene import decode
+from shackled.web import asset
 
 
 @pytest.fixture(scope="module")
@@ -159,9 +162,14 @@ def _upgrade(server: Started, path: str, origin: str) -> int:
 def test_the_page_lets_no_script_of_others_in(server: Started) -> None:
     _, headers, body = ask(server, "")
     policy = dict(each.strip().split(" ", 1) for each in headers["content-security-policy"].split(";"))
-    assert (policy["default-src"], policy["script-src"], policy["style-src"]) == ("'none'", "'self'", "'self'")
+    assert (policy["default-src"], policy["script-src"], policy["style-src"]) == (
+        "'none'",
+        "'self' 'wasm-unsafe-eval'",
+        "'self'",
+    )
+    assert policy["worker-src"] == "blob:"
     assert policy["frame-ancestors"] == "'none'"
-    assert "unsafe" not in headers["content-security-policy"]
+    assert "unsafe" not in headers["content-security-policy"].replace("'wasm-unsafe-eval'", "")
     # and it needs none: all scripts are files, and nothing has a style or a handler of its own
     html = body.decode()
     assert all("src=" in script for script in re.findall("<script[^>]*>", html))
@@ -173,6 +181,27 @@ def test_the_page_lets_no_script_of_others_in(server: Started) -> None:
         assert headers["cache-control"] == "no-cache"
         for name, value in (("x-content-type-options", "nosniff"), ("referrer-policy", "no-referrer")):
             assert headers[name] == value
+
+
+def test_the_call_of_a_picture_is_for_its_visitor(server: Started) -> None:
+    with visitor(server) as name:
+        status, headers, body = ask(server, f"call/{name}")
+        length = int.from_bytes(body[:4], "big")
+        head = json.loads(body[4 : 4 + length])
+        assert (status, headers["cache-control"]) == (200, "no-store")
+        assert set(head) == {"key", "camera", "follow", "radius"}
+        assert render(decode(body[4 + length :])).pixels.tobytes() == render("tetrahedron").pixels.tobytes()
+        assert ask(server, f"call/{name}", {"Origin": "http://evil.example"})[0] == 403
+    assert ask(server, "call/nobody")[0] == 404
+
+
+def test_what_draws_in_the_browser_is_served(server: Started) -> None:
+    for name in ("live.js", "evm.wasm", "contracts.json"):
+        status, headers, body = ask(server, f"web/{name}")
+        assert (status, body) == (200, asset(name))
+        assert ask(server, f"web/{name}", {"If-None-Match": headers["etag"]})[0] == 304
+    for name in ("_bundle.py", "view.js", "..%2fevm%2fevm.wasm"):
+        assert ask(server, f"web/{name}")[0] == 404
 
 
 def test_responses_to_failures_have_the_headers_too() -> None:

@@ -114,6 +114,62 @@ def test_who_joins_is_sent_everything() -> None:
     play(story)
 
 
+CAMERA = {"do": "camera", "azimuth": 200.0, "elevation": 99, "distance": 4.5, "target": [0.1, 0, 0], "stamp": 3}
+
+
+def test_a_movement_that_the_page_drew_is_one_picture_and_one_step() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await answer(pool.asked[0])
+        before = visitor.state
+        await act(visitor, CAMERA)
+        await turn()
+        assert [each.longest for each in pool.asked] == [None, None]
+        camera = visitor.state.camera
+        assert camera is not None
+        assert (camera.azimuth, camera.elevation, camera.distance, camera.target) == (-160, 90, 4.5, (0.1, 0, 0))
+        await answer(pool.asked[1])
+        first, second = (each["view"] for each in page.pictures)
+        assert (first["stamp"], second["stamp"]) == (0, 3)
+        assert first["key"] == second["key"]
+        assert second["camera"]["distance"] == 4.5
+        await act(visitor, {"do": "undo"})
+        assert visitor.state == before
+
+    play(story)
+
+
+def test_another_scene_has_another_key() -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        keys = [visitor.view["key"]]
+        for path, value in (("camera.roll", 20), ("surface.color", "#123456"), ("lights_follow", True)):
+            await act(visitor, {"do": "put", "path": path, "value": value})
+            keys.append(visitor.view["key"])
+        assert len(set(keys)) == 4
+
+    play(story)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"target": [1, 2]},
+        {"target": None},
+        {"target": [0, "1", 0]},
+        {"distance": None},
+        {"azimuth": 1e400},
+        {"stamp": "x"},
+    ],
+)
+def test_a_wrong_camera_changes_nothing(wrong: dict[str, Any]) -> None:
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        before = visitor.state
+        await act(visitor, CAMERA | wrong)
+        assert visitor.state == before
+        assert page.said("alert")
+
+    play(story)
+
+
 def test_of_many_movements_the_last_is_drawn() -> None:
     async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
         await answer(pool.asked[0])

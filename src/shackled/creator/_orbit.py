@@ -44,6 +44,17 @@ def pan(camera: Orbit, dx: float, dy: float) -> Orbit:
     return replace(camera, target=_target(camera.target + height * (dy * up - dx * right)))
 
 
+def moved(camera: Orbit, azimuth: float, elevation: float, distance: float, target: Vector) -> Orbit:
+    """Return the camera at another place, within the ranges of the controls."""
+    return replace(
+        camera,
+        azimuth=tidy(around(azimuth)),
+        elevation=within("camera.elevation", elevation),
+        distance=within("camera.distance", distance),
+        target=_target(np.asarray(target)),
+    )
+
+
 def fit(camera: Orbit, pose: Pose | None = None, aspect: float = 1.0) -> Orbit:
     """Move the camera so that the bounding sphere of the object just fills the picture; keep its direction.
 

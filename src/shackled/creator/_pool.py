@@ -104,6 +104,11 @@ class Pool:
         )
         return frame
 
+    async def call(self, visitor: str, state: State) -> tuple[bytes, float]:
+        """Return the data of the call, and the length in it of a radius of the source."""
+        call: tuple[bytes, float] = await self._ask(self._live, visitor, "call", "call", state, uploads=state.source)
+        return call
+
     async def thumbnail(self, name: str) -> bytes:
         """Render a piece at 128 x 128 pixels; return a PNG file, which is cached on disk."""
         png: bytes = await self._ask(self._live, "", f"thumbnail {name}", "thumbnail", name)

@@ -7,8 +7,10 @@ Angles are in degrees, colours "#rrggbb" in lower case.
 
 from __future__ import annotations
 
+import hashlib
+import json
 import re
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, Literal, cast
 
 from ..checks import choice
@@ -173,6 +175,13 @@ class State:
 def to_document(state: State) -> dict[str, Any]:
     """Return the state as a JSON object, without default values."""
     return cast(dict[str, Any], _plain(state))
+
+
+def scene_key(state: State) -> str:
+    """Return a digest of all choices but those that turning, moving and zooming change."""
+    camera = state.camera and replace(state.camera, azimuth=0.0, elevation=0.0, distance=1.0, target=(0.0, 0.0, 0.0))
+    document = json.dumps(to_document(replace(state, camera=camera)))
+    return hashlib.sha256(document.encode()).hexdigest()[:32]
 
 
 def from_document(document: object) -> State:

@@ -14,7 +14,7 @@ from ..datasets import require
 from ..errors import RenderError
 from ..gas import render_call
 from ..image import decode_bmp
-from ..scene import Scene, full_turn, resize, simplify_scene
+from ..scene import Scene, fit_factor, full_turn, resize, simplify_scene
 from ..workers import report_progress
 from ._picture import Comparison, File, Frame, StagePicture, by_trying, gif, places, png
 from ._programs import Subject
@@ -110,6 +110,11 @@ class Tasks:
             seconds=seconds,
             fits=places(result.gas, result.intrinsic_gas, data, suffices),
         )
+
+    def call(self, state: State) -> tuple[bytes, float]:
+        """Return the data of the call, and the length in it of a radius of the source."""
+        scene = self.scene(state)
+        return render_call(scene), fit_factor(scene) * self._open(state.source)[1].bounds.radius
 
     def thumbnail(self, name: str) -> bytes:
         """Render a piece at 128 x 128 pixels; return a PNG file, which is cached on disk."""

@@ -27,7 +27,7 @@ from ._files.polygons import cut, fans
 from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scene
 from ._files.table import about
 from ._files.weld import weld
-from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, near_plane
+from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
@@ -103,6 +103,7 @@ __all__ = [
     "extensions",
     "fans",
     "fit",
+    "fit_factor",
     "from_axis_angle",
     "from_euler",
     "full_turn",

@@ -70,6 +70,12 @@ def fit(scene: Scene) -> Scene:
     return evolve(scene, objects=objects, camera=camera, lights=lights)
 
 
+def fit_factor(scene: Scene) -> float:
+    """Return the factor by which `fit` scales lengths; 1 for a scene that it leaves as it is."""
+    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    return 1.0 if _is_exact(scene) else _factor(scene)
+
+
 def _pointed(light: Light) -> Light:
     if light.kind == "directional":
         return evolve(light, vector=_direction(light.vector))

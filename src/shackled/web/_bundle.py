@@ -1,4 +1,4 @@
-"""The files of <shackled-view>, which tools/build_web.py and tools/build_evm.py write."""
+"""The files that browsers need to draw, which tools/build_web.py and tools/build_evm.py write."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ASSETS = ("view.js", "evm.wasm", "contracts.json")
 
 @cache
 def asset(name: str) -> bytes:
-    """Return one of the files view.js, evm.wasm and contracts.json."""
+    """Return one of the files view.js, live.js, evm.wasm and contracts.json."""
     return module_bytes() if name == "evm.wasm" else files(__package__).joinpath(name).read_bytes()
 
 

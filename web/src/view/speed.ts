@@ -45,7 +45,7 @@ export class Speed {
 }
 
 /** Return a part of a size, in its proportions. */
-function scaled([width, height]: Size, part: number): Size {
+export function scaled([width, height]: Size, part: number): Size {
     const factor = Math.min(Math.max(part, MIN_SIDE / Math.min(width, height)), 1);
     return [Math.round(width * factor), Math.round(height * factor)];
 }

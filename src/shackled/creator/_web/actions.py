@@ -70,6 +70,17 @@ async def _zoom(visitor: Visitor, message: Message) -> None:
     visitor.change(replace(visitor.state, camera=orbit.zoom(camera, _number(message, "notches"))), "zoom")
 
 
+async def _camera(visitor: Visitor, message: Message) -> None:
+    camera, target = filled(visitor.state, visitor.facts).camera, message.get("target")
+    assert camera is not None
+    if not isinstance(target, list) or len(target) != 3:
+        raise InputError(f"target must be three numbers, not {target!r:.60}")
+    x, y, z = (_number({"target": each}, "target", 1e6) for each in target)
+    azimuth, elevation, distance = (_number(message, key, 1e6) for key in ("azimuth", "elevation", "distance"))
+    visitor.stamp = int(_number(message, "stamp", 2**53))
+    visitor.change(replace(visitor.state, camera=orbit.moved(camera, azimuth, elevation, distance, (x, y, z))))
+
+
 async def _fit(visitor: Visitor, message: Message) -> None:
     now = filled(visitor.state, visitor.facts)
     size = now.size or Size()
@@ -256,6 +267,7 @@ ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {
     "orbit": partial(_drag, orbit.drag),
     "pan": partial(_drag, orbit.pan),
     "zoom": _zoom,
+    "camera": _camera,
     "fit": _fit,
     "lamp": _lamp,
     "add-lamp": _add_lamp,

@@ -13,7 +13,10 @@ see `actions`. It is sent messages with some of the keys
     wallet      request to the visitor's wallet: {"id", "wallet", "method", "params"}
 
 and pictures: four bytes of length, that much JSON ("number", "draft", "moves": number of changes that it shows, "show":
-a message), and the BMP file as returned by the contract.
+a message, "view": null for drafts), and the BMP file as returned by the contract. A view is what the page needs to draw
+the pictures of a movement itself: "camera", "key": a digest of everything else, "follow": whether the lights move with
+the camera, "stamp": that of the last message "camera" that the picture shows. /call/NAME returns the current view, with
+"radius": its length in the call, and the call, packed in the same way.
 """
 
 from __future__ import annotations

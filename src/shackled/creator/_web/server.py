@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import errno
+import hashlib
 import io
 import json
 import re
@@ -31,17 +32,20 @@ from ..._load import locate
 from ...chain import open_node
 from ...datasets import Piece
 from ...errors import InputError, ShackledError
+from ...web import asset
 from .._pool import Pool
 from .._state import Source
 from .live import MAX_MESSAGE, Visitors, live
 from .page import ASSETS, has_thumbnail, page
 from .security import LOCAL, SameOrigin
-from .visitor import Visitor
+from .visitor import Visitor, with_head
 
 #: What visitors see first, by default.
 FIRST = "icons/shackle"
 #: Largest number of bytes of the names and sizes in an upload.
 MAX_HEAD = 16384
+#: Files with which the page draws the pictures of a movement, and their media types.
+WEB = {"live.js": "text/javascript", "evm.wasm": "application/wasm", "contracts.json": "application/json"}
 #: Seconds that sending an upload may take.
 MAX_SENDING = 300
 
@@ -172,6 +176,27 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
             return PlainTextResponse(str(error), 400)
         return _download(file.data, file.name, file.media_type)
 
+    async def call(request: Request) -> Response:
+        visitor = visitors.find(request.path_params["visitor"])
+        if visitor is None:
+            return PlainTextResponse("this page is not connected any more: reload it", 404)
+        view = visitor.view
+        try:
+            data, radius = await pool.call(visitor.name, visitor.posed)
+        except ShackledError as error:
+            return PlainTextResponse(str(error), 400)
+        content = with_head(view | {"radius": radius}, data)
+        return Response(content, media_type="application/octet-stream", headers={"cache-control": "no-store"})
+
+    async def web(request: Request) -> Response:
+        name = request.path_params["name"]
+        if name not in WEB:
+            return PlainTextResponse("there is no such file", 404)
+        tag = f'"{hashlib.sha256(asset(name)).hexdigest()[:32]}"'
+        if request.headers.get("if-none-match") == tag:
+            return Response(status_code=304, headers={"etag": tag})
+        return Response(asset(name), media_type=WEB[name], headers={"etag": tag})
+
     async def upload(request: Request) -> Response:
         visitor = visitors.find(request.path_params["visitor"])
         if visitor is None:
@@ -209,6 +234,8 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
             Route("/", index),
             Route("/thumbnail/{name:path}.png", thumbnail),
             Route("/take/{visitor}/{kind}", take),
+            Route("/call/{visitor}", call),
+            Route("/web/{name}", web),
             Route("/upload/{visitor}", upload, methods=["POST"]),
             WebSocketRoute("/live", connect),
             Mount("/assets", StaticFiles(directory=ASSETS)),

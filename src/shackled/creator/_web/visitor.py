@@ -7,6 +7,7 @@ import base64
 import json
 import time
 from collections.abc import Awaitable, Callable, Coroutine, Hashable
+from dataclasses import asdict, replace
 from typing import Any
 
 from ...errors import ShackledError
@@ -15,8 +16,8 @@ from .._link import to_link
 from .._picture import Frame
 from .._pool import Pool
 from .._presets import PRESETS, apply_look
-from .._scene import Facts
-from .._state import Size, Source, State
+from .._scene import Facts, filled
+from .._state import Size, Source, State, scene_key
 from .shown import Shown, figures, merged
 from .wallet import Waiting
 
@@ -42,7 +43,7 @@ class Visitor:
     frame: the last picture in full. turntable: the last GIF.
     wallets: names of the wallets that the page has found. waiting: requests to them. minting: status of minting.
     is_local: whether the page was opened at a loopback address. is_uploading: whether a file is being sent or read.
-    greeting: error to show first.
+    greeting: error to show first. stamp: of the last camera that the page has sent after a movement.
     wanted: state whose upload is not in memory; it is restored when the file is uploaded again.
     """
 
@@ -61,6 +62,7 @@ class Visitor:
         self.is_local = False
         self.is_uploading = False
         self.greeting = ""
+        self.stamp = 0
         self.wanted: State | None = None
         self._shown = Shown()
         self._send: Send | None = None
@@ -232,6 +234,7 @@ class Visitor:
         mine = asyncio.current_task()
         started = time.perf_counter()
         state, moves, moving = self.state, self._moves, self._moving
+        view = None if moving else self.view | {"stamp": self.stamp}
         self._draft_in_work, self._again = moving, False
         try:
             frame = await self.pool.render(
@@ -246,20 +249,33 @@ class Visitor:
             self._complaint = ""
             if moving:
                 self._adapt(time.perf_counter() - started)
-            await self._send_frame(frame, moving, moves)
+            await self._send_frame(frame, view, moves)
         if self._again and self._drawing is mine:
             self._drawing = None
             self.draw()
 
-    async def _send_frame(self, frame: Frame, moving: bool, moves: int) -> None:
+    async def _send_frame(self, frame: Frame, view: Message | None, moves: int) -> None:
         if self._send is None:
             return
         self._number += 1
-        if not moving:
+        draft = view is None
+        if not draft:
             self.frame = frame
-        show = merged(self._changes(), figures(frame, self.facts, draft=moving))
-        head = json.dumps({"number": self._number, "draft": moving, "moves": moves, "show": show}).encode()
-        await self._send(len(head).to_bytes(4, "big") + head + frame.bmp)
+        show = merged(self._changes(), figures(frame, self.facts, draft))
+        head = {"number": self._number, "draft": draft, "moves": moves, "show": show, "view": view}
+        await self._send(with_head(head, frame.bmp))
+
+    @property
+    def view(self) -> Message:
+        """What the page needs to draw pictures of a movement: the camera, and a digest of everything else."""
+        state = self.posed
+        assert state.camera is not None
+        return {"key": scene_key(state), "camera": asdict(state.camera), "follow": state.lights_follow}
+
+    @property
+    def posed(self) -> State:
+        """The state with a camera of its own, as after the first movement."""
+        return replace(self.state, camera=filled(self.state, self.facts).camera)
 
     async def _complain(self, words: str) -> None:
         if words != self._complaint or not self._moving:
@@ -302,3 +318,9 @@ class Visitor:
             if link != self._shown.link:
                 self._shown.link = message["link"] = link
         return message
+
+
+def with_head(head: Message, content: bytes) -> bytes:
+    """Return content after a JSON object, whose length is in the first four bytes."""
+    packed = json.dumps(head).encode()
+    return len(packed).to_bytes(4, "big") + packed + content

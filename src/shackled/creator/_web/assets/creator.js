@@ -1,15 +1,30 @@
 // The page: sends what the visitor does, and shows what comes back. What a message means is decided by the server; the
 // messages are described in live.py.
 
+import { Local } from "./local.js";
 import { View } from "./view.js";
 import { askWallet, findWallets } from "./wallets.js";
-import { connect, flush, move, send } from "./wire.js";
+import * as wire from "./wire.js";
+import { connect, flush } from "./wire.js";
 
 const $ = (selector, within = document) => within.querySelector(selector);
 const $$ = (selector, within = document) => [...within.querySelectorAll(selector)];
 const keys = JSON.parse(document.body.dataset.keys);
-const endMove = () => { flush(); send({ do: "rest" }); };
-const view = new View($("#view"), { move, rest: endMove });
+const local = new Local({ send: wire.send, paint, prepared: (is) => { $("#picture").dataset.ready = is; } });
+// messages after which no picture follows
+const still = ["takeaway", "wallets", "stages", "answer", "node", "gif", "stop-gif", "mint"];
+const send = (message) => {
+  if (still.includes(message.do)) local.end();
+  else local.leave();
+  return wire.send(message);
+};
+const move = (name, more, add) => { local.leave(); wire.move(name, more, add); };
+const endMove = () => { if (!local.end()) { flush(); wire.send({ do: "rest" }); } };
+const view = new View($("#view"), {
+  move: (name, more, add, held) => local.move(name, more, held) || move(name, more, add),
+  rest: endMove,
+  covered: () => local.moving,
+});
 let visitor = "";
 
 // ---- what comes back ----
@@ -18,14 +33,25 @@ let visitor = "";
 function picture(data) {
   const length = new DataView(data).getUint32(0);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
-  show(head.show);
-  view.show(new Blob([new Uint8Array(data, 4 + length)], { type: "image/bmp" }), head.number, head.draft);
+  const wanted = head.view ? local.settle(head.view) : !local.moving;
+  show(head.show); // even of an outdated picture: the next message tells only what differs
+  if (wanted) view.show(new Blob([new Uint8Array(data, 4 + length)], { type: "image/bmp" }), head.number, head.draft);
+}
+
+// a picture of a movement that was drawn here
+function paint({ width, height, pixels, gas }, { azimuth, elevation, distance, target: [x, y, z] }) {
+  view.paint(new ImageData(pixels, width, height));
+  const places = { azimuth, elevation, distance, "target.x": x, "target.y": y, "target.z": z };
+  const values = Object.entries(places).map(([name, value]) => [`camera.${name}`, { value: Number(value.toFixed(2)), changed: true }]);
+  const texts = { gas: gas.toLocaleString("en"), "gas-label": `Gas, at ${width} x ${height}` };
+  show({ values: Object.fromEntries(values), texts });
 }
 
 const showers = {
   visitor: (name) => {
     if (visitor && name !== visitor) return location.reload(); // the server was restarted: the link restores the picture
     visitor = name;
+    local.join(name);
     for (const link of $$("[data-take]")) link.href = `/take/${visitor}/${link.dataset.take}`;
   },
   values: (values) => { for (const [path, value] of Object.entries(values)) setValue(path, value); },
@@ -151,6 +177,7 @@ document.addEventListener("focusout", () => { typing = false; });
 // ---- buttons ----
 
 document.addEventListener("click", (event) => {
+  local.end();
   const button = event.target.closest("[data-do], [data-open], [data-close], [data-copy], [data-copy-link], [data-theme-toggle], [data-tab]");
   if (event.target.tagName === "DIALOG") return event.target.close(); // on the backdrop
   const file = event.target.closest("a[download]");
@@ -287,7 +314,7 @@ document.addEventListener("keydown", (event) => {
   if (!control && own(event.target, event.key)) return;
   event.preventDefault();
   if (message.open) document.getElementById(message.open).showModal();
-  else send(message);
+  else if (!["orbit", "pan", "zoom"].includes(message.do) || !local.move(message.do, message, view.held)) send(message);
 });
 
 // ---- files and seeds from outside ----

@@ -1,13 +1,15 @@
 // The live view: shows pictures in a canvas, and turns pointers into movements.
 
 export class View {
-  // element: holds the canvas. move(name, amounts, keys): called on each movement, "orbit" and "pan" with x and y in
-  // parts of the picture's height, "zoom" with notches of the wheel. rest(): called at the end of a movement.
-  constructor(element, { move, rest }) {
+  // element: holds the canvas. move(name, amounts, keys, held): called on each movement, "orbit" and "pan" with x and y in
+  // parts of the picture's height, "zoom" with notches of the wheel. rest(): called when all pointers are released.
+  // covered(): whether pictures of a movement are painted, and others are not to be shown.
+  constructor(element, { move, rest, covered }) {
     this.element = element;
     this.canvas = element.querySelector("canvas");
-    this.move = move;
+    this.move = (name, amounts, keys) => move(name, amounts, keys, this.held);
     this.rest = rest;
+    this.covered = covered;
     this.latest = 0;
     this.pointers = new Map();
     this.spread = 0;
@@ -22,16 +24,28 @@ export class View {
   // file: an image. number: pictures with a lower number than the one shown are ignored. draft: whether it is reduced
   async show(file, number, draft) {
     const bitmap = await createImageBitmap(file);
-    if (number < this.latest) return;
+    if (number < this.latest || this.covered()) return;
     this.latest = number;
+    this.resize(bitmap).drawImage(bitmap, 0, 0);
+    this.canvas.dataset.number = number;
+    this.canvas.dataset.draft = draft;
+  }
+
+  // pixels of a picture that was drawn here
+  paint(pixels) {
+    this.resize(pixels).putImageData(pixels, 0, 0);
+    this.canvas.dataset.draft = true;
+    this.canvas.dataset.painted = Number(this.canvas.dataset.painted ?? 0) + 1;
+  }
+
+  resize({ width, height }) {
     const { canvas } = this;
-    if (canvas.width !== bitmap.width || canvas.height !== bitmap.height) {
-      canvas.width = bitmap.width;
-      canvas.height = bitmap.height;
-    }
-    canvas.getContext("2d").drawImage(bitmap, 0, 0);
-    canvas.dataset.number = number;
-    canvas.dataset.draft = draft;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    return canvas.getContext("2d");
+  }
+
+  get held() {
+    return this.pointers.size > 0;
   }
 
   hold(event) {
