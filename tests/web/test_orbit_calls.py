@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from importlib.resources import files
 from pathlib import Path
@@ -47,7 +48,7 @@ STATES = {
         pose=Pose((0.4, 0.1, -0.2), (10, 20, 30), 0.7),
     ),
 }
-DO = {"drag": drag, "zoom": zoom, "pan": pan}
+DO: dict[str, Callable[..., Orbit]] = {"drag": drag, "zoom": zoom, "pan": pan}
 
 
 @pytest.mark.parametrize("name", STATES)
