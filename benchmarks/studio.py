@@ -2,7 +2,7 @@
 
     python -m benchmarks.studio
 
-measures everything and rewrites studio.json; what changed is printed.
+measures everything, rewrites studio.json and the tables of docs/studio.md, and prints what changed.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
+from tools.pages import ROOT, update
 
 from shackled import Object, load, render
 from shackled.artifacts import artifact
@@ -27,8 +28,13 @@ from shackled.studio import compact, quantize, store_mesh, store_scene
 from .snapshot import changes
 
 FILE = Path(__file__).with_name("studio.json")
+PAGE = ROOT / "docs" / "studio.md"
 
 Figures = dict[str, int]
+
+#: The names of two figures.
+SMALLEST = "992 triangles, smooth, grid of 2^11, normals of 6 bits"
+SCENE = "icons/crown: store the scene, its mesh being there"
 
 #: Pieces of Genesis of which the mean is taken.
 PIECES = 16
@@ -69,7 +75,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
     for name, scene, bits, normal_bits in (
         ("992 triangles, faces of one shade", flat, None, 10),
         ("992 triangles, smooth", smooth, None, 10),
-        ("992 triangles, smooth, grid of 2^11, normals of 6 bits", smooth, 11, 6),
+        (SMALLEST, smooth, 11, 6),
         ("icons/crown", load("icons/crown"), None, 10),
         ("icons/heart", load("icons/heart"), None, 10),
     ):
@@ -78,9 +84,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
         (o,) = fit(scene).objects
         size, storing, reading = keeper.kept_mesh(o, normal_bits)
         figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}
-    figures["icons/crown: store the scene, its mesh being there"] = store_scene(load("icons/crown"), keeper.studio)[
-        -1
-    ].gas
+    figures[SCENE] = store_scene(load("icons/crown"), keeper.studio)[-1].gas
     return figures
 
 
@@ -122,13 +126,41 @@ def recorded() -> Figures:
     return figures
 
 
+def meshes(figures: Figures) -> str:
+    """Return the figures of stored meshes as a table in Markdown."""
+    lines = ["| | bytes | store | decode |", "|---|---:|---:|---:|"]
+    for title, name in {
+        "992 triangles, one shade a face, nothing lost": "992 triangles, faces of one shade",
+        "992 triangles, smooth, nothing lost": "992 triangles, smooth",
+        "992 triangles, smooth, grid of 2^11, normals of 6 bits": SMALLEST,
+        "the crown among the icons": "icons/crown",
+    }.items():
+        values = (figures[f"{name}: {what}"] for what in ("bytes", "store", "decode"))
+        lines.append(f"| {title} | {' | '.join(f'{value:,}' for value in values)} |")
+    return "\n".join([*lines, f"| the scene of the crown, if its mesh is stored | | {figures[SCENE]:,} | |"])
+
+
+def pictures(figures: Figures) -> str:
+    """Return the figures of PNG files as a table in Markdown."""
+    lines = ["| PNG of 128 x 128 pixels | gas | bytes |", "|---|---:|---:|"]
+    for name in ("Genesis, x 1, mean of 16 pieces", "Genesis, x 4, mean of 16 pieces", "teapot, x 4", "noise, x 4"):
+        title = name.replace("x 1", "128 x 128").replace("x 4", "512 x 512")
+        lines.append(f"| {title} | {figures[f'PNG, {name}: gas']:,} | {figures[f'PNG, {name}: bytes']:,} |")
+    return "\n".join(lines)
+
+
+def content(name: str, figures: Figures) -> str:
+    """Return the table of docs/studio.md between the marks of that name."""
+    return {"meshes": meshes, "pictures": pictures}[name](figures)
+
+
 def main() -> int:
-    """Measure, print the changes and write studio.json."""
+    """Measure, print the changes and write studio.json and the page."""
     old, new = recorded(), take()
     worse, better = changes({"studio": old}, {"studio": new})
     print("\n".join([*worse, *better]) or "no figure has changed")
     FILE.write_text(json.dumps(new, indent=1, sort_keys=True) + "\n", "utf-8")
-    return 0
+    return update({PAGE: lambda name: content(name, new)}, "python -m benchmarks.studio")
 
 
 if __name__ == "__main__":

@@ -23,8 +23,9 @@ from numpy.typing import NDArray
 
 import float64
 from original_scenes import OBJECTS, documents, genesis_document, object_document
-from pictures import chain
+from pictures import UNLIT, chain
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
+from shackled.bench.scenes import GLOSSY, SUN, turned_cube
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
 from shackled.scene import original_scene, vertex_normals
@@ -138,6 +139,7 @@ def frontal(scene: Scene) -> Scene:
     return evolve(scene, objects=objects, lights=[Light("point", (0, 0, -1500))])
 
 
+GREYS = ((100, 100, 100),) * 3
 WHITE, RED, GREEN, BLUE = (255, 255, 255), (255, 60, 40), (60, 255, 90), (70, 110, 255)
 
 LIGHTS = (
@@ -261,6 +263,24 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
         "triangle whose top is near, unlit": lambda: screen_triangle(
             ((60, 5), (5, 100), (120, 100)), (100, 10000, 10000), ((112, 112, 112), (100, 100, 100), (100, 100, 100))
         ),
+        "sliver, lit, its depth changes much across it": lambda: screen_triangle(
+            ((81.8, 21.8), (55.6, 126.9), (75.3, 113.7)),
+            (43.4, 45.8, 57.1),
+            ((139, 185, 208), (136, 212, 55), (83, 138, 103)),
+            evolve(GLOSSY, specular=0.3),
+            Light("directional", (-0.2, 0.3, 1)),
+        ),
+        "triangle lit from behind, directional": lambda: screen_triangle(
+            ((67, 31), (19, 48), (65, 60)), (12.7, 11.8, 7.4), GREYS, GLOSSY, Light("directional", (-0.3, 0.5, -0.9))
+        ),
+        "triangle that hides its point light": lambda: screen_triangle(
+            ((10, 10), (120, 60), (30, 120)),
+            (8, 7, 15),
+            GREYS,
+            evolve(GLOSSY, specular=0.9, shininess=2),
+            Light("point", (1, -1, -23.4)),
+        ),
+        "cube": lambda: turned_cube(128),
         "orthographic, shininess 1, grazing": lambda: grazing(1),
         "orthographic, shininess 3, grazing": lambda: grazing(3),
         "teapot, 2 directional lights, flat": lambda: evolve(flat(teapot_scene()), lights=[LIGHTS[0], LIGHTS[2]]),
@@ -274,15 +294,19 @@ def made_scenes() -> dict[str, Callable[[], Scene]]:
 
 
 def screen_triangle(
-    corners: Sequence[tuple[float, float]], distances: Sequence[float], colors: Sequence[tuple[int, int, int]]
+    corners: Sequence[tuple[float, float]],
+    distances: Sequence[float],
+    colors: Sequence[tuple[int, int, int]],
+    material: Material = UNLIT,
+    light: Light = SUN,
 ) -> Scene:
-    """One unlit triangle with its corners at these columns and rows, and distances from the eye."""
+    """One triangle with its corners at these columns and rows, and distances from the eye."""
     column, row = np.array(corners).T
     distance = np.array(distances)
     unit = distance / 64 / 2.145
     points = np.stack([(column - 64) * unit, (64 - row) * unit, -distance], axis=1)
     mesh = Mesh(np.rint(1000 * points), [[0, 1, 2]], colors)
-    return Scene([Object(mesh, scale=2**-10, material=Material("unlit"), cull=False)], Camera(near=1))
+    return Scene([Object(mesh, scale=2**-10, material=material, cull=False)], Camera(near=1), [light])
 
 
 def grazing(shininess: int) -> Scene:

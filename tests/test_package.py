@@ -36,6 +36,7 @@ EXTRA_OF = {
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
     "scene/_simplify.py": "simplify",
+    "web/_widget.py": "jupyter",
 }
 
 

@@ -29,8 +29,8 @@ WASM, RECORD, LICENSES = PACKAGE / "evm.wasm", PACKAGE / "evm.json", PACKAGE / "
 RUSTC, CARGO, LINKER = "/usr/bin/rustc", "/usr/bin/cargo", "wasm-ld-19"
 TARGET = "wasm32-unknown-unknown"
 #: Instructions on 128 bits reverse the bytes of words; without messages of panics the module is a third smaller, and
-#: names no files.
-FLAGS = "-C target-feature=+simd128 -Z unstable-options -C panic=immediate-abort"
+#: names no files. An instance has at most 1 GiB of memory; a picture of 2048 x 2048 pixels needs about 300 MB.
+FLAGS = "-C target-feature=+simd128 -Z unstable-options -C panic=immediate-abort -C link-arg=--max-memory=1073741824"
 
 #: Bytes of the module at most, plain and compressed.
 MAX_SIZE, MAX_COMPRESSED = 1_500_000, 600_000

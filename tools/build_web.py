@@ -56,13 +56,12 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the bundles are not up to date")
     options = parser.parse_args()
     bundles = build()
-    kept = {path.name: path.read_bytes() for path in BUNDLES.glob("*")}
+    kept = {path.name: path.read_bytes() for path in BUNDLES.iterdir() if path.suffix in (".js", ".json")}
     if options.check:
         wrong = sorted(name for name in bundles.keys() | kept.keys() if bundles.get(name) != kept.get(name))
         for name in wrong:
             print(f"src/shackled/web/{name} is not that of the sources: run tools/build_web.py", file=sys.stderr)
         return 1 if wrong else 0
-    BUNDLES.mkdir(exist_ok=True)
     for name in kept.keys() - bundles.keys():
         (BUNDLES / name).unlink()
     for name, content in bundles.items():

@@ -4,7 +4,7 @@
     python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py node       node_modules of contracts/ and web/: compilers, and a node for the tests
-    python3 tools/prepare.py browser    a browser for the tests of the page, if it can be had
+    python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
 Missing packages of the system are installed by apt-get, if that is there and the user is root, unless the variable
@@ -28,8 +28,8 @@ CONTRACTS = ROOT / "contracts"
 WEB = ROOT / "web"
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
-#: Commands of the browser that the tests of the page use.
-BROWSERS = ("chromium", "chromium-browser")
+#: Browsers that the tests of pages use: their commands, and the package with them.
+BROWSERS = {"chromium": ("chromium", "chromium-browser"), "firefox-esr": ("firefox-esr", "firefox")}
 #: Files that OpenGL without a screen needs: libraries, Mesa, its software renderer (older and newer versions); and the
 #: packages with them.
 OPENGL_LIBRARIES = ("EGL", "GL", "EGL_mesa")
@@ -116,13 +116,14 @@ def check_node(said: str) -> None:
 
 
 def prepare_browser() -> None:
-    """Install Chromium as a package of the system. Only the tests of the page need it."""
-    if any(map(shutil.which, BROWSERS)):
+    """Install Chromium and Firefox as packages of the system. Only the tests of pages need them."""
+    missing = [package for package, commands in BROWSERS.items() if not any(map(shutil.which, commands))]
+    if not missing:
         return
     try:
-        apt_install("a browser for the tests of the page", "chromium")
+        apt_install("browsers for the tests of pages", *missing)
     except (SystemExit, subprocess.CalledProcessError) as error:
-        say(f"the tests of the page are skipped: {error}")
+        say(f"tests of pages are skipped: {error}")
 
 
 def prepare_opengl() -> None:

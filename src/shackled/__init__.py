@@ -11,6 +11,7 @@ from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
 from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, euler
+from .web import export, view
 
 try:
     __version__ = version("shackled")
@@ -37,10 +38,12 @@ __all__ = [
     "ShackledError",
     "__version__",
     "euler",
+    "export",
     "load",
     "render",
     "replace",
     "turntable",
+    "view",
 ]
 
 

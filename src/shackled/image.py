@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import hashlib
 import io
 import os
 import struct
@@ -89,6 +90,11 @@ class Image(Value):
         from .reference import count
 
         return (None, None) if self.scene is None else count(self.scene)
+
+    @property
+    def sha256(self) -> str:
+        """The SHA-256 of red, green and blue of all pixels, rows from the top, in hexadecimal digits."""
+        return hashlib.sha256(self.pixels.tobytes()).hexdigest()
 
     @cached_property
     def scene_chunk(self) -> SceneChunk | None:

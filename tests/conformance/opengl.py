@@ -65,7 +65,7 @@ flat in vec3 f_facing;
 flat in float f_number;
 out vec4 result;
 uniform bool perspective, lit, smooth_normals;
-uniform float near, ambient, diffuse, specular;
+uniform float near, ambient, diffuse, specular, threshold;
 uniform int lights, shininess;
 uniform vec3 ambient_light, light[4], axis[4];
 uniform vec2 cosines[4];
@@ -93,12 +93,12 @@ void main() {
         for (int i = 0; i < lights; ++i) {
             vec3 to_light = unit(f_to_light[i]);
             float lambert = dot(normal, to_light);
-            if (lambert > 0.0) {
+            if (lambert > threshold) {
                 // a spot light: from 1 at the inner angle to 0 at the outer one, squared, as in glTF
                 float along = dot(-axis[i], to_light) - cosines[i].y;
                 float through = clamp(along / max(cosines[i].x - cosines[i].y, 1.0 / 1024.0), 0.0, 1.0);
                 through *= through;
-                surface += diffuse * lambert * through * light[i];
+                surface += diffuse * max(0.0, lambert) * through * light[i];
                 if (specular * through > 0.0) shining |= 1 << i;
                 float gloss = power(max(0.0, dot(normal, unit(to_light + view))), shininess);
                 highlight += specular * through * gloss * light[i];
@@ -163,9 +163,10 @@ def _canvas(width: int, height: int) -> moderngl.Framebuffer:
     return context().framebuffer(context().renderbuffer((width, height), 4, dtype="f4"), depth)
 
 
-def draw(world: World) -> Drawing:
-    """The picture of a world."""
+def draw(world: World, threshold: float = 0.0) -> Drawing:
+    """The picture of a world. threshold: N.L above which a light reaches a surface."""
     gl, program = context(), _program()
+    program["threshold"] = threshold
     canvas = _canvas(world.width, world.height)
     canvas.use()
     canvas.clear(0.0, 0.0, 0.0, 0.0, depth=0.0)

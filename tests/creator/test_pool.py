@@ -34,7 +34,7 @@ TETRAHEDRON = State(Source("piece", "tetrahedron"), size=Size(32, 32))
 @asynccontextmanager
 async def queue(workers: int = 1, seconds: float = 20, grace: float = 0, waiting: int = 100) -> AsyncIterator[Queue]:
     """A queue whose workers can misbehave."""
-    made = Queue("test", workers, Limits(), seconds, waiting, grace, make_tasks=StrangeTasks)
+    made = Queue("test", workers, Limits(waiting=waiting), seconds, grace, make_tasks=StrangeTasks)
     try:
         yield made
     finally:

@@ -17,3 +17,9 @@ def test_no_figure_rises() -> None:
     assert not worse, "\n  ".join(
         ["figures have risen; if for a good reason, run python -m benchmarks.studio:", *worse]
     )
+
+
+def test_the_documentation_has_them() -> None:
+    page = studio.PAGE.read_text("utf-8")
+    assert studio.meshes(studio.recorded()) in page, "run python -m benchmarks.studio"
+    assert studio.pictures(studio.recorded()) in page, "run python -m benchmarks.studio"

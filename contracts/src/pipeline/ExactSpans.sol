@@ -31,10 +31,8 @@ library ExactSpans {
                 uint256 end;
                 assembly ("memory-safe") {
                     column := and(shr(EDGES_LEFT_COLUMN_AT, edges), EDGES_LEFT_COLUMN_MASK)
-                    if lt(column, mload(PATCH_BEGIN)) { column := mload(PATCH_BEGIN) }
                     if lt(column, mload(COLUMN_BEGIN)) { column := mload(COLUMN_BEGIN) }
                     end := shr(EDGES_RIGHT_COLUMN_AT, edges)
-                    if gt(end, mload(PATCH_END)) { end := mload(PATCH_END) }
                     if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
                 }
                 if (column < end) span(row, column, end, start + column * load(DX));

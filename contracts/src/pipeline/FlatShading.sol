@@ -142,7 +142,11 @@ abstract contract FlatShading is Rasterizer {
     /// Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m by the angle of H, which turns by d / 2f
     /// over d pixels. Where linear functions are off by 1.5 levels, d^2 = REACH, it is 0.03 / sqrt(m) * (d^2 / REACH)^1.5 levels: with d^2
     /// = 16 * REACH it is 2 / sqrt(m), in squares of 11 * REACH as much; and for m below 1/4 it is far from that, since m is 64 levels
-    /// then.
+    /// then. Times the depth z, it has a third derivative of 3 * z' / z times its second one more: at most 4 levels, where depths in the
+    /// triangle differ by a factor of 2.
+    ///
+    /// Cells reach beyond the triangle by up to their size. Over one, depths change by at most 7/8 of the farthest in the triangle, so that
+    /// they are positive, and k is that of the cell.
     function patchSize(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc) private pure returns (uint256 size) {
         unchecked {
             uint256 mode = load(MODE);
@@ -153,19 +157,26 @@ abstract contract FlatShading is Rasterizer {
             uint256 farthest = Shading.min(za, Shading.min(zb, zc)) >> ATTRIBUTE_DEPTH_AT;
             uint256 reach = NO_LIMIT;
             if (mode & IS_LIT != 0) reach = mode & IS_DIFFUSE == 0 ? load(REACH) : Lighting.pointReach(farthest);
+            uint256 along;
+            uint256 down;
+            if (mode & IS_ORTHOGRAPHIC == 0) (along, down) = slopes(a, b, c, za, zb, zc);
+            uint256 change = nearest - farthest;
+            uint256 mean = nearest + farthest;
+            if (longest(a, b, c) >= 16 * reach || (reach != NO_LIMIT && nearest > 2 * farthest)) {
+                mean = 2 * farthest * area;
+                change = 512 * (along + down);
+                size = 64;
+                while (size * size << 2 * SUBPIXEL_BITS >= 11 * reach || 8 * change * size > 7 * mean) if ((size >>= 1) == 4) return 1;
+                change *= size;
+            }
             if (mode & IS_ORTHOGRAPHIC == 0) {
                 uint256 bright = brightness(za | zb | zc, mode);
-                if (6 * (nearest - farthest) * bright > nearest + farthest) {
+                if (6 * change * bright > mean) {
                     // so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
-                    size = za >> ATTRIBUTE_DEPTH_AT;
-                    size = slope(a, b, c, (zb >> ATTRIBUTE_DEPTH_AT) - size, (zc >> ATTRIBUTE_DEPTH_AT) - size);
-                    if (bright > 8 || 5120 * size > farthest * area) return 1;
+                    if (bright > 8 || 5120 * along > farthest * area) return 1;
                     store(PATCH_WEIGHT, nearest << DEPTH_FRACTION);
                 }
             }
-            if (longest(a, b, c) < 16 * reach) return 0;
-            for (size = 64; size > 7; size >>= 1) if (size * size << 2 * SUBPIXEL_BITS < 11 * reach) return size;
-            return 1;
         }
     }
 
@@ -183,12 +194,25 @@ abstract contract FlatShading is Rasterizer {
         }
     }
 
-    /// @dev How much a linear function changes along a row, times twice the area, from its differences to the other vertices.
-    function slope(uint256 a, uint256 b, uint256 c, uint256 db, uint256 dc) private pure returns (uint256 size) {
+    /// @dev How much the depth changes along a row and along a column, times twice the area.
+    function slopes(uint256 a, uint256 b, uint256 c, uint256 za, uint256 zb, uint256 zc)
+        private
+        pure
+        returns (uint256 along, uint256 down)
+    {
         assembly ("memory-safe") {
-            a := shr(SCREEN_ROW_AT, a)
-            size := sub(mul(dc, sub(shr(SCREEN_ROW_AT, b), a)), mul(db, sub(shr(SCREEN_ROW_AT, c), a)))
-            size := xor(size, sar(255, size))
+            za := shr(ATTRIBUTE_DEPTH_AT, za)
+            zb := sub(shr(ATTRIBUTE_DEPTH_AT, zb), za)
+            zc := sub(shr(ATTRIBUTE_DEPTH_AT, zc), za)
+            let y := shr(SCREEN_ROW_AT, a)
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            along := sub(mul(zc, sub(shr(SCREEN_ROW_AT, b), y)), mul(zb, sub(shr(SCREEN_ROW_AT, c), y)))
+            along := xor(along, sar(255, along))
+            down := sub(
+                mul(zb, sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)),
+                mul(zc, sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x))
+            )
+            down := xor(down, sar(255, down))
         }
     }
 

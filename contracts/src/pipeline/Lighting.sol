@@ -150,18 +150,21 @@ library Lighting {
 
     /// @notice REACH for the face, on which point lights shine.
     /// @dev Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the front; where
-    /// the face is seen at an angle, by more, since a pixel is a longer way on it.
+    /// the face is seen at an angle, by more, since a pixel is a longer way on it. A face that is seen from behind may hide the light: its
+    /// highlight ends where L = -V.
     /// @param farthest The depth of its farthest vertex.
     function pointReach(uint256 farthest) internal pure returns (uint256) {
         unchecked {
             // of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
             uint256 distance = (load(DEPTH_SCALE) >> 16) / (farthest + 1) + 1;
             uint256 height = type(uint256).max >> 1;
+            bool isBehind = load(OBJECT_MODE) & HAS_SPECULAR != 0 && loadSigned(FACE_N_DOT_RAY_SLOPE) > 0;
             uint256 end = load(LIGHTS_END);
             for (uint256 record = LIGHTS; record < end; record += LIGHT_SIZE) {
                 uint256 facing = load(record + LIGHT_N_DOT_L);
-                // neither negative nor zero
-                if (load(record + LIGHT_IS_POINT) != 0 && facing - 1 < height) height = facing;
+                if (load(record + LIGHT_IS_POINT) == 0 || int256(facing) < 1) continue;
+                if (isBehind && loadSigned(record + LIGHT_Z) > 0) return 0;
+                if (facing < height) height = facing;
             }
             int256 plane = loadSigned(FACE_N_DOT_RAY_SLOPE) * loadSigned(DEPTH_SCALE);
             uint256 eyeHeight = uint256(plane < 0 ? -plane : plane) >> 150;

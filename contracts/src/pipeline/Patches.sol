@@ -43,15 +43,14 @@ library Patches {
             for (; column < end; column += size) {
                 store(PATCH_BEGIN, column);
                 store(PATCH_END, column + size);
-                if (fit(column, row, start, size)) rows(edges, slopes, start, row, last);
-                else ExactSpans.rows(edges, slopes, start, row, last);
+                fit(column, row, start, size);
+                rows(edges, slopes, start, row, last);
             }
         }
     }
 
-    /// @notice Fits a quadratic function to nine exact colours of the cell.
-    /// @return whether all depths there are positive.
-    function fit(uint256 column, uint256 row, uint256 start, uint256 size) private pure returns (bool) {
+    /// @notice Fits a quadratic function to nine exact colours of the cell. All depths there are positive.
+    function fit(uint256 column, uint256 row, uint256 start, uint256 size) private pure {
         unchecked {
             uint256 half = size / 2;
             uint256 x = column + half;
@@ -60,7 +59,6 @@ library Patches {
             start += x * load(DX) + (y - row) * load(DY);
             uint256 dx = half * load(DX);
             uint256 dy = half * load(DY);
-            if (((start + dx + dy) | (start + dx - dy) | (start - dx + dy) | (start - dx - dy)) >> 255 != 0) return false;
             x = load(RAY_LEFT) + x * load(RAY_STEP);
             y = load(RAY_TOP) + y * load(RAY_STEP);
             uint256 step = half * load(RAY_STEP);
@@ -82,7 +80,6 @@ library Patches {
             middle = weightedAt(start, x, y);
             start = weightedAt(start + 2 * (dy - dx), x - 2 * step, y + 2 * step);
             place(column + half, row - (row / size * size + half), size, right - left, middle - start, left + right - middle - start);
-            return true;
         }
     }
 

@@ -14,7 +14,7 @@ library Materials {
     /// @return mode What the material adds to OBJECT_MODE.
     function set(View memory view_, Scene calldata scene, Material calldata material) internal pure returns (uint256 mode) {
         unchecked {
-            setReach(view_, scene.lights, material);
+            setReach(view_, scene, material);
             store(AMBIENT, scaled(scene.ambientLight, material.ambient.raw()));
             Light[] calldata lights = scene.lights;
             uint256 record = LIGHTS;
@@ -67,17 +67,44 @@ library Materials {
     /// @dev A highlight cos^n changes with its angle by n * angle^2 / 2 about its middle, so over d pixels linear interpolation is
     /// off by n * (d / 2f)^2 / 8, where the focal length f turns pixels into the angle of V, and H turns half as far as V.
     /// One and a half levels of 255 are allowed.
-    function setReach(View memory view_, Light[] calldata lights, Material calldata material) private pure {
+    ///
+    /// H turns up to as far as V, divided by |L + V|. Where the square of that may be below 4/3 on the canvas, for a light ahead of the
+    /// camera, it is taken into account.
+    function setReach(View memory view_, Scene calldata scene, Material calldata material) private pure {
         unchecked {
             uint256 focal = uint256(view_.focal) >> Q32;
             uint256 strength = material.shininess * uint256(material.specular.raw());
             bool point;
+            Light[] calldata lights = scene.lights;
             for (uint256 i; i != lights.length; ++i) if (lights[i].kind == POINT) point = true;
             if (point) strength += 2 * uint256(material.diffuse.raw());
             strength *= lights.length;
-            if (view_.orthographic) store(REACH, point ? 0 : UNBOUNDED_REACH);
-            else store(REACH, strength == 0 ? UNBOUNDED_REACH : (48 * focal * focal << Q32) / (255 * strength));
-            if (Specular.isBroad(material)) store(REACH, 0);
+            uint256 reach = UNBOUNDED_REACH;
+            if (view_.orthographic) reach = point ? 0 : UNBOUNDED_REACH;
+            else if (strength != 0) reach = (48 * focal * focal << Q32) / (255 * strength);
+            if (!view_.orthographic && material.specular.raw() != 0) reach = reach * turning(scene) >> Q24;
+            store(REACH, Specular.isBroad(material) ? 0 : reach);
+        }
+    }
+
+    /// @return least 3/4 of |L + V|^2 = 2 + 2 L.V where it is least on the canvas, or less, of all directional lights, Q24: 0 to 1.
+    function turning(Scene calldata scene) private pure returns (uint256 least) {
+        least = (2 * ONE_24 + 2) / 3;
+        uint256 width = scene.canvas.width;
+        uint256 height = scene.canvas.height;
+        assembly ("memory-safe") {
+            function size(v) -> s { s := xor(v, sar(255, v)) }
+            let x := shr(1, mul(width, mload(RAY_STEP)))
+            let y := shr(1, mul(height, mload(RAY_STEP)))
+            for { let record := LIGHTS } lt(record, mload(LIGHTS_END)) { record := add(record, LIGHT_SIZE) } {
+                if iszero(mload(add(record, LIGHT_IS_POINT))) {
+                    // V = -(x, y, 1) or shorter
+                    let part := add(mul(size(mload(add(record, LIGHT_X))), x), mul(size(mload(add(record, LIGHT_Y))), y))
+                    part := sub(sub(ONE_24, shr(Q24, part)), mload(add(record, LIGHT_Z)))
+                    if slt(part, least) { least := part }
+                }
+            }
+            least := shr(1, mul(mul(3, least), sgt(least, 0)))
         }
     }
 

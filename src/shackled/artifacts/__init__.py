@@ -65,11 +65,10 @@ def artifact(name: str) -> Artifact:
     )
 
 
-def contracts(group: str | None = None) -> list[str]:
-    """Return the names of all compiled contracts, or of a group."""
+def contracts() -> list[str]:
+    """Return the names of all compiled contracts."""
     names = (file.name.removesuffix(".json") for file in files(__package__).iterdir() if file.name.endswith(".json"))
-    found = sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
-    return [name for name in found if group is None or artifact(name).group == group]
+    return sorted(name for name in names if not name.startswith(("standard-input", "source-maps")))
 
 
 @cache

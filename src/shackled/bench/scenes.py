@@ -82,8 +82,9 @@ def cube_mesh(half: int = 500) -> Mesh:
     return Mesh(half * corners, _cube_faces(), (corners + 1) // 2 * 255)
 
 
-def square_mesh(divisions: int, half: int = 840) -> Mesh:
-    """Make a square that faces +z, of 2 * divisions^2 triangles; 840 is a multiple of most numbers up to 24."""
+def square_mesh(divisions: int) -> Mesh:
+    """Make a square that faces +z, of 2 * divisions^2 triangles."""
+    half = 840  # a multiple of most numbers up to 24
     at = np.rint(np.linspace(-half, half, divisions + 1))
     x, y = (axis.ravel() for axis in np.meshgrid(at, at))
     grid = np.arange(x.size).reshape(divisions + 1, divisions + 1)

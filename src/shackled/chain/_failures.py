@@ -169,7 +169,7 @@ def rpc_failure(name: str, error: Any) -> ChainError:
     return NodeError(f"the {name} says: {_shorten(message)}")
 
 
-def too_often(name: str, seconds: float | None, said: str = "") -> NodeBusyError:
+def too_often(name: str, seconds: float | None, said: str) -> NodeBusyError:
     """Return the error for a node that limits the rate of requests."""
     when = "later" if seconds is None else f"in {math.ceil(seconds)} s"
     return NodeBusyError(

@@ -53,22 +53,15 @@ class NodeChain(ContractCaller):
     support overrides, contracts that are created within the call. Safe for several threads.
     """
 
-    def __init__(
-        self,
-        connection: Connection,
-        local: EmbeddedChain,
-        address: bytes | None = None,
-        book: AddressBook | None = None,
-    ) -> None:
+    def __init__(self, connection: Connection, local: EmbeddedChain, address: bytes | None = None) -> None:
         """Prepare calls; nothing is sent yet.
 
-        local: an EVM with the code of the contracts. address: of the deployed renderer to call. book: addresses of
-        deployed contracts; None uses the user's.
+        local: an EVM with the code of the contracts. address: of the deployed renderer to call.
         """
         self.connection = connection
         self._local = local
         self._address = address
-        self._book = AddressBook() if book is None else book
+        self._book = AddressBook()
         self._places: dict[str, bytes | None] = {}
         self._methods: set[Method] = set()
         self._lock = threading.RLock()

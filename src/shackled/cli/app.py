@@ -18,6 +18,7 @@ from .bench import bench
 from .creator import creator
 from .datasets import datasets
 from .deploy import deploy
+from .export import export
 from .gas import gas
 from .genesis import genesis
 from .mint import mint
@@ -35,6 +36,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(render)
+app.command()(export)
 app.command()(gas)
 app.command()(bench)
 app.command()(genesis)

@@ -110,24 +110,22 @@ def _set(path: str, group: str, label: str, setting: str = "", **changes: Any) -
     return replace(made, **changes)
 
 
-def _angle(path: str, group: str, label: str, help: str = "") -> Control:
+def _angle(path: str, group: str, label: str, help: str) -> Control:
     return Control(path, group, label, low=-180, high=180, unit="°", turn=True, help=help)
 
 
-def _place(path: str, group: str, label: str, high: float, help: str = "One unit is the radius of the object.") -> Any:
-    return Control(path, group, label, low=-high, high=high, step=0.01, unit="radii", reach=(-2, 2), help=help)
-
-
 def _places(path: str, group: str, labels: tuple[str, str, str], high: float) -> tuple[Control, ...]:
-    return tuple(_place(f"{path}.{axis}", group, label, high) for axis, label in zip("xyz", labels, strict=True))
+    help = "One unit is the radius of the object."
+    return tuple(
+        _length(f"{path}.{axis}", group, label, -high, high, reach=(-2, 2), help=help)
+        for axis, label in zip("xyz", labels, strict=True)
+    )
 
 
 def _length(path: str, group: str, label: str, low: float, high: float, **changes: Any) -> Control:
     return Control(path, group, label, low=low, high=high, step=0.01, unit="radii", **changes)
 
 
-_AZIMUTH = _SETTINGS["azimuth"].text
-_ELEVATION = _SETTINGS["elevation"].text
 _PROJECTIONS = (("perspective", "Perspective"), ("orthographic", "Orthographic"))
 
 CONTROLS: tuple[Control, ...] = (
@@ -147,7 +145,7 @@ CONTROLS: tuple[Control, ...] = (
         logarithmic=True,
     ),
     _set("max_triangles", "object", "At most", low=4, high=65535, unit="triangles", logarithmic=True, none="all"),
-    replace(_angle("camera.azimuth", "camera", "Azimuth"), help=_AZIMUTH),
+    _angle("camera.azimuth", "camera", "Azimuth", _SETTINGS["azimuth"].text),
     _set("camera.elevation", "camera", "Elevation"),
     _angle("camera.roll", "camera", "Roll", "Rotation of the camera about its line of sight."),
     _length("camera.distance", "camera", "Distance", 0.01, 1000, reach=(0.5, 20), logarithmic=True),

@@ -10,21 +10,18 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import os
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from ..errors import InputError
 from ._picture import Comparison, File, Frame, StagePicture, Upload
-from ._queue import PoolError, Queue
+from ._queue import PoolError, Progress, Queue
 from ._scene import Facts
 from ._state import Source, State
 from ._store import MEGABYTE, Limits, Store, Stored
 from ._takeaway import uploaded
 
 __all__ = ["Pool", "PoolError"]
-
-Progress = Callable[[int, int], None]
 
 #: Pictures of more pixels are long tasks.
 LARGE = 512 * 512
@@ -45,11 +42,10 @@ class Pool:
         self.store = Store(self.limits.stored)
         self._node = node
         self._facts: dict[Source, Facts] = {}
-        bound, waiting = self.limits, self.limits.waiting
-        count = workers or _cores()
-        self._live = Queue("picture", count, bound, bound.seconds, waiting, grace=GRACE)
-        self._slow = Queue("long task", 2, bound, bound.slow_seconds, waiting, niceness=10)
-        self._reading = Queue("file", 1, bound, bound.reading_seconds, waiting, niceness=5, guarded=True)
+        bound, count = self.limits, workers or _cores()
+        self._live = Queue("picture", count, bound, bound.seconds, grace=GRACE)
+        self._slow = Queue("long task", 2, bound, bound.slow_seconds, niceness=10)
+        self._reading = Queue("file", 1, bound, bound.reading_seconds, niceness=5, guarded=True)
         self._queues = (self._live, self._slow, self._reading)
 
     async def __aenter__(self) -> Pool:
@@ -108,9 +104,9 @@ class Pool:
         )
         return frame
 
-    async def thumbnail(self, name: str, visitor: str = "") -> bytes:
+    async def thumbnail(self, name: str) -> bytes:
         """Render a piece at 128 x 128 pixels; return a PNG file, which is cached on disk."""
-        png: bytes = await self._ask(self._live, visitor, f"thumbnail {name}", "thumbnail", name)
+        png: bytes = await self._ask(self._live, "", f"thumbnail {name}", "thumbnail", name)
         return png
 
     async def take(self, visitor: str, state: State, kind: str, scale: int = 1, link: str = "") -> File:
@@ -135,11 +131,10 @@ class Pool:
         frames: int = 36,
         milliseconds: int = 60,
         scale: int = 1,
-        longest: int | None = None,
         progress: Progress | None = None,
     ) -> bytes:
         """Render a GIF in which the object turns once about the vertical axis. progress: called with (done, total)."""
-        pixels = gif_pixels(await self._pixels(visitor, state, longest), frames, scale)
+        pixels = gif_pixels(await self._pixels(visitor, state), frames, scale)
         if not 2 <= frames <= self.limits.gif_frames:
             raise InputError(f"a GIF has 2 to {self.limits.gif_frames} frames, not {frames}")
         if pixels > self.limits.gif_pixels:
@@ -152,27 +147,23 @@ class Pool:
             if progress is not None:
                 progress(number, frames)
             made.append(
-                await self._ask(
-                    self._slow, visitor, "gif", "turn", state, number, frames, longest, uploads=state.source
-                )
+                await self._ask(self._slow, visitor, "gif", "turn", state, number, frames, uploads=state.source)
             )
         gif: bytes = await self._ask(self._slow, visitor, "gif", "gif", made, milliseconds, scale)
         if progress is not None:
             progress(frames, frames)
         return gif
 
-    async def stages(self, visitor: str, state: State, longest: int | None = None) -> list[StagePicture]:
+    async def stages(self, visitor: str, state: State) -> list[StagePicture]:
         """Render the six pictures of the pipeline."""
         stages: list[StagePicture] = await self._ask(
-            self._slow, visitor, "stages", "stages", state, longest, uploads=state.source
+            self._slow, visitor, "stages", "stages", state, uploads=state.source
         )
         return stages
 
-    async def stage_gas(self, visitor: str, state: State, longest: int | None = None) -> dict[str, int]:
+    async def stage_gas(self, visitor: str, state: State) -> dict[str, int]:
         """Trace the gas of each stage in order of execution."""
-        gas: dict[str, int] = await self._ask(
-            self._slow, visitor, "gas", "stage_gas", state, longest, uploads=state.source
-        )
+        gas: dict[str, int] = await self._ask(self._slow, visitor, "gas", "stage_gas", state, uploads=state.source)
         return gas
 
     async def compare(self, visitor: str, state: State) -> Comparison:

@@ -66,7 +66,6 @@ class Queue:
         workers: int,
         limits: Limits,
         seconds: float,
-        waiting: int,
         grace: float = 0.0,
         niceness: int = 0,
         guarded: bool = False,
@@ -74,13 +73,13 @@ class Queue:
     ) -> None:
         """Start no worker yet.
 
-        what: name of the work in messages. workers: number of processes. seconds: time limit of a job. waiting: largest
-        number of waiting jobs. grace: seconds that a job may go on after nobody waits for it any more. niceness,
-        guarded, make_tasks: of the workers; see `prepare`.
+        what: name of the work in messages. workers: number of processes. seconds: time limit of a job. grace: seconds
+        that a job may go on after nobody waits for it any more. niceness, guarded, make_tasks: of the workers; see
+        `prepare`.
         """
         self._what = what
         self._seconds = seconds
-        self._most = waiting
+        self._most = limits.waiting
         self._grace = grace
         self._workers = [
             Worker(prepare, make_tasks, limits, guarded, memory=limits.memory, niceness=niceness)

@@ -34,11 +34,6 @@ KEPT = 24
 class MissingUploadError(Exception):
     """The worker needs an upload that it has not been given."""
 
-    def __init__(self, sha256: str) -> None:
-        """`sha256`: of the file."""
-        super().__init__(sha256)
-        self.sha256 = sha256
-
 
 class Recent(Generic[Key, Value]):
     """The most recently used values of a function."""
@@ -71,7 +66,7 @@ class Tasks:
         self._progress = progress
         self._uploads: Recent[str, tuple[Scene, Facts]] = Recent(KEPT)
         self._sources: Recent[Source, tuple[Scene, Facts]] = Recent(KEPT)
-        self._turning: Recent[tuple[State, int, int | None], list[Scene]] = Recent(2)
+        self._turning: Recent[tuple[State, int], list[Scene]] = Recent(2)
         self._simplified: Recent[tuple[Source, int], Scene] = Recent(KEPT)
 
     def receive(self, uploads: dict[str, Stored]) -> None:
@@ -122,28 +117,27 @@ class Tasks:
 
         return draw(require(name)).png
 
-    def turn(self, state: State, number: int, frames: int, longest: int | None) -> bytes:
+    def turn(self, state: State, number: int, frames: int) -> bytes:
         """Render one frame of a turntable; return a PNG file."""
-        key = state, frames, longest
-        turning = self._turning.get(key, lambda: full_turn(shrunk(self.scene(state), longest), frames))
+        turning = self._turning.get((state, frames), lambda: full_turn(self.scene(state), frames))
         return png(self._draw(turning[number]), 1)
 
     def gif(self, frames: Sequence[bytes], milliseconds: int, scale: int) -> bytes:
         """Return an endless GIF. frames: PNG files."""
         return gif(frames, milliseconds, scale)
 
-    def stages(self, state: State, longest: int | None) -> list[StagePicture]:
+    def stages(self, state: State) -> list[StagePicture]:
         """Render the six pictures of the pipeline."""
         from ..stages import draw_stages
 
-        made = draw_stages(shrunk(self.scene(state), longest), self._chain())
+        made = draw_stages(self.scene(state), self._chain())
         return [StagePicture(each.name, each.title, each.detail, png(each.pixels, 1)) for each in made]
 
-    def stage_gas(self, state: State, longest: int | None) -> dict[str, int]:
+    def stage_gas(self, state: State) -> dict[str, int]:
         """Trace the gas of each stage in order of execution."""
         from ..gas import profile
 
-        return profile(shrunk(self.scene(state), longest)).stages()
+        return profile(self.scene(state)).stages()
 
     def compare(self, state: State, url: str) -> Comparison:
         """Render the picture on a node and compare it with ours."""

@@ -128,7 +128,7 @@ class Transactor:
         self._nonce = transaction["nonce"] + 1
         return receipt
 
-    def send_signed(self, raw: bytes, digest: str, cost: int = 0, transaction: dict[str, Any] | None = None) -> Receipt:
+    def send_signed(self, raw: bytes, digest: str, cost: int, transaction: dict[str, Any] | None = None) -> Receipt:
         """Send a signed transaction, and wait for its receipt. cost: its maximum cost in wei, for messages."""
         try:
             self.connection.request("eth_sendRawTransaction", to_hex(raw))

@@ -10,9 +10,9 @@ import wasmtime
 from numpy.typing import NDArray
 
 from ..errors import ChainError
-from ._module import compiled
+from ._module import new_store
 
-#: The largest memory of an instance in bytes; a picture of 2048 x 2048 pixels needs about 300 MB.
+#: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
 
 #: Calls get at most this much gas, a day's work: from 2^45 on it would pay for more memory than the 32-bit
@@ -47,9 +47,7 @@ class Instance:
 
     def __init__(self) -> None:
         """Start without contracts."""
-        engine, module = compiled()
-        self._store = wasmtime.Store(engine)
-        self._store.set_limits(memory_size=MEMORY)
+        self._store, module = new_store()
         self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._functions: dict[str, Any] = {}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
 import hashlib
 import threading
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from weakref import WeakSet
 
 import wasmtime
 from platformdirs import user_cache_path
@@ -14,6 +16,24 @@ from platformdirs import user_cache_path
 from ..whole_file import write_whole
 
 _lock = threading.Lock()
+
+#: What wasmtime has to close.
+_open: WeakSet[wasmtime.Engine | wasmtime.Module | wasmtime.Store] = WeakSet()
+
+
+@atexit.register
+def _close() -> None:
+    # finalizers that run later, when wasmtime's own modules are gone, would print errors
+    for each in list(_open):
+        each.close()
+
+
+def new_store() -> tuple[wasmtime.Store, wasmtime.Module]:
+    """Return a store, and the module compiled for it."""
+    engine, module = compiled()
+    store = wasmtime.Store(engine)
+    _open.update((store, module, engine))
+    return store, module
 
 
 def module_bytes() -> bytes:

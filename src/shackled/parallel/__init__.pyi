@@ -1,7 +1,7 @@
 from ._backends import Backend, ChainBackend, Part, ProcessBackend, Verifier, draw_part
 from ._cluster import ClusterBackend
 from ._estimate import estimate
-from ._job import COMPARED_GAS, Finished, choose_verifier, plan, render_frames
+from ._job import COMPARED_GAS, choose_verifier, plan, render_frames
 from ._scheduler import FAILURES, Listener, Outline, Scheduler
 from ._store import PLAN, PartStore, folder_of, remove_parts
 from ._tiles import SMALLEST, area, covers, cut, grid, halves
@@ -16,7 +16,6 @@ __all__ = [
     "Backend",
     "ChainBackend",
     "ClusterBackend",
-    "Finished",
     "Listener",
     "Outline",
     "Part",

@@ -75,12 +75,16 @@ def point_reach(farthest: int, registers: Registers) -> int:
 
     Their directions turn as well as V: by as much where the light is as near as the eye and the face is seen from the
     front; where the face is seen at an angle, by more, since a pixel is a longer way on it. `farthest` is the depth of
-    its farthest vertex.
+    its farthest vertex. A face that is seen from behind may hide the light: its highlight ends where L = -V.
     """
     r = registers
+    reaching = [record for record in r.lights if record.is_point and record.n_dot_l > 0]
+    is_behind = r.object_mode & HAS_SPECULAR and r.face_n_dot_ray_slope > 0
+    if is_behind and any(record.z > 0 for record in reaching):
+        return 0
     # of the vertex from the eye, and of the nearest light and the eye from the plane of the face, Q16
     distance = (r.depth_scale >> 16) // (farthest + 1) + 1
-    height = min(record.n_dot_l for record in r.lights if record.is_point and record.n_dot_l > 0)
+    height = min(record.n_dot_l for record in reaching)
     eye_height = abs(r.face_n_dot_ray_slope * r.depth_scale) >> 150
     # the cosine of the angle at the vertex is about eye_height / distance, and larger elsewhere: take a third more
     eye_height = 4 * eye_height // 3

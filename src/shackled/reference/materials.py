@@ -5,7 +5,7 @@ from __future__ import annotations
 from . import specular
 from .layout import HAS_SPECULAR, IS_DIFFUSE, IS_FLAT, IS_GREY, IS_LIT, IS_QUADRATIC, IS_SMOOTH, IS_SPOT_LIT, ONES
 from .registers import Registers
-from .structs import FLAT, POINT, Light, Material, Scene
+from .structs import FLAT, POINT, Material, Scene
 from .view import View
 from .words import MASK
 
@@ -13,7 +13,7 @@ from .words import MASK
 def set_material(view: View, scene: Scene, material: Material, registers: Registers) -> int:
     """Set the registers of a material that is lit; return what it adds to the mode of the object."""
     mode = 0
-    set_reach(view, scene.lights, material, registers)
+    set_reach(view, scene, material, registers)
     registers.ambient = scaled(scene.ambient_light, material.ambient)
     grey = is_grey(registers.ambient)
     for record, light in zip(registers.lights, scene.lights, strict=True):
@@ -54,20 +54,41 @@ def is_grey(light: int) -> bool:
     return light == (light & 0xFFFFFFFF) * ONES
 
 
-def set_reach(view: View, lights: tuple[Light, ...], material: Material, registers: Registers) -> None:
-    """Set the square of the distance, in sub-pixels, over which light is nearly linear."""
+def set_reach(view: View, scene: Scene, material: Material, registers: Registers) -> None:
+    """Set the square of the distance, in sub-pixels, over which light is nearly linear.
+
+    H turns up to as far as V, divided by |L + V|. Where the square of that may be below 4/3 on the canvas, for a light
+    ahead of the camera, it is taken into account.
+    """
     focal = view.focal >> 32
     strength = material.shininess * material.specular
-    point = any(light.kind == POINT for light in lights)
+    point = any(light.kind == POINT for light in scene.lights)
     if point:
         strength += 2 * material.diffuse
-    strength *= len(lights)
+    strength *= len(scene.lights)
     if view.orthographic:
         registers.reach = 0 if point else 1 << 60
     else:
         registers.reach = 1 << 60 if strength == 0 else ((48 * focal * focal << 32) & MASK) // (255 * strength)
+        if material.specular:
+            registers.reach = registers.reach * turning(scene.canvas.width, scene.canvas.height, registers) >> 24
     if specular.is_broad(material):
         registers.reach = 0
+
+
+def turning(width: int, height: int, registers: Registers) -> int:
+    """Return 3/4 of |L + V|^2 = 2 + 2 L.V where it is least on the canvas, or less, of all directional lights, Q24.
+
+    0 to 1.
+    """
+    x, y = (size * registers.ray_step // 2 for size in (width, height))
+    least = ((1 << 25) + 2) // 3
+    for light in registers.lights:
+        if not light.is_point:
+            # V = -(x, y, 1) or shorter
+            beside = (light.x ^ light.x >> 255) * x + (light.y ^ light.y >> 255) * y
+            least = min(least, (1 << 24) - (beside >> 24) - light.z)
+    return 3 * max(least, 0) >> 1
 
 
 def smooth_reach(focal: int, coefficient: int, is_point: bool) -> int:

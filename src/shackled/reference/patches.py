@@ -57,7 +57,7 @@ def fill(edges: int, slopes: int, start: int, row: int, last: int, r: Registers)
     pixels = Pixels()
     size = r.patch_size
     if size == 1:
-        exact_rows(edges, slopes, start, row, last, 0, 1 << 16, pixels, r)
+        exact_rows(edges, slopes, start, row, last, pixels, r)
     elif size == 0:
         rows(edges, slopes, start, row, last, 0, 1 << 16, pixels, r)
     else:
@@ -79,23 +79,17 @@ def cells(edges: int, slopes: int, start: int, row: int, last: int, pixels: Pixe
     first = max(min((edges >> 48) & 0xFFFF, (last_edges >> 48) & 0xFFFF), r.column_begin) // size * size
     end = min(max(edges >> 176, last_edges >> 176), r.column_end)
     for column in range(first, end, size):
-        way = rows if fit(column, row, start, size, r) else exact_rows
-        way(edges, slopes, start, row, last, column, column + size, pixels, r)
+        fit(column, row, start, size, r)
+        rows(edges, slopes, start, row, last, column, column + size, pixels, r)
 
 
-def fit(column: int, row: int, start: int, size: int, r: Registers) -> bool:
-    """Fit a quadratic function to nine exact colours of a cell; return whether all depths there are positive."""
+def fit(column: int, row: int, start: int, size: int, r: Registers) -> None:
+    """Fit a quadratic function to nine exact colours of a cell. All depths there are positive."""
     half = size // 2
     middle_x, middle_y = column + half, row // size * size + half
 
-    def attribute(i: int, j: int) -> int:
-        return (start + (middle_x + i * half) * r.dx + (middle_y + j * half - row) * r.dy) & MASK
-
-    if any(attribute(i, j) >> 255 for i in (-1, 1) for j in (-1, 1)):
-        return False
-
     def sample(i: int, j: int) -> int:
-        word = attribute(i, j)
+        word = (start + (middle_x + i * half) * r.dx + (middle_y + j * half - row) * r.dy) & MASK
         return weighted(sampled(word, middle_x + i * half, middle_y + j * half, r), word >> ACCUMULATOR_DEPTH_AT, r)
 
     middle = sample(0, 0)
@@ -120,7 +114,6 @@ def fit(column: int, row: int, start: int, size: int, r: Registers) -> bool:
         xy,
         2 * yy,
     )
-    return True
 
 
 def sampled(attribute: int, column: int, row: int, r: Registers) -> int:
@@ -176,13 +169,11 @@ def fit_whole(a: Vertex, b: Vertex, c: Vertex, top: int, r: Registers) -> None:
     r.patch_row = top
 
 
-def exact_rows(
-    edges: int, slopes: int, start: int, row: int, last: int, begin: int, end: int, pixels: Pixels, r: Registers
-) -> None:
+def exact_rows(edges: int, slopes: int, start: int, row: int, last: int, pixels: Pixels, r: Registers) -> None:
     """Shade every fragment exactly."""
     for line in range(row, last):
-        first = max((edges >> 48) & 0xFFFF, begin, r.column_begin)
-        exact_span(line, first, min(edges >> 176, end, r.column_end), start + first * r.dx, r.dx, pixels, r)
+        first = max((edges >> 48) & 0xFFFF, r.column_begin)
+        exact_span(line, first, min(edges >> 176, r.column_end), start + first * r.dx, r.dx, pixels, r)
         edges = (edges + slopes) & MASK
         start += r.dy
 

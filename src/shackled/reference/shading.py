@@ -20,6 +20,8 @@ LIMITS = 0x00000003000000000000030000000000000300000000
 #: Lifts every colour of which a fragment may come out above 255 into those bits: half a level, by which fragments are
 #: rounded, and eight steps of Q10 more, since interpolation is off by one at most.
 NEARLY_ABOVE = 0x208 * layout.ONES
+#: A reach that is beyond every triangle.
+NO_LIMIT = 1 << 60
 #: Twice the area, in sub-pixels, of 10 pixels.
 SMALL = 20 << 16
 
@@ -169,7 +171,12 @@ def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) 
     Light: a highlight cos^n of strength m has a third derivative of at most 1.4 * n^1.5 * m by the angle of H, which
     turns by d / 2f over d pixels. Where linear functions are off by 1.5 levels, d^2 = REACH, it is
     0.03 / sqrt(m) * (d^2 / REACH)^1.5 levels: with d^2 = 16 * REACH it is 2 / sqrt(m), in squares of 11 * REACH as
-    much; and for m below 1/4 it is far from that, since m is 64 levels then.
+    much; and for m below 1/4 it is far from that, since m is 64 levels then. Times the depth z, it has a third
+    derivative of 3 * z' / z times its second one more: at most 4 levels, where depths in the triangle differ by a
+    factor of 2.
+
+    Cells reach beyond the triangle by up to their size. Over one, depths change by at most 7/8 of the farthest in the
+    triangle, so that they are positive, and k is that of the cell.
     """
     r = registers
     a, b, c = triangle.a, triangle.b, triangle.c
@@ -178,29 +185,37 @@ def patch_size(triangle: Triangle, attributes: list[int], registers: Registers) 
     if area < SMALL or r.mode & layout.IS_STEEP:
         return 1
     nearest, farthest = max(attributes) >> 168, min(attributes) >> 168
-    reach = 1 << 60
+    reach = NO_LIMIT
     if r.mode & layout.IS_LIT:
         reach = lighting.point_reach(farthest, r) if r.mode & layout.IS_DIFFUSE else r.reach
-    if r.mode & layout.IS_ORTHOGRAPHIC == 0:
+    is_orthographic = r.mode & layout.IS_ORTHOGRAPHIC
+    along, down = (0, 0) if is_orthographic else depth_slopes(a, b, c)
+    change, mean = nearest - farthest, nearest + farthest
+    longest = max((p.x - q.x) ** 2 + (p.y - q.y) ** 2 for p, q in ((a, b), (a, c), (b, c)))
+    size = 0
+    if longest >= 16 * reach or (reach != NO_LIMIT and nearest > 2 * farthest):
+        size = 64
+        while size * size << 16 >= 11 * reach or 2048 * (along + down) * size > 7 * farthest * area:
+            size >>= 1
+            if size == 4:
+                return 1
+        change, mean = 512 * (along + down) * size, 2 * farthest * area
+    if not is_orthographic:
         bright = brightness(attributes[0] | attributes[1] | attributes[2], r)
-        if 6 * (nearest - farthest) * bright > nearest + farthest:
+        if 6 * change * bright > mean:
             # so that colours times depths, Q72, fit their lanes; and the change of the depth over eight pixels of a row
-            if bright > 8 or 5120 * depth_slope(a, b, c) > farthest * area:
+            if bright > 8 or 5120 * along > farthest * area:
                 return 1
             r.patch_weight = nearest << 8
-    if max((p.x - q.x) ** 2 + (p.y - q.y) ** 2 for p, q in ((a, b), (a, c), (b, c))) < 16 * reach:
-        return 0
-    for size in (64, 32, 16, 8):
-        if size * size << 16 < 11 * reach:
-            return size
-    return 1
+    return size
 
 
-def depth_slope(a: Vertex, b: Vertex, c: Vertex) -> int:
-    """Return the change of the depth along a row, times twice the area."""
+def depth_slopes(a: Vertex, b: Vertex, c: Vertex) -> tuple[int, int]:
+    """Return the change of the depth along a row and along a column, times twice the area."""
     za, zb, zc = (vertex.attributes >> 168 for vertex in (a, b, c))
-    change = (zc - za) * (b.y - a.y) - (zb - za) * (c.y - a.y)
-    return change if change >= 0 else ~change
+    along = (zc - za) * (b.y - a.y) - (zb - za) * (c.y - a.y)
+    down = (zb - za) * (c.x - a.x) - (zc - za) * (b.x - a.x)
+    return along ^ along >> 255, down ^ down >> 255
 
 
 def brightness(colors: int, registers: Registers) -> int:

@@ -250,7 +250,7 @@ def development_accounts(count: int = ACCOUNTS) -> list[LocalAccount]:
     return [Account.from_mnemonic(PHRASE, account_path=f"m/44'/60'/0'/0/{number}") for number in range(count)]
 
 
-def development_transactors(connection: Connection, max_fee: int | None = None) -> list[Transactor]:
+def development_transactors(connection: Connection, max_fee: int | None) -> list[Transactor]:
     """Return transactors of the accounts of a fresh anvil. Raises InputError if the node is anything else."""
     if connection.chain_id != CHAIN_ID:
         raise InputError(

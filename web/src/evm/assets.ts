@@ -1,7 +1,7 @@
 // Where evm.wasm and contracts.json come from.
 
 import { InputError } from "../errors.js";
-import { readStream, unpack } from "./bytes.js";
+import { inflate, isGzip, readStream, unpack } from "./bytes.js";
 import { checkedContracts, type Contracts } from "./contracts.js";
 import { compile } from "./evm.js";
 
@@ -9,7 +9,7 @@ import { compile } from "./evm.js";
 const MAX_ASSET = 1 << 24;
 
 /**
- * A URL, a response, bytes, or the thing itself. "#ID" is the element of this page with that id, whose text is base64 of
+ * A URL, a response, bytes, all also in gzip; or the thing itself. "#ID" is the element of this page with that id, whose text is base64 of
  * bytes in gzip.
  */
 export type AssetSource<T> = string | URL | Response | BufferSource | T;
@@ -25,26 +25,30 @@ export interface Assets {
     contracts: Contracts;
 }
 
-const DEFAULTS = { evm: "./evm.wasm", contracts: "./contracts.json" } as const;
-
 /** Load the assets. InputError where they cannot be had. */
 export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
     const { evm, contracts } = sources;
+    // bundlers look for URLs that are written like this
     const [module, found] = await Promise.all([
-        evm instanceof WebAssembly.Module ? evm : bytesOf(evm ?? beside(DEFAULTS.evm), "the EVM").then(compile),
-        isPlain(contracts) ? contracts : bytesOf(contracts ?? beside(DEFAULTS.contracts), "the contracts").then(parse),
+        evm instanceof WebAssembly.Module
+            ? evm
+            : bytesOf(evm ?? new URL("./evm.wasm", import.meta.url), "the EVM").then(compile),
+        isPlain(contracts)
+            ? contracts
+            : bytesOf(contracts ?? new URL("./contracts.json", import.meta.url), "the contracts").then(parse),
     ]);
     return { module, contracts: checkedContracts(found) };
 }
 
 /** Return the bytes of a source. */
 async function bytesOf(source: AssetSource<never>, name: string): Promise<Uint8Array<ArrayBuffer>> {
-    if (source instanceof ArrayBuffer) return new Uint8Array(source);
-    if (ArrayBuffer.isView(source)) {
-        return new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
-    }
-    if (source instanceof Response) return bodyOf(source, MAX_ASSET, name);
-    return fetchBytes(String(source), MAX_ASSET, name);
+    let bytes: Uint8Array<ArrayBuffer>;
+    if (source instanceof ArrayBuffer) bytes = new Uint8Array(source);
+    else if (ArrayBuffer.isView(source)) {
+        bytes = new Uint8Array(source.buffer as ArrayBuffer, source.byteOffset, source.byteLength);
+    } else if (source instanceof Response) bytes = await bodyOf(source, MAX_ASSET, name);
+    else bytes = await fetchBytes(String(source), MAX_ASSET, name);
+    return isGzip(bytes) ? inflate(bytes, "gzip", MAX_ASSET, name) : bytes;
 }
 
 /** Return the bytes behind a URL, or within the element "#ID" of this page. InputError where they cannot be had. */
@@ -59,8 +63,8 @@ export async function fetchBytes(
         if (!element) throw new InputError(`${name}: there is no element with the id ${url.slice(1)}`);
         return unpack(element.textContent, most, name);
     }
-    if (url.startsWith("file:") && typeof process === "object") {
-        // Node cannot fetch files; bundlers for browsers do not see this import
+    if (url.startsWith("file:") && inNode()) {
+        // which cannot fetch files; bundlers for browsers do not see this import
         const { readFileSync } = process.getBuiltinModule("node:fs");
         return Uint8Array.from(readFileSync(new URL(url)));
     }
@@ -82,8 +86,8 @@ async function bodyOf(response: Response, most: number, name: string): Promise<U
     return response.body ? readStream(response.body, most, name) : new Uint8Array();
 }
 
-function beside(name: string): string {
-    return new URL(name, import.meta.url).href;
+function inNode(): boolean {
+    return typeof process === "object" && "getBuiltinModule" in process;
 }
 
 function isPlain(contracts: AssetSources["contracts"]): contracts is Contracts {

@@ -65,6 +65,11 @@ export async function readStream(
     return bytes;
 }
 
+/** Return whether bytes are in gzip. */
+export function isGzip(bytes: Uint8Array): boolean {
+    return bytes[0] === 0x1f && bytes[1] === 0x8b;
+}
+
 /** Return what compressed bytes contain. InputError above `most` bytes, or where they are damaged. */
 export async function inflate(
     bytes: Uint8Array<ArrayBuffer>,

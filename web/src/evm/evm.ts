@@ -17,8 +17,6 @@ export interface Answer {
 export const GAS_LIMIT = 30_000_000_000;
 /** The most bytes of code or of a call. */
 const MAX_BYTES = 1 << 26;
-/** The memory of an instance, in bytes, above which a new one takes its place: memory of WebAssembly never shrinks. */
-const MAX_MEMORY = 1 << 30;
 const ADDRESS = 20;
 
 interface Exports {
@@ -74,9 +72,7 @@ export class Evm {
             // an instance that trapped is not used again
             this.#exports = null;
             if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
-            throw new InputError("the EVM stopped: the call needs more memory than there is");
-        } finally {
-            if (exports.memory.buffer.byteLength > MAX_MEMORY) this.#exports = null;
+            throw new InputError("the EVM stopped: the call needs more memory than there is, or than 1 GiB");
         }
     }
 

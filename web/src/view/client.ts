@@ -12,6 +12,10 @@ export class ViewError extends Error {
 /** An answer that nobody waits for any more. */
 export class Interrupted extends Error {
     override name = "Interrupted";
+
+    constructor() {
+        super("the scene changed");
+    }
 }
 
 interface Waiting {
@@ -25,19 +29,28 @@ let scriptUrl: string | null = null;
 export class Client {
     /** What a new worker begins with. */
     call: Uint8Array | null = null;
-    readonly #assets: Promise<Assets>;
+    readonly #assets: () => Promise<Assets>;
     readonly #waiting = new Map<number, Waiting>();
     #worker: Promise<Worker> | null = null;
     #last = 0;
 
-    constructor(assets: Promise<Assets>) {
+    constructor(assets: () => Promise<Assets>) {
         this.#assets = assets;
     }
 
     /** Return the worker's answer. ViewError for its refusal, or after so many milliseconds, which end the worker. */
     async ask<K extends Kind>(kind: K, value: Requests[K][0], milliseconds: number): Promise<Requests[K][1]> {
-        const worker = (this.#worker ??= this.#start());
-        return this.#post(await worker, kind, value, milliseconds);
+        const starting = (this.#worker ??= this.#start());
+        let worker: Worker;
+        try {
+            worker = await starting;
+        } catch (error) {
+            // what could not be loaded may be there later
+            if (starting === this.#worker) this.#worker = null;
+            throw error;
+        }
+        if (starting !== this.#worker) throw new Interrupted();
+        return this.#post(worker, kind, value, milliseconds);
     }
 
     /** End the worker, with all that it was asked; the next question starts another. */
@@ -52,7 +65,7 @@ export class Client {
     }
 
     async #start(): Promise<Worker> {
-        const { module, contracts } = await this.#assets;
+        const { module, contracts } = await this.#assets();
         scriptUrl ??= URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
         const worker = new Worker(scriptUrl);
         worker.onmessage = ({ data }: MessageEvent<Reply>) => {

@@ -31,6 +31,8 @@ const MAX_ZOOM = 50;
 const REST = 160;
 /** Milliseconds, by an estimate that is usually far too high, above which the picture at rest is not larger than the call's. */
 const PATIENCE = 15_000;
+/** Where the place of the picture has become so many times larger, it is drawn again. */
+const ENLARGED = 1.2;
 /** A picture at rest that takes longer than this is given up when the viewer moves. */
 const INTERRUPT = 60;
 /** Milliseconds in which the speed of a drag that was let go falls to a third, and the speed at which it ends. */
@@ -44,8 +46,17 @@ const SOURCES = ["src", "rpc", "studio", "pointer"];
 /** Shows a scene as the contracts draw it, in a worker. docs/view.md describes its attributes, properties and events. */
 export class ShackledView extends HTMLElement {
     /** Where evm.wasm and contracts.json come from, for all elements without attributes `evm` and `contracts`. */
-    static assets: AssetSources = {};
+    static get assets(): AssetSources {
+        return this.#sources;
+    }
+
+    static set assets(sources: AssetSources) {
+        this.#sources = sources;
+        this.#loaded.clear();
+    }
+
     static readonly observedAttributes = [...SOURCES, "exact", "label"];
+    static #sources: AssetSources = {};
     static readonly #loaded = new Map<string, Promise<Assets>>();
 
     readonly #parts: Parts;
@@ -65,6 +76,8 @@ export class ShackledView extends HTMLElement {
     #held = false;
     #dirty = false;
     #drawing: Wish | null = null;
+    #queued = false;
+    #opening = false;
     #checking = false;
     #rest = 0;
     #inertia = 0;
@@ -117,7 +130,8 @@ export class ShackledView extends HTMLElement {
 
     set turn(turn: Partial<TurnDetail>) {
         cancelAnimationFrame(this.#inertia);
-        this.#move(() => this.#face({ ...START, ...turn }));
+        if (this.#facts) this.#move(() => this.#face({ ...START, ...turn }));
+        else this.#face({ ...START, ...turn });
     }
 
     /** The last picture at rest, with the contract's own pixels in RGBA; null before there is one. */
@@ -156,6 +170,13 @@ export class ShackledView extends HTMLElement {
     }
 
     connectedCallback(): void {
+        // what the page set before it knew the class
+        for (const name of ["call", "scene"] as const) {
+            const own = Object.getOwnPropertyDescriptor(this, name);
+            if (!own) continue;
+            delete (this as Partial<Record<typeof name, unknown>>)[name];
+            this[name] = own.value as Uint8Array & string;
+        }
         this.#connected = new AbortController();
         const { signal } = this.#connected;
         const { stage } = this.#parts;
@@ -169,19 +190,29 @@ export class ShackledView extends HTMLElement {
             signal,
         );
         this.#listenToFiles(signal);
+        const sizes = new ResizeObserver(() => {
+            const { canvas, stage } = this.#parts;
+            const [shown, place] = [canvas.width, stage.clientWidth * devicePixelRatio];
+            const resting = this.#picture && !this.#drawing && !this.#moving && !this.hasAttribute("exact");
+            if (resting && place > ENLARGED * shown) this.#settle();
+        });
+        sizes.observe(stage);
         // pictures that nobody sees cost nothing
         const observer = new IntersectionObserver(
             (entries) => {
                 if (!entries.some((entry) => entry.isIntersecting)) return;
                 observer.disconnect();
-                this.#client = new Client(this.#assets());
-                if (this.#source) this.#show(this.#source);
+                this.#client = new Client(() => this.#assets());
+                if (this.#source) void this.#open(this.#client, this.#source);
                 else this.#load();
             },
             { rootMargin: "200px" },
         );
         observer.observe(this);
-        signal.addEventListener("abort", () => observer.disconnect());
+        signal.addEventListener("abort", () => {
+            sizes.disconnect();
+            observer.disconnect();
+        });
     }
 
     disconnectedCallback(): void {
@@ -193,6 +224,7 @@ export class ShackledView extends HTMLElement {
         this.#client?.stop();
         this.#client = null;
         this.#drawing = this.#moving = null;
+        this.#opening = false;
     }
 
     attributeChangedCallback(name: string, before: string | null, after: string | null): void {
@@ -202,10 +234,16 @@ export class ShackledView extends HTMLElement {
             exact.setAttribute("aria-pressed", String(after !== null));
             if ((before === null) !== (after === null)) this.#settle();
         }
+        if (name === "rpc" && after) this.#parts.url.value = after;
         if (SOURCES.includes(name) && before !== after) {
             this.#source = null;
+            if (this.#queued) return;
             // attributes that are set one after the other are one source
-            queueMicrotask(() => this.#load());
+            this.#queued = true;
+            queueMicrotask(() => {
+                this.#queued = false;
+                this.#load();
+            });
         }
     }
 
@@ -241,6 +279,7 @@ export class ShackledView extends HTMLElement {
     #listenToFiles(signal: AbortSignal): void {
         const { stage } = this.#parts;
         const mark = (event: DragEvent, on: boolean): void => {
+            if (!event.dataTransfer?.types.includes("Files")) return;
             event.preventDefault();
             stage.classList.toggle("drop", on);
         };
@@ -260,6 +299,8 @@ export class ShackledView extends HTMLElement {
     /** Show another scene. */
     #show(source: Source): void {
         this.#source = source;
+        this.#turn = { ...START };
+        this.#parts.reset.hidden = true;
         if (this.#client) void this.#open(this.#client, source);
     }
 
@@ -267,22 +308,27 @@ export class ShackledView extends HTMLElement {
         const generation = ++this.#generation;
         cancelAnimationFrame(this.#inertia);
         clearTimeout(this.#rest);
-        client.stop();
+        if (this.#drawing || this.#opening) client.stop();
         this.#drawing = this.#moving = null;
+        this.#opening = true;
         this.#facts = this.#call = this.#picture = null;
-        this.#turn = { ...START };
         this.#speed = new Speed();
+        this.#clearOutcome();
         this.#busy(true);
         this.#say("");
         try {
             const { call, facts } = await client.ask("open", source, "file" in source ? this.#timeout : CHECK_TIMEOUT);
             if (generation !== this.#generation) return;
+            this.#opening = false;
             client.call = this.#call = call;
             this.#facts = facts;
+            const { azimuth, elevation, zoom } = this.#turn;
+            if (azimuth || elevation || zoom !== 1) this.#face(this.#turn);
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
             await this.#drawAtRest();
         } catch (error) {
             if (generation !== this.#generation) return;
+            this.#opening = false;
             this.#fail(messageOf(error), error);
             if (this.#picture) return;
             // nothing of the scene before it remains
@@ -317,6 +363,7 @@ export class ShackledView extends HTMLElement {
     /** Go on for a moment at the speed at which the scene was let go. */
     #release(speed: { azimuth: number; elevation: number }): void {
         this.#held = false;
+        if (!this.#moving) return;
         this.#settle();
         if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
         let last = performance.now();
@@ -334,6 +381,12 @@ export class ShackledView extends HTMLElement {
         this.#inertia = requestAnimationFrame(step);
     }
 
+    /** The outcome of a check is that of one picture. */
+    #clearOutcome(): void {
+        if (!this.#checking) this.#parts.outcome.textContent = "";
+        delete this.#parts.outcome.dataset["outcome"];
+    }
+
     /** Take a turn, within its range. */
     #face({ azimuth, elevation, zoom }: Change): void {
         const [low, high] = this.#facts?.elevations ?? [-90, 90];
@@ -347,12 +400,14 @@ export class ShackledView extends HTMLElement {
         };
         const { reset } = this.#parts;
         reset.hidden = !(this.#turn.azimuth || this.#turn.elevation || this.#turn.zoom !== 1);
+        this.#clearOutcome();
         this.dispatchEvent(new CustomEvent<TurnDetail>("turn", { detail: this.turn, bubbles: true, composed: true }));
     }
 
     /** Change the turn, and draw frames of one size until the viewer rests. */
     #move(change: () => void): void {
         if (!this.#facts) return;
+        change();
         if (!this.#moving) {
             this.#moving = this.#speed.movingSize([this.#facts.width, this.#facts.height], this.#shownSize());
             this.#parts.stage.dataset["moving"] = "";
@@ -363,7 +418,6 @@ export class ShackledView extends HTMLElement {
                 this.#drawing = null;
             }
         }
-        change();
         this.#dirty = true;
         this.#settle();
         void this.#drawFrames();
@@ -438,7 +492,7 @@ export class ShackledView extends HTMLElement {
         const shown = this.#shownSize();
         const smooth = !this.hasAttribute("exact") && 2 * Math.max(...shown) <= MAX_SIDE;
         this.#picture = { gas, width, height, milliseconds, sha256, pixels };
-        if (first || !smooth) this.#paint(drawn, !smooth);
+        if (first || !smooth) this.#paint(drawn, this.hasAttribute("exact"));
         this.#say("");
         this.#report(this.#picture, smooth ? shown : null);
         if (smooth) {
@@ -568,7 +622,9 @@ function build(root: ShadowRoot) {
     const outcome = create("p", { class: "outcome", role: "status" });
     const panel = create("div", { class: "panel", part: "panel", id: "panel", hidden: "" }, [
         create("p", {}, ["SHA-256 of the exact pixels: ", hash]),
-        create("p", { text: "A node of your choice can compute the same picture; all bytes are compared." }),
+        create("p", {
+            text: "A node of your choice is sent the scene and computes the same picture; all bytes are compared.",
+        }),
         form,
         outcome,
     ]);

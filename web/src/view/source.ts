@@ -1,7 +1,7 @@
 // Calls from files that may come from anybody: bytes of a call, scene files, and PNG files that carry their call.
 
 import { InputError } from "../errors.js";
-import { fromHex, inflate } from "../evm/bytes.js";
+import { fromHex, inflate, isGzip } from "../evm/bytes.js";
 import { encode } from "../scene/encode.js";
 import { parseScene } from "../scene/file.js";
 
@@ -10,7 +10,6 @@ export const MAX_FILE = 1 << 24;
 /** The most characters of the text of a call in a PNG file. */
 const MAX_TEXT = 8_000_000;
 const PNG = [0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a];
-const GZIP = [0x1f, 0x8b];
 /** What a chunk zTXt begins with: the keyword, and the number of the compression. */
 const KEYWORD = new TextEncoder().encode("shackled\0\0");
 
@@ -20,7 +19,7 @@ const KEYWORD = new TextEncoder().encode("shackled\0\0");
  */
 export async function readFile(file: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
     let bytes = file;
-    if (startsWith(bytes, GZIP)) bytes = await inflate(bytes, "gzip", MAX_FILE, "the file");
+    if (isGzip(bytes)) bytes = await inflate(bytes, "gzip", MAX_FILE, "the file");
     if (bytes.length > MAX_FILE) throw new InputError(`a file must have up to ${MAX_FILE.toLocaleString("en")} bytes`);
     if (startsWith(bytes, PNG)) return fromHex(await textOfPng(bytes));
     const start = new TextDecoder().decode(bytes.subarray(0, 64)).trimStart();

@@ -1,12 +1,14 @@
 // How long pictures of a size take, and the size at which they are drawn while the viewer moves.
 
-/** Milliseconds that a picture may take while the viewer moves. */
-const FRAME = 33;
+/** Milliseconds that a picture may take while the viewer moves: 25 a second. */
+const FRAME = 40;
 /** Sizes while the viewer moves, as fractions of that at rest, and below the call's own as fractions of that. */
 const LARGER = [1, 0.75, 0.5];
-const SMALLER = [1, 0.75, 0.5, 0.25];
+const SMALLER = [1, 0.75, 0.5, 0.25, 0.125];
 /** Which share of the time does not depend on the number of pixels, beyond the sizes that are known. */
 const FIXED = 0.25;
+/** By how many times a picture counts as slower than the one before it, at most. */
+const OUTLIER = 1.5;
 const MIN_SIDE = 16;
 
 /** Width and height in pixels. */
@@ -16,10 +18,10 @@ export class Speed {
     /** Milliseconds by the number of pixels. */
     readonly #seen = new Map<number, number>();
 
-    /** Note how long a picture took. Later ones count more: the browser compiles what runs often. */
+    /** Note how long a picture took. One that took much longer than before says more about the machine than about itself. */
     add(pixels: number, milliseconds: number): void {
-        const before = this.#seen.get(pixels) ?? milliseconds;
-        this.#seen.set(pixels, Math.min((before + milliseconds) / 2, milliseconds));
+        const before = this.#seen.get(pixels) ?? Infinity;
+        this.#seen.set(pixels, Math.min(milliseconds, OUTLIER * before));
     }
 
     /** Return how long a picture will take, in milliseconds; 0 if none was drawn yet. */
@@ -42,7 +44,8 @@ export class Speed {
     }
 }
 
-function scaled(size: Size, part: number): Size {
-    const [width, height] = size.map((side) => Math.min(side, Math.max(MIN_SIDE, Math.round(side * part))));
-    return [width as number, height as number];
+/** Return a part of a size, in its proportions. */
+function scaled([width, height]: Size, part: number): Size {
+    const factor = Math.min(Math.max(part, MIN_SIDE / Math.min(width, height)), 1);
+    return [Math.round(width * factor), Math.round(height * factor)];
 }

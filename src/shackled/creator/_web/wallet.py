@@ -20,8 +20,6 @@ from .._state import Source
 
 #: Error codes of wallets (EIP-1193, EIP-3326, WalletConnect): the user rejected; the chain is unknown.
 REFUSED, UNKNOWN_CHAIN = (4001, 5000), 4902
-
-
 #: Seconds that a visitor may take to confirm.
 PATIENCE = 300
 #: Names of well-known chains.
@@ -145,12 +143,12 @@ def chain_name(chain: int) -> str:
     return CHAINS.get(chain, f"chain {chain}")
 
 
-def offer_of(source: Source, chains: AddressBook | None = None) -> Offer | None:
+def offer_of(source: Source) -> Offer | None:
     """Return what can be minted of a source; None if the address book has no collection of it."""
     kind = KINDS.get(source.name.partition("/")[0]) if source.kind == "piece" else None
     if kind is None or (not kind.hidden and not require(source.name).commercial):
         return None
-    places = (chains or AddressBook()).places(kind.contract)
+    places = AddressBook().places(kind.contract)
     return Offer(kind, source, places) if places else None
 
 

@@ -1,0 +1,80 @@
+"""shackled export"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .._load import locate
+from ..datasets import Piece
+from ..web import check_page
+from ..web import export as write_page
+from .look_options import with_look
+from .option import option
+from .progress import LateBar
+
+#: Above these bytes of a page, or this gas of its picture, a note says so.
+LARGE = 1_500_000
+SLOW = 2_000_000_000
+
+
+@with_look
+def export(
+    input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
+    output: Annotated[
+        str | None, option("-o --output", "Page to write: .html. Named after INPUT by default.", "FILE")
+    ] = None,
+    title: Annotated[
+        str | None, option("--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT")
+    ] = None,
+    as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
+    *,
+    look: dict[str, Any],
+) -> None:
+    """Write a scene as a page of one file, on which anybody can turn it, in any browser and without a network."""
+    source = locate(input)
+    stem = source.file_stem if isinstance(source, Piece) else source.stem
+    path = check_page(output if output is not None else f"{stem or 'scene'}.html")
+    if isinstance(source, Piece) and source.notice:
+        print(source.notice, file=sys.stderr)
+    started = time.perf_counter()
+    with LateBar("rendering"):
+        image = write_page(source, path, title=title, **look)
+    seconds = time.perf_counter() - started
+    size = path.stat().st_size
+    report = {
+        "input": input,
+        "width": image.width,
+        "height": image.height,
+        "triangles": image.triangles,
+        "gas": image.gas,
+        "seconds": round(seconds, 6),
+        "output": str(path),
+        "bytes": size,
+        "sha256": image.sha256,
+    }
+    if not image.covered_pixels:
+        print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
+    if size > LARGE:
+        print(f"the page is large, {size / 1e6:.1f} MB: --max-triangles makes it smaller", file=sys.stderr)
+    if image.gas is not None and image.gas > SLOW:
+        print(
+            f"the picture takes {image.gas:,} gas: a browser takes about {image.gas / 1e8:.0f} s; see --size",
+            file=sys.stderr,
+        )
+    print(json.dumps(report) if as_json else _words(report, path))
+
+
+def _words(report: dict[str, Any], path: Path) -> str:
+    rows = {
+        "page": f"{path}, {report['bytes'] / 1e6:.2f} MB",
+        "picture": f"{report['width']} x {report['height']} pixels, {report['gas']:,} gas",
+        "sha256": report["sha256"],
+        "time": f"{report['seconds']:.3f} s",
+    }
+    return "\n".join(f"{name:8} {value}" for name, value in rows.items())

@@ -1,0 +1,154 @@
+"""A scene as a page of one file, which draws it in the browser of its reader."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import os
+from functools import cache
+from html import escape
+from pathlib import Path
+from typing import Unpack
+
+from .._load import Thing, load, locate
+from .._render import render
+from ..datasets import Piece
+from ..errors import InputError
+from ..image import Image
+from ..scene import LookOptions, render_call
+from ..values import plural
+from ..whole_file import check_output_file, write_output
+from ._bundle import asset, packed
+
+#: The extensions of pages.
+EXTENSIONS = (".html", ".htm")
+#: The most gas that the element uses for a picture, and the most bytes of a call: web/src/evm and web/src/view.
+GAS_LIMIT = 30_000_000_000
+MAX_CALL = 1 << 24
+#: The most bytes of a PNG file within a page.
+MAX_PNG = 1 << 19
+#: Milliseconds that a picture may take in the browser.
+TIMEOUT = 600_000
+
+STYLE = """
+:root { color-scheme: light dark; }
+body { margin: 0; padding: 1.5rem; font: 1rem/1.5 system-ui, sans-serif; }
+main { max-width: 34rem; margin: 0 auto; }
+h1 { margin: 0 0 1rem; font-size: 1.25rem; font-weight: 600; overflow-wrap: anywhere; }
+img { display: block; width: 100%; height: auto; }
+p { margin: 1rem 0 0; font-size: 0.8125rem; opacity: 0.8; }
+code { font: 0.92em ui-monospace, monospace; overflow-wrap: anywhere; }
+"""
+
+
+def export(
+    thing: Thing,
+    path: str | os.PathLike[str],
+    size: int | tuple[int, int] | None = None,
+    *,
+    title: str | None = None,
+    **look: Unpack[LookOptions],
+) -> Image:
+    """Write a scene as a page of one file, on which it can be turned; return its picture.
+
+    The page opens from disk in any browser, without a server or a network. There the contracts' own bytecode draws the
+    scene, with the pixels of `render`.
+
+    thing, size, look: as in `load`. path: of an HTML file.
+    title: of the page; None for that of the piece, or else the name of the HTML file.
+    InputError for an invalid scene, one that is too large for a browser, or a wrong path.
+    """
+    target = check_page(path)
+    found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
+    image = render(load(found, size, **look))
+    piece = found if isinstance(found, Piece) else None
+    name = title if title is not None else piece.title if piece else target.stem
+    write_output(target, _page(image, name, piece.notice if piece else "").encode())
+    return image
+
+
+def check_page(path: str | os.PathLike[str]) -> Path:
+    """Return the path, if a page can be written there. InputError if not."""
+    path = Path(path)
+    if path.suffix.lower() not in EXTENSIONS:
+        raise InputError(f"the page {path} must end in {EXTENSIONS[0]}")
+    return check_output_file(path, "page")
+
+
+def _page(image: Image, title: str, notice: str) -> str:
+    """Return the page of a picture whose scene is known. InputError if it is too large for a browser."""
+    assert image.scene is not None
+    call = render_call(image.scene)
+    if len(call) > MAX_CALL:
+        raise InputError(
+            f"the scene has {len(call):,} bytes, of which a page may have {MAX_CALL:,}: reduce it by `max_triangles`"
+        )
+    if image.gas is not None and image.gas > GAS_LIMIT:
+        raise InputError(
+            f"the picture takes {image.gas:,} gas, of which a browser uses at most {GAS_LIMIT:,}: give a smaller `size`"
+        )
+    name = escape(title)
+    picture = image.encode(".png")
+    if len(picture) > MAX_PNG:
+        picture = image.encode(".png", scene=False)
+    size = f'width="{image.width}" height="{image.height}"'
+    still = f'<img src="data:image/png;base64,{base64.b64encode(picture).decode()}" alt="{name}" {size}>'
+    if len(picture) > MAX_PNG:
+        still = "<noscript><p>The picture is drawn by a script.</p></noscript>"
+    triangles = plural(sum(len(each.mesh.faces) for each in image.scene.objects), "triangle")
+    gas = "" if image.gas is None else f", {image.gas:,} gas"
+    policy = (
+        f"default-src 'none'; script-src '{_hash(_script())}' 'wasm-unsafe-eval'; worker-src blob:; "
+        f"style-src '{_hash(STYLE)}'; img-src data:; connect-src http: https:; base-uri 'none'; form-action 'none'"
+    )
+    return f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width">
+<meta name="generator" content="Shackled">
+<title>{name}</title>
+<style>{STYLE}</style>
+</head>
+<body>
+<main>
+<h1>{name}</h1>
+<shackled-view src="#scene" evm="#evm" contracts="#contracts" label="{name}" timeout="{TIMEOUT}">
+{still}
+</shackled-view>
+<p>A scene of {triangles}, drawn by the Ethereum smart contracts of Shackled. Turn it, and this browser runs the same
+contracts for each picture. As <code>shackled render</code> draws it: {image.width} x {image.height} pixels{gas};
+SHA-256 of the pixels <code>{image.sha256}</code>.</p>
+{f"<p>{escape(notice)}</p>" if notice else ""}
+</main>
+{_data("scene", packed(call))}
+{_assets()}
+<script type="module">{_script()}</script>
+</body>
+</html>
+"""
+
+
+@cache
+def _assets() -> str:
+    """Return what all pages have in common beside the script."""
+    return f"{_data('evm', packed(asset('evm.wasm')))}\n{_data('contracts', packed(asset('contracts.json')))}"
+
+
+def _data(name: str, text: str) -> str:
+    """Return an element with text that the script reads."""
+    return f'<script type="text/plain" id="{name}">{text}</script>'
+
+
+@cache
+def _script() -> str:
+    script = asset("view.js").decode()
+    assert "</script" not in script.lower()
+    assert "<!--" not in script
+    return script
+
+
+def _hash(text: str) -> str:
+    """Return a source of a content security policy that allows a script or style with this text."""
+    return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}"

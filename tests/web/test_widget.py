@@ -1,0 +1,95 @@
+"""The widget of notebooks: a notebook that is run, and its widget in chromium."""
+
+from __future__ import annotations
+
+import base64
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tools.page_server import ARGUMENTS, browser_path
+
+from shackled import load, render
+from shackled.scene import render_call
+
+pytest.importorskip("anywidget")
+WIDGET = "application/vnd.jupyter.widget-view+json"
+STATE = "application/vnd.jupyter.widget-state+json"
+
+#: Shows a widget as notebooks do: by the default export of its module, which is given the model and a place.
+PAGE = """<!doctype html>
+<meta charset="utf-8">
+<div id="place"></div>
+<script type="module">
+const { script, state } = JSON.parse(document.querySelector("script[type='text/plain']").textContent);
+const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+const { default: widget } = await import(url);
+const bytes = Object.fromEntries(Object.entries(state).map(
+    ([name, text]) => [name, new DataView(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer)]));
+widget.render({ model: { get: name => bytes[name] }, el: document.getElementById("place") });
+</script>
+<script type="text/plain">DATA</script>
+"""
+
+
+@pytest.fixture(scope="module")
+def notebook() -> Any:
+    """A notebook that was run, with a widget in it."""
+    nbclient = pytest.importorskip("nbclient")
+    nbformat = pytest.importorskip("nbformat")
+    book = nbformat.v4.new_notebook()
+    book.cells = [nbformat.v4.new_code_cell("import shackled\nshackled.view('icons/crown', (48, 40))")]
+    nbclient.NotebookClient(book, timeout=120, kernel_name="python3").execute()
+    return book
+
+
+def test_a_notebook_shows_the_widget(notebook: Any) -> None:
+    (output,) = notebook.cells[0].outputs
+    image = render("icons/crown", (48, 40))
+    assert base64.b64decode(output.data["image/png"]) == image.encode(".png")
+    assert output.data["text/plain"] == f"<View of {image!r}>"
+    model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
+    assert model["model_module"] == "anywidget"
+    buffers = {each["path"][0]: base64.b64decode(each["data"]) for each in model["buffers"]}
+    assert buffers["_call"] == render_call(load("icons/crown", size=(48, 40)))
+
+
+@pytest.mark.skipif(browser_path() is None, reason="needs chromium: apt-get install chromium")
+def test_the_widget_in_chromium(notebook: Any, tmp_path: Path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+    (output,) = notebook.cells[0].outputs
+    model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
+    data = {
+        "script": model["state"]["_esm"],
+        "state": {each["path"][0]: each["data"] for each in model["buffers"]},
+    }
+    path = tmp_path / "page.html"
+    path.write_text(PAGE.replace("DATA", json.dumps(data).replace("<", "\\u003c")), "utf-8")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        tab = browser.new_page()
+        faults: list[str] = []
+        tab.on("pageerror", lambda error: faults.append(str(error)))
+        tab.goto(path.as_uri())
+        tab.wait_for_function("() => document.querySelector('shackled-view')?.picture")
+        assert tab.evaluate("document.querySelector('shackled-view').picture.sha256") == (
+            render("icons/crown", (48, 40)).sha256
+        )
+        browser.close()
+        assert not faults
+
+
+def test_without_anywidget() -> None:
+    program = """if True:
+        import sys
+        sys.modules["anywidget"] = None
+        import shackled
+        try:
+            shackled.view("icons/crown")
+        except shackled.InputError as error:
+            print(error)"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert ended.stdout == "`view` needs anywidget, which is not installed: pip install 'shackled[jupyter]'\n"
