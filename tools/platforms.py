@@ -13,6 +13,7 @@ import argparse
 import subprocess
 import sys
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 
 from tools.pages import ROOT, update
 
@@ -49,12 +50,16 @@ def table() -> str:
     """Return the table, a row for each platform, with the versions of Python for which wheels exist."""
     wanted = requirements()
     lines = [f"| CPython on | {' | '.join(wanted)} |", f"|---|{'---|' * len(wanted)}"]
-    for name, platform in PLATFORMS.items():
-        cells = [
-            brief([version for version in VERSIONS if resolves(each, platform, version)]) for each in wanted.values()
-        ]
+    with ThreadPoolExecutor(16) as pool:
+        found = {
+            (name, column): [pool.submit(resolves, needed, platform, version) for version in VERSIONS]
+            for name, platform in PLATFORMS.items()
+            for column, needed in wanted.items()
+        }
+    for name in PLATFORMS:
+        answers = [[each.result() for each in found[name, column]] for column in wanted]
+        cells = [brief([v for v, is_found in zip(VERSIONS, row, strict=True) if is_found]) for row in answers]
         lines.append(f"| {name} | {' | '.join(cells)} |")
-        print(lines[-1], file=sys.stderr, flush=True)
     return "\n".join(lines)
 
 
