@@ -34,9 +34,9 @@ VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 
 
 def requirements() -> dict[str, list[str]]:
-    """Return the requirements of the package, and those of each extra alone."""
+    """Return the requirements of the package, and those of the extra that has not all wheels."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    return {"package": project["dependencies"], **project["optional-dependencies"]}
+    return {"package": project["dependencies"], "simplify": project["optional-dependencies"]["simplify"]}
 
 
 def resolves(wanted: list[str], platform: str, version: str) -> bool:
