@@ -126,7 +126,8 @@ def main() -> None:
     figures: dict[str, Any] = {}
     for name, draw in {"teapot": smooth, "wireframe": wireframe, "scene": still_life}.items():
         image = draw()
-        image.save(IMAGES / f"{name}.png")
+        # in the site, pictures with a scene can be turned
+        image.save(IMAGES / f"{name}.png", scene=True)
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
     stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
     turning = spin()

@@ -118,6 +118,7 @@ def test_help_in_short(capsys: pytest.CaptureFixture[str]) -> None:
     [
         ["render", "shape.obj", "--size", "8", "-o", "full.png"],
         ["render", "shape.obj", "--size", "8", "--turntable", "2", "-o", "full.gif"],
+        ["export", "shape.obj", "--size", "8", "-o", "full.html"],
         ["genesis", "7", "-o", "full.bmp"],
         ["gas", "shape.obj", "--size", "8", "--profile", "full.svg"],
     ],
@@ -138,6 +139,7 @@ def test_a_full_disk_behind_a_file(arguments: list[str], capsys: pytest.CaptureF
         ["render", "shape.obj", "-o", f"{'n' * 300}.png"],
         ["render", "shape.obj", "--turntable", "2", "-o", f"{'n' * 300}.gif"],
         ["render", "shape.obj", "--turntable", "2", "-o", "n" * 300],
+        ["export", "shape.obj", "-o", f"{'n' * 300}.html"],
         ["genesis", "7", "-o", f"{'n' * 300}.png"],
         ["stages", "shape.obj", "--size", "8", "-o", "n" * 300],
         ["bench", "deploy", "-o", "n" * 300],

@@ -376,3 +376,10 @@ def test_each_kind_is_made() -> None:
             assert file.name == f"tetrahedron{kind.extension}"
             assert file.media_type == kind.media_type
             assert not kind.is_text or file.data.decode("ascii").endswith("\n")
+
+
+def test_a_page_that_shows_the_picture() -> None:
+    picture = Picture("icons/crown", "clay")
+    file = picture.take("page")
+    assert (file.name, file.media_type) == ("icons-crown.html", "text/html")
+    assert f"<code>{picture.image.sha256}</code>" in file.data.decode()

@@ -13,7 +13,7 @@ from tools.page_server import ARGUMENTS, browser_path
 
 import shackled
 from firefox import firefox, firefox_path
-from shackled import load, render
+from shackled import InputError, load, render
 from shackled.cli.app import run
 from shackled.scene import render_call
 
@@ -92,9 +92,11 @@ def test_in_firefox(page: tuple[Path, str]) -> None:
         tab.open(path.as_uri())
         tab.wait(READY)
         assert tab.run(SHA256) == sha256
+        tab.run(f"({VIEW}.addEventListener('frame', () => globalThis.frames_ = (globalThis.frames_ ?? 0) + 1), null)")
         tab.drag(*drag_of(tab.run(BOX)))
         check_turn(tab.run(f"{VIEW}.turn"))
         tab.wait(f"{SHA256} !== '{sha256}'")
+        assert tab.run("globalThis.frames_") > 3
 
 
 def picture_of(html: str, folder: Path) -> Path:
@@ -122,6 +124,18 @@ def test_what_a_page_contains(tmp_path: Path) -> None:
     # the same file for the same scene
     shackled.export("icons/crown", path, (48, 40), title="<b>&")
     assert path.read_text("utf-8") == html
+
+
+def test_a_large_picture_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.web._page.MAX_PNG", 1000)
+    path = tmp_path / "a.html"
+    shackled.export("icons/crown", path, 8)
+    # without its scene, the picture is small
+    with pytest.raises(InputError, match="carries no scene"):
+        load(picture_of(path.read_text("utf-8"), tmp_path))
+    shackled.export("icons/crown", path)
+    assert "<noscript>" in path.read_text("utf-8")
+    assert "<img" not in path.read_text("utf-8").partition("<script")[0]
 
 
 def test_titles_of_pieces_and_files(tmp_path: Path) -> None:

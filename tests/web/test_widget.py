@@ -24,12 +24,12 @@ PAGE = """<!doctype html>
 <meta charset="utf-8">
 <div id="place"></div>
 <script type="module">
-const { script, state } = JSON.parse(document.querySelector("script[type='text/plain']").textContent);
+const { script, width, state } = JSON.parse(document.querySelector("script[type='text/plain']").textContent);
 const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
 const { default: widget } = await import(url);
 const bytes = Object.fromEntries(Object.entries(state).map(
     ([name, text]) => [name, new DataView(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer)]));
-widget.render({ model: { get: name => bytes[name] }, el: document.getElementById("place") });
+widget.render({ model: { get: name => bytes[name] ?? width }, el: document.getElementById("place") });
 </script>
 <script type="text/plain">DATA</script>
 """
@@ -64,6 +64,7 @@ def test_the_widget_in_chromium(notebook: Any, tmp_path: Path) -> None:
     model = notebook.metadata.widgets[STATE]["state"][output.data[WIDGET]["model_id"]]
     data = {
         "script": model["state"]["_esm"],
+        "width": model["state"]["_width"],
         "state": {each["path"][0]: each["data"] for each in model["buffers"]},
     }
     path = tmp_path / "page.html"

@@ -10,6 +10,7 @@ from ..errors import InputError
 from ..gas import render_call
 from ..image import Image, png_options
 from ..scene import encode_scene_file
+from ..web import make_page
 from ._picture import File, enlarged, png
 from ._programs import Subject, cast_command, python_program
 from ._solidity import solidity_contract
@@ -48,6 +49,9 @@ KINDS: tuple[FileKind, ...] = (
     ),
     FileKind(
         "scene", "Scene file", ".json", "application/json", False, "The scene with its meshes, for shackled render."
+    ),
+    FileKind(
+        "page", "Page", ".html", "text/html", False, "A page of one file: anybody can turn the scene, in any browser."
     ),
     FileKind("file", "The uploaded file", "", "application/octet-stream", False, "The file as you uploaded it."),
     FileKind("calldata", "Calldata", ".hex", "text/plain", True, "The data of the call render(Scene), in hexadecimal."),
@@ -101,6 +105,8 @@ def _content(kind: FileKind, subject: Subject, chain: EmbeddedChain, scale: int)
     image = render(scene, on=chain)
     if name == "png":
         return _png(image, scale)
+    if name == "page":
+        return make_page(image, subject.facts.title, subject.facts.notice)
     if name == "python":
         return python_program(subject, image).encode()
     if name == "solidity":

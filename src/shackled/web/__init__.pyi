@@ -1,5 +1,5 @@
-from ._bundle import asset
-from ._page import check_page, export
+from ._bundle import ASSETS, asset
+from ._page import check_page, export, make_page
 from ._widget import view
 
-__all__ = ["asset", "check_page", "export", "view"]
+__all__ = ["ASSETS", "asset", "check_page", "export", "make_page", "view"]

@@ -63,7 +63,7 @@ def export(
     image = render(load(found, size, **look))
     piece = found if isinstance(found, Piece) else None
     name = title if title is not None else piece.title if piece else target.stem
-    write_output(target, _page(image, name, piece.notice if piece else "").encode())
+    write_output(target, make_page(image, name, piece.notice if piece else ""))
     return image
 
 
@@ -75,8 +75,11 @@ def check_page(path: str | os.PathLike[str]) -> Path:
     return check_output_file(path, "page")
 
 
-def _page(image: Image, title: str, notice: str) -> str:
-    """Return the page of a picture whose scene is known. InputError if it is too large for a browser."""
+def make_page(image: Image, title: str, notice: str = "") -> bytes:
+    """Return the page of a picture whose scene is known, as an HTML file. InputError if it is too large for a browser.
+
+    notice: credit and terms to show, or "".
+    """
     assert image.scene is not None
     call = render_call(image.scene)
     if len(call) > MAX_CALL:
@@ -101,7 +104,7 @@ def _page(image: Image, title: str, notice: str) -> str:
         f"default-src 'none'; script-src '{_hash(_script())}' 'wasm-unsafe-eval'; worker-src blob:; "
         f"style-src '{_hash(STYLE)}'; img-src data:; connect-src http: https:; base-uri 'none'; form-action 'none'"
     )
-    return f"""<!doctype html>
+    text = f"""<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -128,6 +131,7 @@ SHA-256 of the pixels <code>{image.sha256}</code>.</p>
 </body>
 </html>
 """
+    return text.encode()
 
 
 @cache

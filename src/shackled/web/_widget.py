@@ -17,19 +17,16 @@ from ._bundle import asset
 if TYPE_CHECKING:
     from anywidget import AnyWidget
 
+#: The least width of a widget, in pixels of a style sheet.
+LEAST_WIDTH = 384
 #: Follows view.js, which defines the element once in a page.
 SCRIPT = """
 export default {
     render({ model, el }) {
-        const unpack = (name) => {
-            const stream = new Blob([model.get(name)]).stream().pipeThrough(new DecompressionStream("gzip"));
-            return new Response(stream);
-        };
         const view = document.createElement("shackled-view");
-        const { assets } = view.constructor;
-        assets.evm ??= unpack("_evm");
-        assets.contracts ??= unpack("_contracts");
-        view.style.maxWidth = "24rem";
+        const View = view.constructor;
+        if (!View.assets.evm) View.assets = { evm: model.get("_evm"), contracts: model.get("_contracts") };
+        view.style.maxWidth = `${model.get("_width")}px`;
         const { buffer, byteOffset, byteLength } = model.get("_call");
         view.call = new Uint8Array(buffer, byteOffset, byteLength);
         // notebooks have keys and a menu of their own
@@ -62,7 +59,7 @@ def view(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
 def _widget_class() -> Any:
     """Return the class of widgets. ImportError without anywidget."""
     from anywidget import AnyWidget
-    from traitlets import Bytes
+    from traitlets import Bytes, Int
 
     class View(AnyWidget):
         """A scene that can be turned."""
@@ -71,11 +68,12 @@ def _widget_class() -> Any:
         _evm = Bytes(gzip.compress(asset("evm.wasm"), 9, mtime=0)).tag(sync=True)
         _contracts = Bytes(gzip.compress(asset("contracts.json"), 9, mtime=0)).tag(sync=True)
         _call = Bytes().tag(sync=True)
+        _width = Int().tag(sync=True)
 
         def __init__(self, scene: Scene) -> None:
             self._scene = scene
             self._image: Image | None = None
-            super().__init__(_call=render_call(scene))
+            super().__init__(_call=render_call(scene), _width=max(scene.width, LEAST_WIDTH))
 
         @property
         def image(self) -> Image:

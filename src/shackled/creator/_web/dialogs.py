@@ -17,7 +17,7 @@ from .wallet import DeclinedError, Offer, Wallet, mint, offer_of
 
 #: Number of characters of a snippet that are shown; copies are complete.
 SHOWN = 1500
-_LOCAL = f"{LOCAL} Send others the scene file or the program in Python."
+_LOCAL = f"{LOCAL} Send others the page or the scene file."
 _UPLOAD = "The file that you opened is kept in the memory of this server only."
 
 

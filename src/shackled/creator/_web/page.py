@@ -29,7 +29,7 @@ COMPANIONS = (".mtl", ".bin", ".jpg", ".jpeg")
 #: Sides with a button of their own.
 SIDES = (64, 128, 256, 512)
 #: Files of the picture besides PNG, and snippets, by kind.
-PICTURES = ("bmp", "svg", "scene", "file")
+PICTURES = ("bmp", "svg", "scene", "page", "file")
 SNIPPETS = ("python", "solidity", "cast", "cast-anywhere", "calldata")
 #: Frames and scale of turntables.
 TURNTABLES = ((24, 1), (24, 2), (60, 2))
