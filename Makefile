@@ -13,7 +13,7 @@ ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test checks lint types contracts web docs unit build gas bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test checks lint types contracts evm evm-check web docs unit build gas bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -55,7 +55,7 @@ test: lint checks unit ## all checks and tests
 	@echo "all checks and tests passed"
 
 checks: $(DEV) $(NODE)
-	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts web docs
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts evm-check web docs
 
 lint: $(DEV) ## style of the Python code
 	$(BIN)/ruff check
@@ -66,6 +66,9 @@ types: $(DEV) ## types of the Python code
 
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
+
+evm-check: $(DEV) ## whether the compiled EVM is that of the sources
+	$(BIN)/python tools/build_evm.py --check
 
 web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whether its bundles are those of the sources
 	npm --prefix web run --silent check
@@ -83,6 +86,9 @@ unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web
 	$(BIN)/python tools/build_contracts.py
 	$(BIN)/python tools/build_web.py
+
+evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
+	$(BIN)/python tools/build_evm.py
 
 gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json
 	$(BIN)/python -m benchmarks.snapshot

@@ -155,3 +155,24 @@ def test_a_damaged_cache(tmp_path: Path) -> None:
 def test_a_cache_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "shackled").write_text("a file where the folder would be")
     check(start(tmp_path))
+
+
+BROKEN = """
+import sys
+class Broken:
+    def find_spec(self, name, *_):
+        if name == "wasmtime._ffi":
+            raise RuntimeError("unsupported platform")
+sys.meta_path.insert(0, Broken())
+from shackled.cli.app import run
+sys.exit(run(["render", "cube", "--size", "4", "-o", sys.argv[1], *sys.argv[2:]]))
+"""
+
+
+def test_where_wasmtime_has_no_library(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", BROKEN, str(tmp_path / "a.png")]
+    told = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert told.returncode == 1
+    assert told.stderr.startswith("shackled: there is no wasmtime for this machine (")
+    assert told.stderr.endswith("choose the chain pyevm, of pip install 'shackled[pyevm]', or reference\n")
+    assert subprocess.run([*command, "--chain", "reference"], capture_output=True, timeout=120).returncode == 0

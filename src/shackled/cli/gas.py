@@ -54,9 +54,7 @@ def gas(
             "FILE",
         ),
     ] = None,
-    stages: Annotated[
-        bool, option("--stages/--no-stages", "Show gas by stage, which takes some seconds in py-evm.")
-    ] = True,
+    stages: Annotated[bool, option("--stages/--no-stages", "Show gas by stage.")] = True,
     gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
     eth_price: Annotated[float | None, option("--eth-price", "Price of an ether in US dollars.", "USD")] = None,
     lower: Annotated[

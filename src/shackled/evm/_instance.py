@@ -6,7 +6,6 @@ from enum import IntEnum
 from typing import Any, NamedTuple
 
 import numpy as np
-import wasmtime
 from numpy.typing import NDArray
 
 from ..errors import ChainError
@@ -48,6 +47,8 @@ class Instance:
     def __init__(self) -> None:
         """Start without contracts."""
         self._store, module = new_store()
+        import wasmtime
+
         self._exports = wasmtime.Instance(self._store, module, []).exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._functions: dict[str, Any] = {}
@@ -100,7 +101,11 @@ class Instance:
             self._functions[function] = self._exports[function]
         try:
             return self._functions[function](self._store, *values)
-        except wasmtime.Trap as trap:
+        except Exception as error:
+            import wasmtime
+
+            if not isinstance(error, wasmtime.Trap):
+                raise
             raise ChainError(
                 f"the embedded EVM stopped: the call needs more than {MEMORY >> 20:,} MB of memory"
-            ) from trap
+            ) from error

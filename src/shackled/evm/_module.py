@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import atexit
 import hashlib
+import platform
 import threading
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING
 from weakref import WeakSet
 
-import wasmtime
 from platformdirs import user_cache_path
 
+from ..errors import ChainError
 from ..whole_file import write_whole
+
+if TYPE_CHECKING:
+    import wasmtime
 
 _lock = threading.Lock()
 
@@ -31,6 +36,8 @@ def _close() -> None:
 def new_store() -> tuple[wasmtime.Store, wasmtime.Module]:
     """Return a store, and the module compiled for it."""
     engine, module = compiled()
+    import wasmtime
+
     store = wasmtime.Store(engine)
     _open.update((store, module, engine))
     return store, module
@@ -44,7 +51,8 @@ def module_bytes() -> bytes:
 def compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
     """Return the module as machine code.
 
-    The first call on a machine compiles it, in about a second; later ones load it within milliseconds.
+    The first call on a machine compiles it, in about a second; later ones load it within milliseconds. ChainError where
+    there is no build of wasmtime.
     """
     with _lock:
         return _compiled()
@@ -52,6 +60,14 @@ def compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
 
 @cache
 def _compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
+    try:
+        import wasmtime
+    except (ImportError, OSError, RuntimeError) as error:
+        # also of the wheel for any platform, which has no library
+        raise ChainError(
+            f"there is no wasmtime for this machine ({platform.system()}, {platform.machine()}): choose the chain "
+            "pyevm, of pip install 'shackled[pyevm]', or reference"
+        ) from error
     engine = wasmtime.Engine()
     source = module_bytes()
     path = _cache_file(source)
@@ -68,6 +84,8 @@ def _cache_file(source: bytes) -> Path:
 
 def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
     """Return the module of a cache file; None if there is none, it is damaged, or wasmtime or the machine differ."""
+    import wasmtime
+
     try:
         content = path.read_bytes()
         digest, code = content[:32], content[32:]

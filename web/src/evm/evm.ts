@@ -15,6 +15,8 @@ export interface Answer {
 
 /** Enough for pictures of 2048 x 2048 pixels; bounds the time of a call, and its memory to 130 MB. */
 export const GAS_LIMIT = 30_000_000_000;
+/** From here on gas would pay for more memory than numbers of 32 bits can address. */
+const MAX_GAS = 2 ** 45;
 /** The most bytes of code or of a call. */
 const MAX_BYTES = 1 << 26;
 const ADDRESS = 20;
@@ -58,8 +60,7 @@ export class Evm {
     call(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT): Answer {
         checkAddress(address);
         checkSize(data, "the call");
-        if (!(gas >= 0 && gas <= Number.MAX_SAFE_INTEGER))
-            throw new InputError(`gas must be from 0 to 2^53, not ${gas}`);
+        if (!(gas >= 0 && gas < MAX_GAS)) throw new InputError(`gas must be at least 0 and less than 2^45, not ${gas}`);
         const exports = (this.#exports ??= this.#start());
         try {
             const status = passed(exports, [address, data], (to, start) =>
