@@ -66,6 +66,15 @@ def test_threads_share_a_chain() -> None:
     assert found == [True] * 1600
 
 
+def test_contracts_that_are_removed() -> None:
+    made = instance(bytes.fromhex("602a5f5260205ff3"))
+    assert int.from_bytes(made.call(ADDRESS, b"", 100_000).output, "big") == 42
+    made.hold({})
+    assert made.call(ADDRESS, b"", 100_000).output == b""
+    made.hold({ADDRESS: bytes.fromhex("602b5f5260205ff3")})
+    assert int.from_bytes(made.call(ADDRESS, b"", 100_000).output, "big") == 43
+
+
 def push(value: int) -> bytes:
     return b"\x7f" + value.to_bytes(32, "big")
 

@@ -70,7 +70,6 @@ def deployment_gas(contract: str) -> int:
     """Measure the gas of the transaction that deploys a contract."""
     chain, evm = RevmChain(), Instance()
     code = chain.creation(contract)
-    for address, each in chain.codes().items():
-        evm.put(address, each)
+    evm.hold(chain.codes())
     gas = evm.create(code, DEFAULT_GAS_LIMIT).gas
     return gas + intrinsic_gas(code) + CREATION + INITCODE_WORD * -(-len(code) // 32)

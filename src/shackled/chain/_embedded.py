@@ -136,11 +136,10 @@ class RevmChain(EmbeddedChain):
 
     @contextmanager
     def _instance(self) -> Iterator[Instance]:
-        """Lend an instance that has all contracts; one that failed is not used again."""
+        """Lend an instance that has these contracts; one that failed is not used again."""
         with self._lock:
             evm = self._free.pop() if self._free else Instance()
-        for address, code in self._codes.copy().items():
-            evm.put(address, code)
+        evm.hold(self._codes.copy())
         yield evm
         self._free.append(evm)
 

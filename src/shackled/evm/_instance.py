@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -59,6 +60,13 @@ class Instance:
         if self._codes.get(address) is not code:
             self._pass("put", address, code)
             self._codes[address] = code
+
+    def hold(self, codes: Mapping[bytes, bytes]) -> None:
+        """Set the code of these contracts, by address, and remove that of all others."""
+        for address in self._codes.keys() - codes.keys():
+            self.put(address, b"")
+        for address, code in codes.items():
+            self.put(address, code)
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
