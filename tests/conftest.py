@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from hypothesis import settings
+from tools.page_server import ARGUMENTS, browser_path
 
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 settings.register_profile("same", derandomize=True)
@@ -20,3 +22,14 @@ def _address_book(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("SHACKLED_ADDRESS_BOOK", str(tmp_path_factory.mktemp("book") / "addresses.json"))
         yield
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Chromium, for tests that skip where it is not installed."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
+        yield chromium
+        chromium.close()

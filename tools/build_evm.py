@@ -29,7 +29,7 @@ WASM, RECORD, LICENSES = PACKAGE / "evm.wasm", PACKAGE / "evm.json", PACKAGE / "
 RUSTC, CARGO, LINKER = "/usr/bin/rustc", "/usr/bin/cargo", "wasm-ld-19"
 TARGET = "wasm32-unknown-unknown"
 #: Instructions on 128 bits reverse the bytes of words; without messages of panics the module is a third smaller, and
-#: names no files. An instance has at most 1 GiB of memory; a picture of 2048 x 2048 pixels needs about 300 MB.
+#: names no files. An instance has at most 1 GiB of memory.
 FLAGS = "-C target-feature=+simd128 -Z unstable-options -C panic=immediate-abort -C link-arg=--max-memory=1073741824"
 
 #: Kept, so that a second build takes seconds; the first one takes minutes.

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tools.page_server import ARGUMENTS, Started, browser_path, creator
+from tools.page_server import Started, browser_path, creator
 
 from shackled.artifacts import artifact
 
-playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
+pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("starlette", reason="the page needs starlette")
 if browser_path() is None:
     pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
@@ -96,14 +96,6 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Started]:
     book.write_text(json.dumps({"chains": {str(CHAIN): {"IconsCollection": COLLECTION}}}))
     with creator("icons/diamond", SHACKLED_ADDRESS_BOOK=str(book)) as started:
         yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        yield chromium
-        chromium.close()
 
 
 def open_mint(browser: Any, server: Started, chain: Chain | None) -> Any:

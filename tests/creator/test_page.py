@@ -14,12 +14,12 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
-from tools.page_server import ARGUMENTS, Started, browser_path, creator, pixels
+from tools.page_server import Started, browser_path, creator, pixels
 
 import shackled
 from nodes import anvil, needs_anvil
 
-playwright = pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
+pytest.importorskip("playwright.sync_api", reason="the tests of the page need playwright")
 pytest.importorskip("starlette", reason="the page needs starlette")
 if browser_path() is None:
     pytest.skip("the tests of the page need chromium: apt-get install chromium", allow_module_level=True)
@@ -36,14 +36,6 @@ OBJ = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 2 1 4\nf 3 2 4\nf 1 3 
 def server() -> Iterator[Started]:
     with creator("icons/diamond") as started:
         yield started
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        yield chromium
-        chromium.close()
 
 
 @pytest.fixture

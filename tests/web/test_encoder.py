@@ -17,6 +17,7 @@ from attrs import evolve
 from PIL import ImageColor
 
 import shackled
+from node_scripts import answers
 from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
@@ -48,14 +49,7 @@ pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no No
 
 def made(lines: Sequence[dict[str, Any]], folder: Path) -> list[bytes]:
     """The calls that TypeScript makes, or what it says instead."""
-    asked, calls = folder / "lines", folder / "calls"
-    asked.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
-    subprocess.run(["node", SCRIPT, str(BUNDLE), asked, calls], check=True)
-    data, place, found = calls.read_bytes(), 0, []
-    while place < len(data):
-        end = place + 4 + int.from_bytes(data[place : place + 4], "big")
-        found.append(data[place + 4 : end])
-        place = end
+    found = answers(SCRIPT, BUNDLE, lines, folder)
     assert len(found) == len(lines)
     return found
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 from collections.abc import Callable
 from dataclasses import asdict, replace
 from importlib.resources import files
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from node_scripts import answers
 from pictures import chain
 from shackled.chain import returned_bytes
 from shackled.creator import Lamp, Orbit, Pose, Size, Source, State, describe, drag, filled, pan, to_scene, zoom
@@ -78,14 +78,7 @@ def test_a_camera_moved_in_the_browser_sees_what_the_servers_sees(name: str, tmp
 
 def moved(lines: list[dict[str, Any]], folder: Path) -> list[tuple[bytes, dict[str, Any]]]:
     """The calls, and the cameras."""
-    asked, calls = folder / "lines", folder / "calls"
-    asked.write_text("".join(f"{json.dumps(line)}\n" for line in lines))
-    subprocess.run(["node", SCRIPT, str(BUNDLE), asked, calls], check=True)
-    data, place, found = calls.read_bytes(), 0, []
-    while place < len(data):
-        end = place + 4 + int.from_bytes(data[place : place + 4], "big")
-        found.append(data[place + 4 : end])
-        place = end
+    found = answers(SCRIPT, BUNDLE, lines, folder)
     return [(call, json.loads(there)) for call, there in zip(found[::2], found[1::2], strict=True)]
 
 

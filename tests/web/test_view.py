@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 from benchmarks.view import page as html
 from tools.anvil import AnvilChain, find_anvil
-from tools.page_server import ARGUMENTS, browser_path
+from tools.page_server import browser_path
 
 from nodes import Reply, anvil, needs_anvil, result, serving
 from shackled import Image, Scene, load, render
@@ -119,14 +119,6 @@ def call_of(drawn: Scene) -> bytes:
 
 def sha256(image: Image) -> str:
     return hashlib.sha256(image.pixels.tobytes()).hexdigest()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as driver:
-        chromium = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
-        yield chromium
-        chromium.close()
 
 
 Opener = Callable[..., View]

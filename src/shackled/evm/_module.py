@@ -51,7 +51,7 @@ def module_bytes() -> bytes:
 def compiled() -> tuple[wasmtime.Engine, wasmtime.Module]:
     """Return the module as machine code.
 
-    The first call on a machine compiles it, in about a second; later ones load it within milliseconds. ChainError where
+    The first call on a machine compiles it, within a second; later ones load it within milliseconds. ChainError where
     there is no build of wasmtime.
     """
     with _lock:

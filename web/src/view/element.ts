@@ -2,6 +2,7 @@
 
 import { InputError } from "../errors.js";
 import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
+import { MAX_SIDE } from "../scene/checked.js";
 import type { CallFacts } from "../turn.js";
 import { Client, Interrupted } from "./client.js";
 import { listen, type Change } from "./gestures.js";
@@ -25,7 +26,6 @@ export interface PictureDetail {
 }
 
 const START: Change = { azimuth: 0, elevation: 0, zoom: 1 };
-const MAX_SIDE = 2048;
 const MAX_ZOOM = 50;
 /** Milliseconds without movement, after which the picture at rest is drawn. */
 const REST = 160;
