@@ -1,10 +1,9 @@
 // Cameras that orbit about a target, as the page `shackled creator` has them: src/shackled/creator/_orbit.py.
 
-import { readCall, type Field } from "./call.js";
-import { InputError, show } from "./errors.js";
+import { readCall } from "./call.js";
 import { add, cross, dot, subtract, times, type Vector } from "./scene/arithmetic.js";
-import { q32, setWord, WORD } from "./scene/encode.js";
-import { MAX_COORDINATE, direction } from "./scene/fit.js";
+import { q32, setWord } from "./scene/encode.js";
+import { putPoint, setNumbers, turnLights } from "./turn.js";
 
 /** A camera: angles in degrees, lengths in radii of the object, `target` relative to its middle. */
 export interface Orbit {
@@ -59,18 +58,12 @@ export function pan(camera: Orbit, dx: number, dy: number): Orbit {
 export function orbitCall(bytes: Uint8Array, { camera, radius, follow }: Base, to: Orbit): Uint8Array {
     const call = readCall(bytes);
     const result = new Uint8Array(bytes);
-    const put = ({ place }: Field<Vector>, vector: Vector): void => {
-        if (vector.some((x) => !(Math.abs(x) <= MAX_COORDINATE))) {
-            throw new InputError(`the camera or a light would be at ${show(vector)}, beyond ${MAX_COORDINATE} units`);
-        }
-        vector.forEach((x, axis) => setWord(result, place + WORD * axis, q32(x)));
-    };
     const [before, after] = [axesOf(camera), axesOf(to)];
     const middle = subtract(call.eye.value, times(radius, add(camera.target, times(camera.distance, before.back))));
     const eye = add(middle, times(radius, add(to.target, times(to.distance, after.back))));
-    put(call.eye, eye);
-    put(call.target, subtract(eye, times(AHEAD, after.back)));
-    put(call.up, after.up);
+    putPoint(result, "the eye", call.eye, eye);
+    putPoint(result, "the target", call.target, subtract(eye, times(AHEAD, after.back)));
+    setNumbers(result, call.up.place, after.up);
     if (to.projection === "orthographic") {
         const halfHeight = clamped((call.halfHeight.value * to.distance) / camera.distance, ...call.halfHeights);
         setWord(result, call.halfHeight.place, q32(halfHeight));
@@ -81,14 +74,7 @@ export function orbitCall(bytes: Uint8Array, { camera, radius, follow }: Base, t
             add(times(dot(before.right, v), after.right), times(dot(before.up, v), after.up)),
             times(dot(before.back, v), after.back),
         );
-    for (const { directional, vector } of call.lights) {
-        if (directional) put(vector, direction(turn(vector.value)));
-        else put(vector, add(middle, turn(subtract(vector.value, middle))));
-    }
-    const view = new DataView(result.buffer);
-    for (const { place, value } of call.spots) {
-        direction(turn(value)).forEach((x, axis) => view.setBigInt64(place + 8 * axis, q32(x)));
-    }
+    turnLights(call, result, turn, middle);
     return result;
 }
 

@@ -69,25 +69,31 @@ export function resizeCall(call: Uint8Array, width: number, height: number): Uin
 function turnCamera(call: Call, bytes: Uint8Array, azimuth: number, elevation: number): void {
     const { right } = axesOf(call);
     const turn = rotation(multiply(fromAxisAngle([0, 1, 0], azimuth), fromAxisAngle(right, -elevation)));
-    const { middle } = call;
-    const place = (name: string, { place: at, value }: Field<Vector>): void => {
-        const turned = add(middle, turn(subtract(value, middle)));
-        if (turned.some((x) => Math.abs(x) > MAX_COORDINATE)) {
-            throw new InputError(`${name} would be at (${show(turned).slice(1, -1)}), beyond ${MAX_COORDINATE} units`);
-        }
-        setNumbers(bytes, at, turned);
-    };
-    place("the eye", call.eye);
-    place("the target", call.target);
-    setNumbers(bytes, call.up.place, direction(turn(call.up.value)));
+    const { eye, target, up, middle } = call;
+    putPoint(bytes, "the eye", eye, add(middle, turn(subtract(eye.value, middle))));
+    putPoint(bytes, "the target", target, add(middle, turn(subtract(target.value, middle))));
+    setNumbers(bytes, up.place, direction(turn(up.value)));
+    turnLights(call, bytes, turn, middle);
+}
+
+/** Turn the lights of a call about a point. */
+export function turnLights(call: Call, bytes: Uint8Array, turn: (v: Vector) => Vector, about: Vector): void {
     call.lights.forEach(({ directional, vector }, index) => {
         if (directional) setNumbers(bytes, vector.place, direction(turn(vector.value)));
-        else place(`light ${index}`, vector);
+        else putPoint(bytes, `light ${index}`, vector, add(about, turn(subtract(vector.value, about))));
     });
     const view = new DataView(bytes.buffer, bytes.byteOffset);
-    for (const { place: at, value } of call.spots) {
-        direction(turn(value)).forEach((x, axis) => view.setBigInt64(at + 8 * axis, q32(x)));
+    for (const { place, value } of call.spots) {
+        direction(turn(value)).forEach((x, axis) => view.setBigInt64(place + 8 * axis, q32(x)));
     }
+}
+
+/** Write a point into a call. InputError, which has the name of the point, where it lies beyond what the contracts take. */
+export function putPoint(bytes: Uint8Array, name: string, { place }: Field<Vector>, point: Vector): void {
+    if (!point.every((x) => Math.abs(x) <= MAX_COORDINATE)) {
+        throw new InputError(`${name} would be at (${show(point).slice(1, -1)}), beyond ${MAX_COORDINATE} units`);
+    }
+    setNumbers(bytes, place, point);
 }
 
 /** Return by how many degrees the viewer can go down and up, until right below or above the scene. */
@@ -113,6 +119,6 @@ function axesOf(call: Call): { right: Vector; up: Vector; back: Vector } {
     return { right, up: cross(toward, right), back: toward };
 }
 
-function setNumbers(bytes: Uint8Array, place: number, numbers: Vector): void {
+export function setNumbers(bytes: Uint8Array, place: number, numbers: Vector): void {
     numbers.forEach((x, axis) => setWord(bytes, place + WORD * axis, q32(x)));
 }
