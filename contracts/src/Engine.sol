@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {DepthBuffer} from "./pipeline/DepthBuffer.sol";
 import {FlatShading} from "./pipeline/FlatShading.sol";
 import {LinearSpans} from "./pipeline/LinearSpans.sol";
 import {Patches} from "./pipeline/Patches.sol";
-import {Pipeline} from "./pipeline/Pipeline.sol";
 import "./pipeline/Registers.sol";
 
 /// @title Engine: from vertices to pixels, for flat and unlit surfaces.
 /// @notice The work of the Renderer, which checks the scene and computes the uniforms before, and makes a file of the pixels after. Call
 /// the Renderer: the engine relies on what it is handed.
-contract Engine is Pipeline, FlatShading {
+contract Engine is DepthBuffer, FlatShading {
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {
         uint256 mode = load(MODE);
         if (mode == 0) LinearSpans.plain(edges, rows, row);

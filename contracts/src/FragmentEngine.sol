@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {BlendedSpans} from "./pipeline/BlendedSpans.sol";
+import {DepthBuffer} from "./pipeline/DepthBuffer.sol";
 import {ExactSpans} from "./pipeline/ExactSpans.sol";
 import {LinearSpans} from "./pipeline/LinearSpans.sol";
 import {Pipeline} from "./pipeline/Pipeline.sol";
@@ -12,7 +13,7 @@ import "./pipeline/Registers.sol";
 
 /// @title FragmentEngine: from vertices to pixels, for what is lit fragment by fragment.
 /// @notice Smooth surfaces, wires, everything that is not opaque or lit by spot lights; else as `Engine`.
-contract FragmentEngine is Pipeline, Wireframe {
+contract FragmentEngine is DepthBuffer, Wireframe {
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         SmoothShading.prepare(a, b, c, crossing);
     }

@@ -6,6 +6,8 @@ import "./Registers.sol";
 
 // The background under the objects, fragments that are mixed with what is behind them, and what happens to all pixels when they are drawn.
 
+/// @dev The background writes too much: less than one more row, or 96 bytes.
+uint256 constant OVERHANG = 96;
 /// @dev Just below 256, Q10.
 int256 constant BRIGHTEST = 0x3ffff;
 

@@ -50,7 +50,7 @@ library Patches {
     }
 
     /// @notice Fits a quadratic function to nine exact colours of the cell. All depths there are positive.
-    function fit(uint256 column, uint256 row, uint256 start, uint256 size) private pure {
+    function fit(uint256 column, uint256 row, uint256 start, uint256 size) internal pure {
         unchecked {
             uint256 half = size / 2;
             uint256 x = column + half;

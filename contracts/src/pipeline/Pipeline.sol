@@ -15,8 +15,6 @@ import "./Registers.sol";
 
 /// @dev Pixels of a band, so that the depth buffer stays small however large the picture is.
 uint256 constant BAND_PIXELS = 16384;
-/// @dev The background writes too much: less than one more row, or 96 bytes.
-uint256 constant OVERHANG = 96;
 
 /// @param pixels Address of the pixels: rows from the bottom without gaps, blue, green, red; before them are two free words.
 /// @param size Their length in bytes, or that of the pixels and the depths behind them: see RETURNS_DEPTHS.
@@ -32,6 +30,23 @@ struct Picture {
 abstract contract Pipeline is PrimitiveAssembly {
     /// @notice Draws the edges of the triangles of a list, if this engine is one for wires.
     function drawWires(uint256 list, uint256 end) internal pure virtual;
+
+    /// @notice Fills the pixels with the background, or with what was drawn before, and reserves the memory of the depths behind them.
+    /// @param image Address of the pixels.
+    /// @param bandRows How many rows of depths are kept at a time.
+    /// @param lists Of each object the vertex records, the list of its triangles, the end of that.
+    /// @return size Bytes from `image` on that are to be returned: see Picture.
+    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
+        internal
+        pure
+        virtual
+        returns (uint256 size);
+
+    /// @notice Makes the depths ready for the rows `top` to before `bottom` of the tile.
+    function openBand(Rectangle memory tile, uint256 image, uint256 top, uint256 bottom) internal pure virtual;
+
+    /// @notice How many pixels of the band are covered, which has so many rows.
+    function litPixels(uint256 bandRows) internal pure virtual returns (uint256);
 
     /// @notice Draws a part of the canvas. The data behind the selector are those of `Uniforms.sol`.
     /// @return Two words without the ABI's offsets and lengths: how many triangles were left after culling and clipping, how many pixels
@@ -76,21 +91,14 @@ abstract contract Pipeline is PrimitiveAssembly {
             uint256 image = freeMemory() + 64;
             picture.pixels = image;
             if (load(ONLY_COUNTS) != 0) return picture;
-            // at the end of memory, where what is never touched costs nothing; depths are read as whole words, of which 8 bytes count;
-            // their addresses are multiples of 8
-            uint256 depth = (image + 3 * tile.width * (tile.height + 1) + OVERHANG + 31) & ~uint256(31);
-            setFreeMemory(depth + 8 * bandRows * tile.width + 32);
-            picture.size = load(RETURNS_DEPTHS) == 0 ? 3 * tile.width * tile.height : depth + 8 * tile.width * tile.height - image;
-            if (load(DRAWN_BEFORE) == 0) {
-                Compositor.background(image, tile);
-            } else {
-                copyCalldata(image, load(DRAWN_BEFORE), depth + 8 * tile.width * tile.height - image);
-            }
+            picture.size = openPicture(tile, image, bandRows, lists);
 
             for (uint256 bottom = tile.height; bottom != 0;) {
                 // bands go up, as the rows of the file do
                 uint256 top = bottom < bandRows ? 0 : bottom - bandRows;
-                setBand(tile, depth, image, top, bottom);
+                store(BAND_TOP, tile.y + PIXEL_BIAS + top);
+                store(BAND_BOTTOM, tile.y + PIXEL_BIAS + bottom);
+                openBand(tile, image, top, bottom);
                 uniforms = load(OBJECTS);
                 for (uint256 i; i != lists.length; ++i) {
                     // what a single object needs is still there
@@ -105,7 +113,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                     }
                     picture.triangles += drawObject(mesh, lists[i], atOnce, recordShift(mode));
                 }
-                if (load(COUNT_PIXELS) != 0) picture.litPixels += Compositor.litPixels(depth, depth + 8 * (bottom - top) * tile.width);
+                if (load(COUNT_PIXELS) != 0) picture.litPixels += litPixels(bottom - top);
                 bottom = top;
             }
 
@@ -115,7 +123,7 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @dev Reads the uniforms of an object into their registers.
     /// @return next Where those of the next begin.
-    function readObject(uint256 position) private pure returns (uint256 next) {
+    function readObject(uint256 position) internal pure returns (uint256 next) {
         unchecked {
             uint256 size;
             assembly ("memory-safe") {
@@ -126,7 +134,7 @@ abstract contract Pipeline is PrimitiveAssembly {
         }
     }
 
-    function copyCalldata(uint256 target, uint256 position, uint256 size) private pure {
+    function copyCalldata(uint256 target, uint256 position, uint256 size) internal pure {
         assembly ("memory-safe") {
             calldatacopy(target, position, size)
         }
@@ -171,7 +179,7 @@ abstract contract Pipeline is PrimitiveAssembly {
     }
 
     /// @dev The size of a vertex record, as a power of two: position, colour, and what the fragment shader keeps there.
-    function recordShift(uint256 mode) private pure returns (uint256) {
+    function recordShift(uint256 mode) internal pure returns (uint256) {
         unchecked {
             if (mode & IS_SMOOTH != 0) return 8;
             // flat with highlights: two words for each light
@@ -180,26 +188,6 @@ abstract contract Pipeline is PrimitiveAssembly {
                 return end > LIGHTS + 3 * LIGHT_SIZE ? 9 : end > LIGHTS + LIGHT_SIZE ? 8 : 7;
             }
             return 6;
-        }
-    }
-
-    /// @dev Rows `top` to before `bottom` of the tile, and where their depths and colours are.
-    function setBand(Rectangle memory tile, uint256 depth, uint256 image, uint256 top, uint256 bottom) private pure {
-        unchecked {
-            uint256 first = tile.y + PIXEL_BIAS;
-            store(BAND_TOP, first + top);
-            store(BAND_BOTTOM, first + bottom);
-            store(DEPTH_ORIGIN, depth + 8 * ((first + bottom - 1) * tile.width - tile.x - PIXEL_BIAS));
-            store(IMAGE_ORIGIN, image + 3 * (tile.height - bottom) * tile.width - 3 * (depth >> 3));
-            // the first band finds memory that nothing has touched
-            if (bottom != tile.height) {
-                // and the word behind them, since depths are read as whole words
-                uint256 size = 8 * (bottom - top) * tile.width + 32;
-                assembly ("memory-safe") {
-                    // beyond its end calldata is zero
-                    calldatacopy(depth, calldatasize(), size)
-                }
-            }
         }
     }
 }

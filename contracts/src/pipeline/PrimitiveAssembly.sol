@@ -77,39 +77,12 @@ abstract contract PrimitiveAssembly is Rasterizer {
                     if (b < c) (a, b, c) = (b, c, a);
                 }
                 if (c < a) (a, b, c) = (c, a, b);
-                if (area < SMALL_AREA && load(OBJECT_FLAGS) & WIREFRAME == 0 && isBetweenPixels(a, b, c)) continue;
+                if (area < SMALL_AREA && load(OBJECT_FLAGS) & WIREFRAME == 0 && coversNothing(a, b, c)) continue;
                 if (load(LIST) == 0) {
                     shade(a, b, c, crossing);
                     drawTriangle(a, b, c);
                 } else {
                     store(LIST, Triangles.pack(load(LIST), a, b, c, ALL_EDGES));
-                }
-            }
-        }
-    }
-
-    /// @dev Whether a triangle covers no pixel centre. Where one lies on an edge the answer is no: the edges of the Rasterizer are rounded.
-    /// @param a, b, c Its screen words, the topmost first, counter-clockwise.
-    function isBetweenPixels(uint256 a, uint256 b, uint256 c) private pure returns (bool isBetween) {
-        assembly ("memory-safe") {
-            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
-            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
-            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
-            x := shl(16, x)
-            a := shr(SCREEN_ROW_AT, a)
-            b := sub(shr(SCREEN_ROW_AT, b), a)
-            c := sub(shr(SCREEN_ROW_AT, c), a)
-            isBetween := 1
-            // rows from the first one, in sub-pixels below the first vertex
-            for { let y := and(sub(0, a), SUBPIXEL_MASK) } or(lt(y, b), lt(y, c)) { y := add(y, 256) } {
-                // columns, Q16 in sub-pixels: on the left from a by b to c, on the right from a to c, or by c to b
-                let left := add(shl(16, xb), sdiv(mul(sub(y, b), shl(16, sub(xc, xb))), sub(c, b)))
-                let right := left
-                if lt(y, b) { left := sdiv(mul(y, shl(16, xb)), b) }
-                if lt(y, c) { right := sdiv(mul(y, shl(16, xc)), c) }
-                if lt(shr(24, add(x, sub(left, 2))), shr(24, add(x, add(right, 1)))) {
-                    isBetween := 0
-                    break
                 }
             }
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Rasterizer} from "./Rasterizer.sol";
+import {PixelRasterizer} from "./PixelRasterizer.sol";
 import {SmoothShading} from "./SmoothShading.sol";
 import "./Registers.sol";
 
@@ -14,7 +14,7 @@ uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
 /// @dev 1 / 2^8 of the length of a line in sub-pixels is an accumulator's change for each pixel: Q32 of attributes, Q8 of sub-pixels.
 int256 constant STEP_ONE = 1 << 40;
 
-abstract contract Wireframe is Rasterizer {
+abstract contract Wireframe is PixelRasterizer {
     /// @notice Draws the rows from `row` to before `last`, if the mode is BY_FRAGMENTS: see Rasterizer.drawRows, where they are addresses.
     function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
 

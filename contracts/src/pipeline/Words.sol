@@ -171,6 +171,43 @@ uint256 constant OVERFLOW_CARRY_AT = 30;
 uint256 constant LANES_TO_PIXEL = 0x100000000000000010000000000000001000000000000000000000000000000;
 uint256 constant Q10_TO_PIXEL = 0x400000000000000040000000000000004000000000000000000000000000;
 
+// ----------------------------------------------------------------------------------------------------------------------- parts of samples
+
+uint256 constant LANE_64 = 0xffffffffffffffff;
+uint256 constant UPPER_LANE_64_AT = 192;
+/// @dev The samples of a pixel have 2^5 bytes.
+uint256 constant SAMPLE_SIZE_BITS = 5;
+/// @dev Bits of a column behind the point.
+uint256 constant COLUMN_FRACTION = 42;
+uint256 constant SUBPIXEL_TO_COLUMN = 34;
+/// @dev Less the larger of a side's outer lanes: the first column that it may leave in, Q42. Those between are up to half a column farther.
+uint256 constant TO_FIRST_COLUMN = 0x800001ffffffffff;
+/// @dev The same for the right side: less this, its larger outer lane is the column after the last.
+uint256 constant TO_LAST_COLUMN = 0x7ffffa0000000000;
+/// @dev A side that nothing is to the right of, and one that nothing is to the left of.
+uint256 constant NEVER_LEFT = 0x2000000000000000;
+/// @dev Sub-pixels from the centre of a pixel to the outermost of its samples, and to the others.
+uint256 constant OUTERMOST_SAMPLE = 96;
+uint256 constant INNERMOST_SAMPLE = 32;
+/// @dev A lane has 2^6 bits.
+uint256 constant SAMPLE_LANE_BITS = 6;
+/// @dev An eighth of a depth in an accumulator.
+uint256 constant DEPTH_8_AT = 195;
+/// @dev Brings bits 0, 64, 128, 192 together as the number of a set, times 16; the bits of it.
+uint256 constant COVERED_TO_SET = 0x1000000000000000200000000000000040000000000000008;
+uint256 constant SET_AT = 188;
+uint256 constant SET_MASK = 240;
+/// @dev The middle of each set of samples, in eighths of a pixel: signed bytes of the column and, below it, of the row.
+uint256 constant CENTROIDS = 0x1ff00ff02010002010000010300ff0000fefffd0101fe03fffffd0000;
+uint256 constant GREEN_OF_SUM = 24;
+/// @dev A colour at the top of a word.
+uint256 constant PIXEL_AT = 232;
+/// @dev Red and blue of a colour; where the mean of four has green.
+uint256 constant RED_BLUE = 0xff00ff;
+uint256 constant MEAN_OF_GREEN_AT = 26;
+/// @dev Half a level of the sums of four colours: red lowest, blue at bit 16, green at bit 32; where those have their bytes.
+uint256 constant ROUND_SUM = 0x200020002;
+
 // ------------------------------------------------------------------------------------------------------------------------ parts of pixels
 
 /// @dev 1 in each of ten pixels.
@@ -404,6 +441,31 @@ uint256 constant BEYOND_BYTES_24 = 0xfe0000fe0000fe0000fe0000fe0000fe0000fe0000f
 uint256 constant TOPS_24 = 0x800000800000800000800000800000800000800000800000;
 uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
 uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
+
+// -------------------------------------------------------------------------------------------------------------------------------- samples
+// Four samples of a pixel in a word: in each lane the colour of what is nearest there, blue uppermost, and above it the highest 39 bits of
+// its depth; 0 where nothing is. The bit above stays free. They lie where Direct3D and most drivers of OpenGL have them.
+
+uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
+/// @dev The colours, the depths.
+uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
+uint256 constant SAMPLE_DEPTHS = 0x7fffffffff0000007fffffffff0000007fffffffff0000007fffffffff000000;
+/// @dev Where they are from the centre of the pixel, in eighths of it: columns, and rows.
+uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
+uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
+/// @dev The columns as Q42, and 2^-29, which makes samples that lie exactly on an edge come out as being to the right of it. Edges are off
+/// by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from it at least.
+uint256 constant SAMPLE_COLUMNS = 0x8000001ffffffffe80000020000000018000001fffffffff8000002000;
+/// @dev A column, Q42.
+uint256 constant COLUMN_64 = 0x40000000000000004000000000000000400000000000000040000000000;
+/// @dev Depths without the two bits in which objects that are not opaque note their passes: see BlendedSamples; and these.
+uint256 constant TOUCHED_DEPTHS = 0x7ffffffffc0000007ffffffffc0000007ffffffffc0000007ffffffffc000000;
+uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
+uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
+uint256 constant BELOW_TOUCHED = 0x3ffffff0000000003ffffff0000000003ffffff0000000003ffffff;
+/// @dev Red and blue, green.
+uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;
+uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff00;
 
 // ------------------------------------------------------------------------------------------------------------------------- signed colours
 // Three signed lanes of 85 bits, of quadratic functions. A colour that is stepped is Q58, and one times its depth Q72 (Q24 without the last

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ExactSpans} from "./ExactSpans.sol";
+import {Samples} from "./Samples.sol";
+import "./Registers.sol";
+
+// Every fragment for itself, at the middle of the samples that the triangle covers.
+
+library ExactSamples {
+    /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
+    function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
+        unchecked {
+            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            for (; column != end; ++column) {
+                uint256 covered;
+                assembly ("memory-safe") {
+                    covered := mul(shl(COLUMN_FRACTION, column), ONES_64)
+                    covered := and(and(add(left, covered), sub(right, covered)), TOPS_64)
+                }
+                if (covered != 0) fragment(attribute, covered, column, row);
+                attribute += load(DX);
+            }
+        }
+    }
+
+    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+        unchecked {
+            uint256 p = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE) + (column << SAMPLE_SIZE_BITS);
+            uint256 old = load(p);
+            uint256 depths = Samples.depths(attribute);
+            uint256 seen = covered & ((depths | TOPS_64) - (old | SAMPLE_COLORS));
+            if (seen == 0) return;
+            uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
+            Samples.write(p, load(SAMPLE_IMAGE) + 3 * (column - row * load(TILE_WIDTH)), depths | (color * ONES_64), seen);
+        }
+    }
+
+    /// @dev The colour in the middle of the samples that are covered: signed lanes of 85 bits, Q10.
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+        unchecked {
+            (uint256 x, uint256 y) = Samples.centroid(covered);
+            attribute = Samples.moved(attribute, x, y);
+            uint256 step = load(RAY_STEP);
+            x = load(RAY_LEFT) + column * step + uint256(int256(x * step) >> 3);
+            y = load(RAY_TOP) + row * step + uint256(int256(y * step) >> 3);
+            return ExactSpans.colorAt(attribute, x, y);
+        }
+    }
+}
