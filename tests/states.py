@@ -73,6 +73,7 @@ def states() -> st.SearchStrategy[State]:
         flags,
         flags,
         flags,
+        flags,
         st.none() | st.builds(Size, numbers("size.width"), numbers("size.height")),
         st.none() | numbers("max_triangles"),
     )

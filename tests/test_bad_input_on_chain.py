@@ -182,7 +182,7 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
     (put(OBJECTS, 1, MESH, value=b"\0\0\0\0\1" + bytes(6)), "IndexOutOfRange(object=1, face=0, vertexCount=0)"),
     # test_extensions.py has more of these
     (put(EXTENSIONS, value=b"\2\0\0\0"), "ExtensionCutOff(position=0)"),
-    (put(EXTENSIONS, value=b"\3\0\0\0\0"), "UnknownExtension(kind=3, index=0)"),
+    (put(EXTENSIONS, value=b"\xff\0\0\0\0"), "UnknownExtension(kind=255, index=0)"),
     (put(EXTENSIONS, value=b"\2\0\1\0\4\0\0\0\0\2\0\0\0\4"), "ExtensionCutOff(position=9)"),
     (put(EXTENSIONS, value=2 * b"\2\0\1\0\4\0\0\0\0"), "ExtensionOrder(kind=2, index=1)"),
     (put(EXTENSIONS, value=b"\2\0\0\0\0"), "ExtensionSize(kind=2, index=0, expected=4, actual=0)"),

@@ -1,4 +1,4 @@
-"""Spot lights and opacity, and the records of a scene that hold them."""
+"""Spot lights and opacity, and the records of a scene that hold them and anti-aliasing."""
 
 from __future__ import annotations
 
@@ -191,6 +191,7 @@ def with_records(scene: Scene, data: bytes) -> bytes:
         scene,
         lights=[Light("point", w.vector, w.color) if w.kind == "spot" else w for w in scene.lights],
         objects=[evolve(o, opacity=1.0) for o in scene.objects],
+        antialias=False,
     )
     assert extensions(plain) == b""
     struct = encode_scene(fit(plain))[:-32] + len(data).to_bytes(32, "big") + data + bytes(-len(data) % 32)
@@ -209,10 +210,11 @@ def mixed() -> Scene:
 
 
 def test_records_are_what_the_file_says() -> None:
-    scene = mixed()
+    scene = evolve(mixed(), antialias=True)
     axis = [round(part * ONE) for part in np.asarray(scene.lights[1].direction).tolist()]
     cosines = [round(math.cos(math.radians(angle)) * ONE) for angle in (10, 25)]
     expected = record(1, 1, cone(*axis, *cosines)) + record(2, 1, HALF) + record(2, 2, (1 << 22).to_bytes(4, "big"))
+    expected += record(3, 0, b"")
     assert extensions(scene) == expected
     drawn = chain().call("Renderer", with_records(scene, expected)).output
     assert drawn == chain().call("Renderer", encode(artifact("Renderer").selectors["render"], scene)).output
@@ -226,17 +228,21 @@ def test_records_are_what_the_file_says() -> None:
         (record(1, 1, DOWN) + b"\2\0\1\0", "ExtensionCutOff(position=45)"),
         (record(2, 1, HALF) + bytes([2, 0, 2, 255, 255]), "ExtensionCutOff(position=9)"),
         (record(0, 0, b""), "UnknownExtension(kind=0, index=0)"),
-        (record(3, 7, b"what is to come"), "UnknownExtension(kind=3, index=7)"),
+        (record(200, 7, b"what is to come"), "UnknownExtension(kind=200, index=7)"),
         (record(255, 65535, b""), "UnknownExtension(kind=255, index=65535)"),
         (record(2, 1, HALF) + record(1, 1, DOWN), "ExtensionOrder(kind=1, index=1)"),
         (record(2, 1, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
         (record(2, 2, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
+        (record(3, 0, b"") + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
+        (record(3, 0, b"") + record(3, 0, b""), "ExtensionOrder(kind=3, index=0)"),
         (record(1, 1, DOWN + b"\0"), "ExtensionSize(kind=1, index=1, expected=40, actual=41)"),
         (record(2, 1, HALF[:3]), "ExtensionSize(kind=2, index=1, expected=4, actual=3)"),
         (record(2, 1, b""), "ExtensionSize(kind=2, index=1, expected=4, actual=0)"),
+        (record(3, 0, b"\1"), "ExtensionSize(kind=3, index=0, expected=0, actual=1)"),
         (record(1, 2, DOWN), "ExtensionIndex(kind=1, index=2, count=2)"),
         (record(2, 3, HALF), "ExtensionIndex(kind=2, index=3, count=3)"),
         (record(2, 65535, HALF), "ExtensionIndex(kind=2, index=65535, count=3)"),
+        (record(3, 1, b""), "ExtensionIndex(kind=3, index=1, count=1)"),
         (record(1, 0, DOWN), "SpotIsNoPoint(light=0)"),
         (record(1, 1, cone(FAR + 1, 2, -3, ONE, 0)), f"SpotOutOfRange(light=1, x={FAR + 1}, y=2, z=-3)"),
         (record(1, 1, cone(0, 0, -FAR - 1, ONE, 0)), f"SpotOutOfRange(light=1, x=0, y=0, z={-FAR - 1})"),
@@ -267,6 +273,8 @@ def test_wrong_records_are_refused(data: bytes, error: str) -> None:
         record(1, 1, cone(FAR, -FAR, FAR, ONE, -ONE)) + record(2, 0, HALF) + record(2, 1, HALF) + record(2, 2, HALF),
         record(1, 1, cone(0, 0, 1, -ONE, -ONE)),
         record(1, 1, cone(0, 0, -1, ONE, ONE)),
+        record(3, 0, b""),
+        record(1, 1, DOWN) + record(2, 2, HALF) + record(3, 0, b""),
     ],
 )
 def test_values_at_their_bounds(data: bytes) -> None:

@@ -126,6 +126,7 @@ VALUES: dict[str, Any] = {
     "max_triangles": 30,
     "background": ("navy", "white"),
     "invert": True,
+    "antialias": True,
     "rotate": (10, 20, 30),
     "eye": (1, 1, 4),
     "target": (0.5, 0, 0),
@@ -160,16 +161,16 @@ def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
     plain, other = load(thing), load(thing, **{name: VALUES[name]})
     assert plain != other
     assert load(thing, **{name: None}) == plain
-    if name != "cull":
+    if name not in ("cull", "antialias"):
         pictures = [render(each, None if name == "size" else 40) for each in (plain, other)]
         assert not np.array_equal(pictures[0].pixels, pictures[1].pixels)
 
 
 def test_a_scene_keeps_what_is_not_set() -> None:
-    scene = Scene([Object(MESH)], Camera((0, 0, 5)), [Light.point((1, 2, 3))], "navy", (9, 9, 9), True, 30, 20)
+    scene = Scene([Object(MESH)], Camera((0, 0, 5)), [Light.point((1, 2, 3))], "navy", (9, 9, 9), True, 30, 20, True)
     changed = load(scene, color="red", size=(40, 10))
     assert changed.objects[0].mesh.colors.tolist() == [[255, 0, 0]] * len(MESH.positions)
-    for name in ("camera", "lights", "background", "ambient_light", "invert"):
+    for name in ("camera", "lights", "background", "ambient_light", "invert", "antialias"):
         assert getattr(changed, name) == getattr(scene, name)
     assert (changed.width, changed.height) == (40, 10)
     placed = load(scene, azimuth=90, elevation=0)

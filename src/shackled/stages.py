@@ -60,7 +60,7 @@ def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
     given = sum(len(part.mesh.faces) for part in geometry)
     seen, on_canvas = projected_points(geometry, scene)
     points = sum(len(part.vertices) for part in geometry)
-    plain = evolve(scene, invert=False)
+    plain = evolve(scene, invert=False, antialias=False)
     gas = "" if drawing.gas is None else f", {drawing.gas:,} gas"
     return [
         Stage(

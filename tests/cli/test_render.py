@@ -358,6 +358,13 @@ def test_a_picture_is_a_scene_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert Path("tiles.png").read_bytes() == Path("a.png").read_bytes()
 
 
+def test_options_override_the_scene() -> None:
+    Path("smooth.json").write_text('{"antialias": true, "size": 8}')
+    for options, antialias in (([], True), (["--no-antialias"], False), (["--antialias"], True)):
+        assert run(["render", "smooth.json", "-o", "a.png", *options]) == 0
+        assert load("a.png").antialias is antialias
+
+
 def test_the_scene_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
     for options in (["-o", "a.png", "--no-scene"], ["-o", "a.bmp"], ["-o", "a.gif", "--no-scene"]):
         assert run(["render", "shape.obj", *options]) == 0

@@ -101,6 +101,7 @@ def test_every_field_changes_the_scene() -> None:
         cull=False,
         wireframe=True,
         invert=True,
+        antialias=True,
         size=Size(20, 10),
     )
     made = to_scene(state, scene)
@@ -123,6 +124,7 @@ def test_every_field_changes_the_scene() -> None:
     assert all(o.wireframe for o in made.objects)
     assert all(o.opacity == 0.5 for o in made.objects)
     assert made.invert
+    assert made.antialias
     assert (made.background.top, made.background.bottom) == ((0, 0, 1), (0, 0, 2))
     assert (made.width, made.height) == (20, 10)
 

@@ -91,6 +91,7 @@ def dressed(state: State, facts: Facts, look: str) -> State:
         "lights_follow": True,
         "size.width": 40,
         "size.height": 32,
+        "antialias": True,
         "surface.opacity": 0.7,
         "opacities.0": 0.4,
         **({"lights.0.kind": "spot", "lights.0.target.x": 0.2, "lights.0.outer_angle": 30} if found.lamps else {}),

@@ -15,6 +15,7 @@ from shackled import Background, Camera, InputError, Light, Material, Mesh, Obje
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
 from shackled.scene import (
+    ANTIALIAS,
     NORMAL_UNIT,
     OPACITY,
     SPOT,
@@ -62,6 +63,7 @@ def test_every_field() -> None:
         True,
         320,
         200,
+        True,
     )
     found = assert_same(scene)
     # cosines have 32 bits after the point
@@ -261,7 +263,11 @@ OPAQUE, HALF = (2**24).to_bytes(4, "big"), (2**23).to_bytes(4, "big")
         (record(SPOT, 0, spot()) + b"\2\0", "cut off at byte 45"),
         (record(SPOT, 0, spot()) * 2, "must ascend"),
         (record(OPACITY, 0, HALF) + record(SPOT, 0, spot()), "must ascend"),
-        (record(3, 0, b""), "kind 3 and 0 bytes is not known"),
+        (record(ANTIALIAS, 0, b"") + record(OPACITY, 0, HALF), "must ascend"),
+        (record(ANTIALIAS, 0, b"") * 2, "must ascend"),
+        (record(255, 0, b""), "kind 255 and 0 bytes is not known"),
+        (record(ANTIALIAS, 0, b"\1"), "kind 3 and 1 bytes is not known"),
+        (record(ANTIALIAS, 1, b""), "number 1 of 1"),
         (record(SPOT, 0, HALF), "kind 1 and 4 bytes is not known"),
         (record(SPOT, 1, spot()), "number 1 of 1"),
         (record(OPACITY, 7, HALF), "number 7 of 1"),

@@ -95,13 +95,15 @@ def test_what_may_be_chosen_is_taken() -> None:
         ambient_light=(1, 2, 3),
         wireframe=True,
         invert=True,
+        antialias=True,
         cull=False,
     )
     thing = scene.objects[0]
     assert thing.mesh.colors.tolist() == [[255, 0, 0]] * 8
     assert thing.material == Material("smooth", 0.1, 0.2)
     assert (thing.wireframe, thing.cull) == (True, False)
-    assert (scene.lights[0].kind, scene.ambient_light, scene.invert) == ("point", (1, 2, 3), True)
+    assert (scene.lights[0].kind, scene.ambient_light) == ("point", (1, 2, 3))
+    assert (scene.invert, scene.antialias) == (True, True)
 
 
 def test_only_closed_meshes_are_culled() -> None:

@@ -48,7 +48,15 @@ def scene(**changes: Any) -> Scene:
         ),
         (
             lambda: scene(),
-            {"objects": [], "camera": Camera(), "lights": [], "ambient_light": (1, 2, 3), "invert": True, "width": 7},
+            {
+                "objects": [],
+                "camera": Camera(),
+                "lights": [],
+                "ambient_light": (1, 2, 3),
+                "invert": True,
+                "antialias": True,
+                "width": 7,
+            },
         ),
         (Material, {"ambient": 0.25, "shading": "smooth"}),
         (Background, {"top": (1, 2, 3)}),
@@ -293,7 +301,7 @@ def test_objects_alone_are_staged() -> None:
 
 
 def test_scenes_are_saved(tmp_path: Any) -> None:
-    made = scene(lights=[Light.spot((1, 2, 3), (0, -1, 0))], invert=True)
+    made = scene(lights=[Light.spot((1, 2, 3), (0, -1, 0))], invert=True, antialias=True)
     made.save(tmp_path / "made.json")
     assert load(tmp_path / "made.json") == made
     with pytest.raises(InputError, match=r"made\.toml must end in \.json"):

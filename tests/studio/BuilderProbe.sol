@@ -54,7 +54,9 @@ contract BuilderProbe {
 
     function extended() external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(20, 10, 3);
+        stage.antialias();
         stage.add(hex"0000000000", StageMaker.unlit());
+        stage.fade(99);
         stage.fade(50);
         stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
         stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), 90, -50, 0x808080);
@@ -62,6 +64,7 @@ contract BuilderProbe {
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.fade(0);
         stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 100, 100, 0x010203);
+        stage.antialias();
         return stage.scene;
     }
 

@@ -122,6 +122,24 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
         world.call("Studio", "check(address)", newer)
 
 
+def test_antialiased(world: World) -> None:
+    glass = evolve(SCENE, objects=[evolve(o, opacity=0.5) for o in SCENE.objects])
+    for scene in (SCENE, glass, evolve(glass, antialias=True)):
+        picture = changed(world, stored(world, scene), fields=32)
+        assert (picture == render(evolve(scene, antialias=True)).pixels).all()
+
+
+@pytest.mark.parametrize("records", [b"\1\0\0\0\x28" + bytes(35), b"\0\0", b"\2\0\0\0\4"])
+def test_records_that_are_cut_off(world: World, records: bytes) -> None:
+    """Another record does not complete them."""
+    data = call_data("scene(address)", stored(world, SCENE))
+    struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), data))[0]
+    pointer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], records)).hex()
+    for fields in (0, 32):
+        with pytest.raises(RenderError, match=r"ExtensionCutOff\(position=0\)"):
+            changed(world, pointer, fields=fields)
+
+
 def test_the_same_has_the_same_pointer_and_is_kept_once(world: World) -> None:
     mesh = b"\0" + (7).to_bytes(2, "big") + b"\0\0" + bytes(range(63))
     first = world.store("storeMesh(bytes)", mesh)
@@ -206,7 +224,7 @@ def test_fields_that_are_not_named_do_not_count(world: World) -> None:
 @pytest.mark.parametrize(
     ("changes", "error"),
     [
-        ({"fields": 32}, "UnknownChanges.*32"),
+        ({"fields": 64}, "UnknownChanges.*64"),
         ({"fields": 1, "turn": (0, 0, 0, 0)}, "TurnOutOfRange"),
         ({"fields": 1, "turn": (2**255 - 1, 0, 0, 0)}, "TurnOutOfRange"),
         ({"fields": 2, "color": 1 << 24}, "ColorOutOfRange"),

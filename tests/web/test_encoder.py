@@ -145,6 +145,7 @@ def changed(scene: Scene, rng: np.random.Generator) -> Scene:
     ]
     return evolve(
         scene,
+        antialias=bool(rng.random() < 0.5),
         objects=objects,
         camera=evolve(
             camera,
@@ -262,6 +263,7 @@ def documents() -> Iterator[dict[str, Any]]:
             size=rng.integers(1, 2049, 2).tolist() if rng.random() < 0.5 else int(rng.integers(1, 2049)),
             background=color(rng) if rng.random() < 0.5 else some(rng, top=color(rng), bottom=color(rng)),
             invert=bool(rng.random() < 0.5),
+            antialias=bool(rng.random() < 0.5),
             ambient_light=color(rng),
             camera=camera(rng),
             lights=[light(rng) for _ in range(rng.integers(5))],

@@ -53,6 +53,7 @@ test("wrong scenes are refused, with the place", () => {
         [undefined, /the scene must be an object with objects, camera/],
         [{}, /objects must be a list, not undefined/],
         [{ ...SCENE, ambient_light: 1 }, /the scene has the unknown key "ambient_light"; known are .*ambientLight/],
+        [{ ...SCENE, antialias: 1 }, /antialias must be true or false, not 1/],
         [{ ...SCENE, width: 0 }, /width must be a whole number from 1 to 2048, not 0/],
         [{ ...SCENE, objects: [{}] }, /objects\[0\]\.mesh must be an object with positions, .* not undefined/],
         [
@@ -92,6 +93,7 @@ test("wrong scene files are refused, with the place", () => {
         ["{", /the scene is not valid JSON: /],
         ["[]", /a scene must be a table with keys of background/],
         ['{"size": [1, 2, 3]}', /size must be a number of pixels, or width and height/],
+        ['{"antialias": "yes"}', /antialias must be true or false, not "yes"/],
         ['{"objects": [{"mesh": "teapot.obj"}]}', /objects\[0\]\.mesh must be a table .* no files are read/],
         ['{"camera": {"fov": 40, "half_height": 1}}', /camera\.fov and camera\.half_height exclude each other/],
         ['{"camera": {"eye": [0, 0, 1]}}', /camera must have an eye and a target, or neither/],

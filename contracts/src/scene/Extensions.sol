@@ -15,11 +15,13 @@ import {SceneErrors} from "./SceneErrors.sol";
 //                      2 numbers of 8 bytes: the cosines of the angles from there at which the light begins to fade, and at which none
 //                      is left, Q32, -1..1
 //   OPACITY            of an object: 4 bytes, Q24, below 1
+//   ANTIALIAS          of the scene: nothing; edges are smoothed
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
+uint256 constant ANTIALIAS = 3;
 
 uint256 constant RECORD_HEADER = 5;
 uint256 constant SPOT_SIZE = 40;
@@ -49,24 +51,22 @@ library Extensions {
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (key < least) revert SceneErrors.ExtensionOrder(kind, index);
                 least = key + 1;
+                if (kind == 0 || kind > ANTIALIAS) revert SceneErrors.UnknownExtension(kind, index);
+                (uint256 expected, uint256 count) = kind == SPOT
+                    ? (SPOT_SIZE, scene.lights.length)
+                    : kind == OPACITY_OF ? (OPACITY_SIZE, scene.objects.length) : (0, 1);
+                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
                 if (kind == SPOT) {
-                    checkHead(kind, index, size, SPOT_SIZE, scene.lights.length);
                     if (scene.lights[index].kind != POINT) revert SceneErrors.SpotIsNoPoint(index);
                     checkSpot(record, index);
-                } else if (kind == OPACITY_OF) {
-                    checkHead(kind, index, size, OPACITY_SIZE, scene.objects.length);
-                    if (opacityOf(record) >= OPAQUE) revert SceneErrors.OpacityOutOfRange(index, opacityOf(record));
-                } else {
-                    revert SceneErrors.UnknownExtension(kind, index);
+                }
+                if (kind == OPACITY_OF && opacityOf(record) >= OPAQUE) {
+                    revert SceneErrors.OpacityOutOfRange(index, opacityOf(record));
                 }
                 record += RECORD_HEADER + size;
             }
         }
-    }
-
-    function checkHead(uint256 kind, uint256 index, uint256 size, uint256 expected, uint256 count) private pure {
-        if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
-        if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
     }
 
     function checkSpot(uint256 record, uint256 light) private pure {
@@ -81,21 +81,31 @@ library Extensions {
         return value >= -MAX_COORDINATE && value <= MAX_COORDINATE;
     }
 
-    /// @notice The records in memory with one more, which comes after those of its kind: its index must be greater than theirs.
+    /// @notice The records in memory with one more, which replaces one of the same kind and index.
     function added(bytes memory records, uint256 kind, uint256 index, bytes memory content) internal pure returns (bytes memory more) {
         unchecked {
             bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(content.length), content);
-            uint256 place;
-            while (place < records.length && uint8(records[place]) <= kind) {
-                place += RECORD_HEADER + ((uint256(uint8(records[place + 3])) << 8) | uint8(records[place + 4]));
+            uint256 key = kind << 16 | index;
+            // where the record belongs, and where those after it begin
+            (uint256 place, uint256 next) = (0, 0);
+            while (next < records.length) {
+                uint256 header;
+                assembly ("memory-safe") {
+                    header := shr(216, mload(add(add(records, 32), next)))
+                }
+                if (header >> 16 > key) break;
+                uint256 end = next + RECORD_HEADER + (header & 0xffff);
+                if (end > records.length) revert SceneErrors.ExtensionCutOff(next);
+                next = end;
+                if (header >> 16 < key) place = next;
             }
-            more = new bytes(records.length + record.length);
+            more = new bytes(place + record.length + records.length - next);
             assembly ("memory-safe") {
                 let target := add(more, 32)
                 mcopy(target, add(records, 32), place)
                 target := add(target, place)
                 mcopy(target, add(record, 32), mload(record))
-                mcopy(add(target, mload(record)), add(add(records, 32), place), sub(mload(records), place))
+                mcopy(add(target, mload(record)), add(add(records, 32), next), sub(mload(records), next))
             }
         }
     }

@@ -44,7 +44,7 @@ interface SceneErrors {
     /// @notice The record does not come after the one before it: kinds ascend, and the indices of a kind.
     error ExtensionOrder(uint256 kind, uint256 index);
     error ExtensionSize(uint256 kind, uint256 index, uint256 expected, uint256 actual);
-    /// @notice There are only `count` lights or objects.
+    /// @notice There are only `count` lights or objects, or the one scene.
     error ExtensionIndex(uint256 kind, uint256 index, uint256 count);
     /// @notice A light that is no point light has a cone.
     error SpotIsNoPoint(uint256 light);

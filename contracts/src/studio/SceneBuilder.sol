@@ -5,7 +5,7 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
+import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES
@@ -146,7 +146,8 @@ struct Stage {
 }
 
 using {
-    StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade
+    StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade,
+    StageMaker.antialias
 } for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
@@ -212,6 +213,11 @@ library StageMaker {
             bytes memory content = abi.encodePacked(uint32(uint256(percent(opacity).raw()) >> 8));
             made.scene.extensions = Extensions.added(made.scene.extensions, OPACITY_OF, made.scene.objects.length - 1, content);
         }
+    }
+
+    /// @notice Smooths the edges of the picture.
+    function antialias(Stage memory made) internal pure {
+        made.scene.extensions = Extensions.added(made.scene.extensions, ANTIALIAS, 0, "");
     }
 
     /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away. What is

@@ -6,6 +6,7 @@ import {Vector} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Quaternion, Matrix} from "../math/Quaternion.sol";
 import {PackedMesh} from "../mesh/PackedMesh.sol";
+import {ANTIALIAS as ANTIALIAS_RECORD, Extensions} from "../scene/Extensions.sol";
 import {WIDE} from "../scene/Mesh.sol";
 import {Scene, Object, Background, Canvas} from "../scene/Scene.sol";
 import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
@@ -16,9 +17,11 @@ uint256 constant PAINT = 2;
 uint256 constant BACKGROUND = 4;
 uint256 constant INVERT = 8;
 uint256 constant CANVAS = 16;
+uint256 constant ANTIALIAS = 32;
 
 /// @notice How a picture differs from that of the scene that is kept.
-/// @param fields Which of the following count: the sum of TURN, PAINT, BACKGROUND, INVERT, CANVAS.
+/// @param fields Which of the following count: the sum of TURN, PAINT, BACKGROUND, INVERT, CANVAS; and of ANTIALIAS, which
+/// has no field: it smooths the edges of the picture.
 /// @param turn A rotation of all objects about their middle. Its length must not be zero, and is best 1.
 /// @param color Of all vertices of all objects, 0xRRGGBB.
 /// @param background As in a scene.
@@ -40,7 +43,7 @@ library SceneChanges {
     /// @dev Meshes must be in the format of `Mesh.sol`.
     function make(Scene memory scene, Changes memory changes) internal pure {
         uint256 fields = changes.fields;
-        if (fields > 31) revert StudioErrors.UnknownChanges(fields);
+        if (fields > 63) revert StudioErrors.UnknownChanges(fields);
         if (fields & TURN != 0) {
             checkTurn(changes.turn);
             for (uint256 k; k < scene.objects.length; ++k) checkPlace(scene.objects[k], k);
@@ -53,6 +56,7 @@ library SceneChanges {
         if (fields & BACKGROUND != 0) scene.background = changes.background;
         if (fields & INVERT != 0) scene.invert = changes.invert;
         if (fields & CANVAS != 0) scene.canvas = changes.canvas;
+        if (fields & ANTIALIAS != 0) scene.extensions = Extensions.added(scene.extensions, ANTIALIAS_RECORD, 0, "");
     }
 
     /// @dev What is computed with here must be within its bounds before; the renderer checks the rest.

@@ -176,6 +176,7 @@ CONTROLS: tuple[Control, ...] = (
     _set("cull", "drawing", "Leave out back faces", help="Faster; right for closed objects."),
     _set("wireframe", "drawing", "Wireframe"),
     _set("invert", "drawing", "Invert"),
+    _set("antialias", "drawing", "Anti-aliasing"),
     _set("size.width", "size", "Width", "size", high=MAX_SIDE, reach=(16, 512), help="Width of the picture."),
     _set("size.height", "size", "Height", "size", high=MAX_SIDE, reach=(16, 512), help="Height of the picture."),
 )

@@ -18,7 +18,7 @@ from ..gas import KEPT, floor_gas, render_call
 from ..image import Image
 from ..scene import Light, Scene
 from ._link import LOCAL, is_local
-from ._scene import MATERIAL, Facts
+from ._scene import FLAGS, MATERIAL, Facts
 from ._state import State
 from ._store import Stored
 
@@ -103,8 +103,8 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
     """Return the fields that differ between two scenes, as lines of a call of `replace`."""
     lines = [
         f"    {name}={getattr(scene, name)!r},\n"
-        for name in ("width", "height", "invert")
-        if getattr(source, name) != getattr(scene, name) or (with_size and name != "invert")
+        for name in ("width", "height", *FLAGS)
+        if getattr(source, name) != getattr(scene, name) or (with_size and name not in FLAGS)
     ]
     if source.ambient_light != scene.ambient_light:
         lines.append(f"    ambient_light={_numbers(scene.ambient_light)},\n")

@@ -35,6 +35,8 @@ from ._state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, V
 MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
 #: The fields of a state that are those of every object.
 OBJECT = ("cull", "wireframe")
+#: The flags of a state that are those of the scene.
+FLAGS = ("invert", "antialias")
 
 
 @dataclass(frozen=True)
@@ -95,6 +97,7 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
         surface=Surface(**own),
         background=Backdrop(_hex(scene.background.top), _hex(scene.background.bottom)),
         invert=scene.invert,
+        antialias=scene.antialias,
         size=Size(scene.width, scene.height),
         **flags,
     )
@@ -116,7 +119,7 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
 def filled(state: State, facts: Facts) -> State:
     """Return the state with the values of the source in place of each None."""
     changes: dict[str, Any] = {}
-    for name in ("camera", "lights", "ambient_light", "background", *OBJECT, "invert", "size"):
+    for name in ("camera", "lights", "ambient_light", "background", *OBJECT, *FLAGS, "size"):
         if getattr(state, name) is None:
             changes[name] = getattr(facts.defaults, name)
     own = facts.defaults.surface
@@ -152,8 +155,7 @@ def arranged(state: State, scene: Scene, bounds: Bounds) -> Scene:
         changes["ambient_light"] = state.ambient_light
     if state.background is not None:
         changes["background"] = Background(state.background.top, state.background.bottom)
-    if state.invert is not None:
-        changes["invert"] = state.invert
+    changes |= {name: value for name in FLAGS if (value := getattr(state, name)) is not None}
     if state.size is not None:
         changes |= {"width": state.size.width, "height": state.size.height}
     return evolve(scene, **changes)

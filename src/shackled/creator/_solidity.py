@@ -185,7 +185,7 @@ def _body(scene: Scene, meshes: Sequence[bytes] | None, notices: Sequence[str]) 
         ]
     more = extensions(scene)
     if more:
-        lines += ["", "// cones of spot lights, opacities: see Extensions.sol", f's.extensions = hex"{more.hex()}";']
+        lines += ["", "// what the structs do not hold: see Extensions.sol", f's.extensions = hex"{more.hex()}";']
     return lines
 
 

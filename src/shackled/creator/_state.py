@@ -149,6 +149,7 @@ class State:
     cull: bool | None = None
     wireframe: bool | None = None
     invert: bool | None = None
+    antialias: bool | None = None
     size: Size | None = None
     max_triangles: int | None = None
 
@@ -164,7 +165,7 @@ class State:
             for i, value in enumerate(self.opacities)
         ]
         object.__setattr__(self, "opacities", tuple(opacities))
-        for name in ("lights_follow", "ambient_light", "cull", "wireframe", "invert", "max_triangles"):
+        for name in ("lights_follow", "ambient_light", "cull", "wireframe", "invert", "antialias", "max_triangles"):
             value = checked_value(getattr(self, name), control(name), name, optional=name != "lights_follow")
             object.__setattr__(self, name, value)
 

@@ -6,10 +6,10 @@ from .scene_errors import Reverted
 from .structs import POINT, Scene
 
 #: Kinds of records.
-SPOT, OPACITY = 1, 2
+SPOT, OPACITY, ANTIALIAS = 1, 2, 3
 #: Bytes of kind, index and size; and of the content, by kind.
 HEADER = 5
-SIZES = {SPOT: 40, OPACITY: 4}
+SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
 #: One, as Q24.
 OPAQUE = 1 << 24
 #: The bounds of coordinates, 2^26 units, and one, Q32.
@@ -22,6 +22,7 @@ Records = dict[tuple[int, int], bytes]
 def check_extensions(scene: Scene) -> None:
     """Check every record."""
     data = scene.extensions
+    counts = {SPOT: len(scene.lights), OPACITY: len(scene.objects), ANTIALIAS: 1}
     place, least = 0, 0
     while place != len(data):
         header, content = data[place : place + HEADER], data[place + HEADER :]
@@ -33,27 +34,21 @@ def check_extensions(scene: Scene) -> None:
         if key < least:
             raise Reverted("ExtensionOrder", kind=kind, index=index)
         least = key + 1
+        if kind not in SIZES:
+            raise Reverted("UnknownExtension", kind=kind, index=index)
+        if size != SIZES[kind]:
+            raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
+        if index >= counts[kind]:
+            raise Reverted("ExtensionIndex", kind=kind, index=index, count=counts[kind])
         if kind == SPOT:
-            check_head(kind, index, size, len(scene.lights))
             if scene.lights[index].kind != POINT:
                 raise Reverted("SpotIsNoPoint", light=index)
             check_spot(content[:size], index)
-        elif kind == OPACITY:
-            check_head(kind, index, size, len(scene.objects))
+        if kind == OPACITY:
             opacity = int.from_bytes(content[:size], "big")
             if opacity >= OPAQUE:
                 raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
-        else:
-            raise Reverted("UnknownExtension", kind=kind, index=index)
         place += HEADER + size
-
-
-def check_head(kind: int, index: int, size: int, count: int) -> None:
-    """Check the size and the index of a record. count: of the lights or objects that have records of that kind."""
-    if size != SIZES[kind]:
-        raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=size)
-    if index >= count:
-        raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
 
 
 def check_spot(content: bytes, index: int) -> None:
@@ -75,6 +70,11 @@ def read_records(data: bytes) -> Records:
         records[data[0], int.from_bytes(data[1:3], "big")] = data[HEADER : HEADER + size]
         data = data[HEADER + size :]
     return records
+
+
+def is_antialiased(records: Records) -> bool:
+    """Return whether edges are smoothed."""
+    return (ANTIALIAS, 0) in records
 
 
 def spot_numbers(content: bytes) -> tuple[int, ...]:

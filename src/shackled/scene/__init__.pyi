@@ -2,6 +2,7 @@ from ._arithmetic import cosine, sine, tangent
 from ._background import Background
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
+    ANTIALIAS,
     CULL_BACKFACES,
     LIGHTS,
     ONE,
@@ -42,6 +43,7 @@ from ._staging import BACKGROUND, is_closed, painted, signed_volume, view_axes
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
+    "ANTIALIAS",
     "BACKGROUND",
     "CHUNK",
     "CULL_BACKFACES",

@@ -29,6 +29,7 @@ SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
 #: Kinds of records in contracts/src/scene/Extensions.sol.
 SPOT = 1
 OPACITY = 2
+ANTIALIAS = 3
 #: The unit of opacities.
 OPACITY_STEP = 2.0**-24
 
@@ -101,6 +102,8 @@ def extensions(scene: Scene) -> bytes:
         opacity = round(thing.opacity / OPACITY_STEP)
         if opacity < 1 / OPACITY_STEP:
             records.append(_record(OPACITY, index, opacity.to_bytes(4, "big")))
+    if scene.antialias:
+        records.append(_record(ANTIALIAS, 0, b""))
     return b"".join(records)
 
 

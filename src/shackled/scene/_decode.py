@@ -12,6 +12,7 @@ from ..errors import InputError
 from ._background import Background
 from ._camera import Camera
 from ._codec import (
+    ANTIALIAS,
     CULL_BACKFACES,
     LIGHTS,
     ONE,
@@ -36,7 +37,7 @@ SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
 RECORD_HEADER = 5
 #: Bytes of the content of a record, by kind.
-RECORD_SIZES = {SPOT: 40, OPACITY: 4}
+RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -71,7 +72,8 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    records = _records(words.bytes("the extensions"), {SPOT: len(lights), OPACITY: len(objects)})
+    counts = {SPOT: len(lights), OPACITY: len(objects), ANTIALIAS: 1}
+    records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
     return Scene(
@@ -83,6 +85,7 @@ def decode(data: bytes) -> Scene:
         bool(invert),
         width,
         height,
+        (ANTIALIAS, 0) in records,
     )
 
 

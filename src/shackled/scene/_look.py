@@ -101,6 +101,14 @@ SETTINGS = (
     Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
     Setting("invert", "flag", "scene", "Canvas", "Replace each value v by 255 - v.", option="--invert/--no-invert"),
     Setting(
+        "antialias",
+        "flag",
+        "scene",
+        "Canvas",
+        "Smooth the edges, by four samples per pixel.",
+        option="--antialias/--no-antialias",
+    ),
+    Setting(
         "rotate",
         "rotation",
         None,
@@ -244,6 +252,7 @@ class LookOptions(TypedDict, total=False):
     max_triangles: int | None
     background: Background | AnyColor | tuple[AnyColor, AnyColor] | None
     invert: bool | None
+    antialias: bool | None
     rotate: ArrayLike | None
     eye: ArrayLike | None
     target: ArrayLike | None

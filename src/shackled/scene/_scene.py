@@ -83,6 +83,7 @@ class Scene:
     ambient_light: the colour of the light that comes from everywhere.
     invert: every byte v of the picture becomes 255 - v.
     width, height: of the picture in pixels, 1..2048.
+    antialias: whether edges are smoothed, by four samples per pixel.
     """
 
     objects: tuple[Object, ...] = field(converter=_objects)
@@ -93,6 +94,7 @@ class Scene:
     invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
     width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))
     height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
+    antialias: bool = field(default=False, converter=flag, metadata=checked("antialias of a scene"))
 
     def __attrs_post_init__(self) -> None:
         """Set the default camera, lights and background."""

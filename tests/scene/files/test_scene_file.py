@@ -14,6 +14,7 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 TOML = """
 size = [320, 200]
 invert = true
+antialias = true
 ambient_light = "#102030"
 
 [background]
@@ -79,7 +80,8 @@ def thing(**keys: Any) -> dict[str, Any]:
 def test_every_key_in_toml(folder: Path) -> None:
     (folder / "scene.toml").write_text(TOML)
     scene = load(folder / "scene.toml")
-    assert (scene.width, scene.height, scene.invert, scene.ambient_light) == (320, 200, True, (16, 32, 48))
+    assert (scene.width, scene.height, scene.ambient_light) == (320, 200, (16, 32, 48))
+    assert (scene.invert, scene.antialias) == (True, True)
     assert (scene.background.top, scene.background.bottom) == ((1, 2, 3), (255, 255, 255))
     camera = scene.camera
     assert [v.tolist() for v in (camera.eye, camera.target, camera.up)] == [
@@ -132,6 +134,7 @@ def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
         True,
         17,
         19,
+        True,
     )
     write_scene(scene, tmp_path / "scene.json")
     assert load(tmp_path / "scene.json") == scene
@@ -177,7 +180,8 @@ def test_rotation_as_quaternion(folder: Path) -> None:
     ("document", "message"),
     [
         ({"object": []},
-         "unknown key 'object'; known are size, camera, objects, background, invert, lights, ambient_light"),
+         "unknown key 'object'; known are size, camera, objects, background, invert, antialias, lights, ambient_light"),
+        ({"antialias": 4}, "antialias must be true or false, not 4"),
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
          "objects[0] must be a table with keys of mesh, position, rotation, scale, material, color, cull, "

@@ -20,7 +20,17 @@ const DEFAULT_COLOR: Rgb = [200, 200, 200];
 export const SHADINGS = ["unlit", "flat", "smooth"] as const;
 export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
 
-const SCENE = ["objects", "camera", "lights", "background", "ambientLight", "invert", "width", "height"] as const;
+const SCENE = [
+    "objects",
+    "camera",
+    "lights",
+    "background",
+    "ambientLight",
+    "invert",
+    "antialias",
+    "width",
+    "height",
+] as const;
 const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
 const BACKGROUND = ["top", "bottom"] as const;
 const LIGHTS = {
@@ -83,6 +93,7 @@ export interface Scene {
     background: { top: Rgb; bottom: Rgb };
     ambientLight: Rgb;
     invert: boolean;
+    antialias: boolean;
     width: number;
     height: number;
 }
@@ -107,6 +118,7 @@ export function checkedScene(scene: given.Scene): Scene {
         background: checkedBackground(background ?? {}),
         ambientLight: check.color(scene.ambientLight ?? WHITE, "ambientLight"),
         invert: check.flag(scene.invert ?? false, "invert"),
+        antialias: check.flag(scene.antialias ?? false, "antialias"),
         width,
         height,
     };

@@ -26,6 +26,7 @@ export const WORD = 32;
 /** Kinds of records in contracts/src/scene/Extensions.sol. */
 export const SPOT = 1;
 const OPACITY = 2;
+const ANTIALIAS = 3;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
 
@@ -108,6 +109,7 @@ function extensions(scene: CheckedScene): Uint8Array {
         content.setUint32(0, opacity);
         records.push(record(OPACITY, index, content));
     });
+    if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
     return joined(records);
 }
 

@@ -18,7 +18,7 @@ import { isOriginal, originalScene } from "./original.js";
 import { Table } from "./table.js";
 import type * as given from "./types.js";
 
-const SCENE = ["background", "invert", "lights", "ambient_light", "size", "camera", "objects"];
+const SCENE = ["background", "invert", "antialias", "lights", "ambient_light", "size", "camera", "objects"];
 const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
@@ -49,6 +49,7 @@ export function parseScene(json: string | object): given.Scene {
         background: table.has("background") ? backgroundOf(table) : STAGED_BACKGROUND,
         ambientLight: table.read("ambient_light", check.color),
         invert: table.read("invert", check.flag),
+        antialias: table.read("antialias", check.flag),
         width,
         height,
     };

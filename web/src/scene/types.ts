@@ -117,6 +117,8 @@ export interface Scene {
     ambientLight?: Color | undefined;
     /** Whether each byte v of the picture becomes 255 - v. */
     invert?: boolean | undefined;
+    /** Whether edges are smoothed, by four samples per pixel. */
+    antialias?: boolean | undefined;
     /** In pixels, 1..2048; 128 by default. */
     width?: number | undefined;
     height?: number | undefined;

@@ -70,6 +70,7 @@ KEYS: tuple[Key, ...] = (
     Key(("w", "W"), "W", "Wireframe", {"do": "cycle", "path": "wireframe"}),
     Key(("c", "C"), "C", "Leave out back faces", {"do": "cycle", "path": "cull"}),
     Key(("i", "I"), "I", "Invert", {"do": "cycle", "path": "invert"}),
+    Key(("a", "A"), "A", "Anti-aliasing", {"do": "cycle", "path": "antialias"}),
     Key(("l", "L"), "L", "Next look", {"do": "next-look"}),
     Key(("g", "G"), "G", "Random piece of Genesis", {"do": "any-genesis"}),
     Key(("Ctrl+z",), "Ctrl Z", "Undo", {"do": "undo"}),
