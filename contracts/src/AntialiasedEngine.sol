@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {ExactSamples} from "./pipeline/ExactSamples.sol";
 import {FlatShading} from "./pipeline/FlatShading.sol";
+import {LinearSamples} from "./pipeline/LinearSamples.sol";
 import {PatchSamples} from "./pipeline/PatchSamples.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import {Samples} from "./pipeline/Samples.sol";
@@ -12,13 +13,13 @@ import "./pipeline/Registers.sol";
 /// @notice The work of the Renderer: see Engine.
 contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
     function drawFragments(uint256 row, uint256 last) internal pure override {
-        if (load(MODE) & IS_PATCHED == 0 || load(PATCH_SIZE) < 2) drawSpans(row, last);
+        if (load(MODE) & IS_PATCHED == 0) LinearSamples.draw(row, last);
+        else if (load(PATCH_SIZE) < 2) drawSpans(row, last);
         else drawCells(row, last);
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        if (load(MODE) & IS_PATCHED == 0) Samples.linear(left, right, column, end, row);
-        else if (load(PATCH_SIZE) != 1) Samples.quadratic(left, right, column, end, row);
+        if (load(PATCH_SIZE) != 1) Samples.quadratic(left, right, column, end, row);
         else ExactSamples.draw(left, right, column, end, row);
     }
 

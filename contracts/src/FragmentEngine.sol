@@ -6,16 +6,21 @@ import {DepthBuffer} from "./pipeline/DepthBuffer.sol";
 import {ExactSpans} from "./pipeline/ExactSpans.sol";
 import {LinearSpans} from "./pipeline/LinearSpans.sol";
 import {Pipeline} from "./pipeline/Pipeline.sol";
+import {Shading} from "./pipeline/Shading.sol";
 import {SmoothLight} from "./pipeline/SmoothLight.sol";
-import {SmoothShading} from "./pipeline/SmoothShading.sol";
 import {BY_FRAGMENTS, Wireframe} from "./pipeline/Wireframe.sol";
 import "./pipeline/Registers.sol";
 
 /// @title FragmentEngine: from vertices to pixels, for what is lit fragment by fragment.
 /// @notice Smooth surfaces, wires, everything that is not opaque or lit by spot lights; else as `Engine`.
 contract FragmentEngine is DepthBuffer, Wireframe {
-    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
-        SmoothShading.prepare(a, b, c, crossing);
+    /// @dev Where nothing but colour changes, and that linearly, no light is needed.
+    function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
+            return Shading.setLinear(attributesA, attributesB, attributesC, IS_LINEAR | crossing);
+        }
+        Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
     }
 
     function drawParts(uint256 edges, uint256 rows, uint256 row) internal pure override {

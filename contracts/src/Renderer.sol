@@ -10,6 +10,8 @@ import {checkScene} from "./scene/Checks.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
 import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
+import {AntialiasedEngine} from "./AntialiasedEngine.sol";
+import {AntialiasedFragmentEngine} from "./AntialiasedFragmentEngine.sol";
 import {Engine} from "./Engine.sol";
 import {FragmentEngine} from "./FragmentEngine.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
@@ -23,6 +25,10 @@ contract Renderer is SceneErrors {
     Engine public immutable engine;
     /// @notice What computes the pixels of all else.
     FragmentEngine public immutable fragmentEngine;
+    /// @notice The same with four samples for each pixel.
+    AntialiasedEngine public immutable antialiasedEngine;
+    /// @notice The same with four samples for each pixel.
+    AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
@@ -40,11 +46,21 @@ contract Renderer is SceneErrors {
     /// @dev Room in memory before the pixels, for the texts that encoders allocate.
     uint256 private constant TEXTS = 0x400;
 
-    constructor(Engine engine_, FragmentEngine fragmentEngine_) {
-        if (address(engine_).code.length == 0) revert NoEngine(address(engine_));
-        if (address(fragmentEngine_).code.length == 0) revert NoEngine(address(fragmentEngine_));
-        engine = engine_;
-        fragmentEngine = fragmentEngine_;
+    constructor(
+        Engine engine_,
+        FragmentEngine fragmentEngine_,
+        AntialiasedEngine antialiasedEngine_,
+        AntialiasedFragmentEngine antialiasedFragmentEngine_
+    ) {
+        engine = Engine(withCode(address(engine_)));
+        fragmentEngine = FragmentEngine(withCode(address(fragmentEngine_)));
+        antialiasedEngine = AntialiasedEngine(withCode(address(antialiasedEngine_)));
+        antialiasedFragmentEngine = AntialiasedFragmentEngine(withCode(address(antialiasedFragmentEngine_)));
+    }
+
+    function withCode(address engine_) private view returns (address) {
+        if (engine_.code.length == 0) revert NoEngine(engine_);
+        return engine_;
     }
 
     /// @notice Draws a scene.
@@ -234,7 +250,8 @@ contract Renderer is SceneErrors {
     }
 
     function engineOf(Run memory run) private view returns (address) {
-        return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
+        if (load(FRAME_IS_ANTIALIASED) == 0) return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
+        return run.turn == BY_FACES ? address(antialiasedEngine) : address(antialiasedFragmentEngine);
     }
 
     /// @param answer Where to write the answer.

@@ -48,6 +48,9 @@ abstract contract DepthBuffer is Pipeline, PixelRasterizer {
         }
     }
 
+    /// @dev Pixels are written at once.
+    function closeBand() internal pure override {}
+
     function litPixels(uint256 bandRows) internal pure override returns (uint256) {
         unchecked {
             uint256 depth = load(DEPTHS);

@@ -13,11 +13,7 @@ library ExactSamples {
         unchecked {
             uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
             for (; column != end; ++column) {
-                uint256 covered;
-                assembly ("memory-safe") {
-                    covered := mul(shl(COLUMN_FRACTION, column), ONES_64)
-                    covered := and(and(add(left, covered), sub(right, covered)), TOPS_64)
-                }
+                uint256 covered = Samples.coverage(left, right, column);
                 if (covered != 0) fragment(attribute, covered, column, row);
                 attribute += load(DX);
             }
@@ -26,18 +22,17 @@ library ExactSamples {
 
     function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
         unchecked {
-            uint256 p = load(SAMPLE_ORIGIN) - row * load(SAMPLE_STRIDE) + (column << SAMPLE_SIZE_BITS);
-            uint256 old = load(p);
-            uint256 depths = Samples.depths(attribute);
-            uint256 seen = covered & ((depths | TOPS_64) - (old | SAMPLE_COLORS));
+            uint256 old = load(Samples.place(row, column));
+            uint256 depths = Samples.depthsOf(attribute);
+            uint256 seen = covered & (depths + BELOW_TOPS_64 - old);
             if (seen == 0) return;
             uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-            Samples.write(p, load(SAMPLE_IMAGE) + 3 * (column - row * load(TILE_WIDTH)), depths | (color * ONES_64), seen);
+            Samples.write(row, column, depths | (color * ONES_64), seen);
         }
     }
 
     /// @dev The colour in the middle of the samples that are covered: signed lanes of 85 bits, Q10.
-    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure returns (uint256) {
         unchecked {
             (uint256 x, uint256 y) = Samples.centroid(covered);
             attribute = Samples.moved(attribute, x, y);

@@ -45,6 +45,9 @@ abstract contract Pipeline is PrimitiveAssembly {
     /// @notice Makes the depths ready for the rows `top` to before `bottom` of the tile.
     function openBand(Rectangle memory tile, uint256 image, uint256 top, uint256 bottom) internal pure virtual;
 
+    /// @notice Brings what was drawn in the band to its pixels.
+    function closeBand() internal pure virtual;
+
     /// @notice How many pixels of the band are covered, which has so many rows.
     function litPixels(uint256 bandRows) internal pure virtual returns (uint256);
 
@@ -113,6 +116,7 @@ abstract contract Pipeline is PrimitiveAssembly {
                     }
                     picture.triangles += drawObject(mesh, lists[i], atOnce, recordShift(mode));
                 }
+                closeBand();
                 if (load(COUNT_PIXELS) != 0) picture.litPixels += litPixels(bottom - top);
                 bottom = top;
             }

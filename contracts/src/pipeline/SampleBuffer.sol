@@ -45,6 +45,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             store(DEPTHS, borders + BORDERS_SIZE);
             uint256 stride = (load(SAMPLE_END) - load(SAMPLE_BEGIN)) << SAMPLE_SIZE_BITS;
             store(SAMPLE_STRIDE, stride);
+            store(ROW_IMAGE_STEP, 3 * tile.width - 3 * (stride >> SAMPLE_SIZE_BITS));
             if (load(RETURNS_DEPTHS) == 0) return 3 * tile.width * tile.height;
             return borders + BORDERS_SIZE + stride * (load(SAMPLE_BOTTOM) - load(SAMPLE_TOP)) - image;
         }
@@ -59,9 +60,12 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             uint256 origin = samples + (row - 1) * stride;
             store(SAMPLE_ORIGIN, origin - (load(SAMPLE_BEGIN) << SAMPLE_SIZE_BITS));
             store(SAMPLE_IMAGE, image + 3 * ((tile.y + tile.height - 1 + PIXEL_BIAS) * tile.width - tile.x - PIXEL_BIAS));
+            store(MIXED, samples);
+            store(MIXED_END, samples);
             uint256 top = max(load(BAND_TOP), load(SAMPLE_TOP));
             if (row <= top || stride == 0) return;
-            setFreeMemory(samples + (row - top) * stride);
+            store(MIXED, samples + (row - top) * stride);
+            store(MIXED_END, load(MIXED));
             clear(tile, samples, row, (row - top) * stride);
             uint256 before = load(DRAWN_BEFORE);
             if (before != 0) copySamples(before + samples - BORDERS_SIZE - image, origin);
@@ -169,6 +173,25 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     function loadCalldata(uint256 position) private pure returns (uint256 value) {
         assembly ("memory-safe") {
             value := calldataload(position)
+        }
+    }
+
+    /// @dev Writes the means of the pixels whose samples differ.
+    function closeBand() internal pure override {
+        assembly ("memory-safe") {
+            let end := mload(MIXED_END)
+            for { let entry := mload(MIXED) } lt(entry, end) { entry := add(entry, MIXED_SIZE) } {
+                let p := mload(entry)
+                let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
+                p := shr(MIXED_AT, p)
+                let samples := mload(p)
+                mstore(p, and(samples, not(IS_LISTED)))
+                samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
+                samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
+                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
+                mstore(0, shl(PIXEL_AT, samples))
+                mcopy(pixel, 0, 3)
+            }
         }
     }
 

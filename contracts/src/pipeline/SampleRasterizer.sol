@@ -60,6 +60,16 @@ abstract contract SampleRasterizer is Rasterizer {
             xc := sdiv(shl(GRADIENT_SHIFT, xc), a)
             let toB := mload(DELTA_1)
             let toC := mload(DELTA_2)
+            if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
+                // Colours are taken up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by 16 at
+                // most: triangles that are thinner have the colour of their first vertex.
+                let steep := or(gt(add(b, LEAST_WIDTH), TWICE_LEAST_WIDTH), gt(add(xb, LEAST_WIDTH), TWICE_LEAST_WIDTH))
+                steep := or(steep, gt(add(c, LEAST_WIDTH), TWICE_LEAST_WIDTH))
+                if or(steep, gt(add(xc, LEAST_WIDTH), TWICE_LEAST_WIDTH)) {
+                    toB := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toB, HALF_DEPTH)))
+                    toC := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toC, HALF_DEPTH)))
+                }
+            }
             let start := sub(mload(ATTRIBUTE_0), mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
             start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
             let dx := sub(mul(toC, b), mul(toB, c))
@@ -119,6 +129,7 @@ abstract contract SampleRasterizer is Rasterizer {
             case 1 {
                 row := shr(SUBPIXEL_BITS, add(yb, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE)))
                 other, a := edge(b, c, row)
+                b := shr(SCREEN_COLUMN_AT, b)
                 mstore(KINK_SIDE, SIDE_LEFT)
                 mstore(KINK_EDGE, sub(TOPS_64, other))
                 mstore(KINK_STEP, sub(0, a))
@@ -127,12 +138,23 @@ abstract contract SampleRasterizer is Rasterizer {
                 row := shr(SUBPIXEL_BITS, add(yc, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE)))
                 other, a := edge(c, b, row)
                 if eq(yb, yc) { other := sub(0, NEVER_LEFT) }
+                b := shr(SCREEN_COLUMN_AT, c)
                 mstore(KINK_SIDE, SIDE_RIGHT)
                 mstore(KINK_EDGE, add(BELOW_TOPS_64, other))
                 mstore(KINK_STEP, a)
                 yb := yc
             }
+            if slt(row, mload(SIDE_ROW)) {
+                // only the lower edge is in the band
+                row := mul(sub(mload(SIDE_ROW), row), mload(KINK_STEP))
+                mstore(mload(KINK_SIDE), add(mload(KINK_EDGE), row))
+                mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
+                row := GUARD_BAND
+            }
             mstore(KINK_ROW, row)
+            b := and(b, SCREEN_COLUMN_MASK)
+            mstore(KINK_BEGIN, shr(SUBPIXEL_BITS, add(b, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE))))
+            mstore(KINK_END, add(shr(SUBPIXEL_BITS, add(b, OUTERMOST_SAMPLE)), 1))
             // samples above the vertex are still on the upper edge
             yb := sub(yb, shl(SUBPIXEL_BITS, row))
             yb := add(add(sgt(yb, sub(0, OUTERMOST_SAMPLE)), sgt(yb, sub(0, INNERMOST_SAMPLE))), sgt(yb, INNERMOST_SAMPLE))
@@ -142,18 +164,30 @@ abstract contract SampleRasterizer is Rasterizer {
 
     /// @dev The columns that the triangle may touch, and what the ways to shade it need besides.
     function setReach(uint256 a, uint256 b, uint256 c) private pure {
+        assembly ("memory-safe") {
+            let x := and(a, SCREEN_COLUMNS)
+            let end := x
+            let other := and(b, SCREEN_COLUMNS)
+            if lt(other, x) { x := other }
+            if gt(other, end) { end := other }
+            other := and(c, SCREEN_COLUMNS)
+            if lt(other, x) { x := other }
+            if gt(other, end) { end := other }
+            x := shr(SCREEN_PIXEL_COLUMN_AT, add(x, FROM_FIRST_SAMPLE))
+            end := add(shr(SCREEN_PIXEL_COLUMN_AT, add(end, TO_LAST_SAMPLE)), 1)
+            if lt(x, mload(COLUMN_BEGIN)) { x := mload(COLUMN_BEGIN) }
+            if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
+            mstore(SPAN_BEGIN, x)
+            mstore(SPAN_END, end)
+            mstore(SPAN_BEGIN_BYTES, shl(SAMPLE_SIZE_BITS, x))
+            mstore(SPAN_END_BYTES, shl(SAMPLE_SIZE_BITS, end))
+        }
         unchecked {
-            (uint256 xa, uint256 xb, uint256 xc) = (column(a), column(b), column(c));
-            uint256 first = (min(xa, min(xb, xc)) + (SUBPIXEL_MASK - OUTERMOST_SAMPLE)) >> SUBPIXEL_BITS;
-            uint256 end = ((max(xa, max(xb, xc)) + OUTERMOST_SAMPLE) >> SUBPIXEL_BITS) + 1;
-            store(SPAN_BEGIN, max(first, load(COLUMN_BEGIN)));
-            store(SPAN_END, min(end, load(COLUMN_END)));
-            if (load(MODE) & IS_PATCHED != 0) {
-                xa = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
-                xb = load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
-                xc = load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
-                store(FARTHEST, min(xa, min(xb, xc)) >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
-            }
+            if (load(MODE) & (IS_PATCHED | IS_QUADRATIC) == 0) return;
+            uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
+            farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            store(FARTHEST, farthest >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
             store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
         }
     }
@@ -167,7 +201,7 @@ abstract contract SampleRasterizer is Rasterizer {
                 uint256 next = row < kink ? min(kink, last) : row == kink ? row + 1 : last;
                 (uint256 left, uint256 right, uint256 leftStep, uint256 rightStep) = sidesAt(row);
                 for (; row != next; ++row) {
-                    (uint256 first, uint256 end) = columnsBetween(left, right);
+                    (uint256 first, uint256 end) = columnsBetween(left, right, row);
                     if (first < end) drawSpan(left, right, first, end, row);
                     left += leftStep;
                     right += rightStep;
@@ -197,17 +231,20 @@ abstract contract SampleRasterizer is Rasterizer {
     }
 
     /// @dev The first column of a row that may have a fragment, and the one after the last; none if they are not in this order.
-    function columnsBetween(uint256 left, uint256 right) private pure returns (uint256 first, uint256 end) {
+    function columnsBetween(uint256 left, uint256 right, uint256 row) private pure returns (uint256 first, uint256 end) {
         assembly ("memory-safe") {
+            let isKink := eq(row, mload(KINK_ROW))
             end := shr(UPPER_LANE_64_AT, left)
             first := and(left, LANE_64)
             if gt(end, first) { first := end }
             first := sar(COLUMN_FRACTION, sub(TO_FIRST_COLUMN, first))
+            if and(isKink, slt(mload(KINK_BEGIN), first)) { first := mload(KINK_BEGIN) }
             if slt(first, mload(SPAN_BEGIN)) { first := mload(SPAN_BEGIN) }
             end := shr(UPPER_LANE_64_AT, right)
             let lowest := and(right, LANE_64)
             if gt(lowest, end) { end := lowest }
             end := sar(COLUMN_FRACTION, sub(end, TO_LAST_COLUMN))
+            if and(isKink, sgt(mload(KINK_END), end)) { end := mload(KINK_END) }
             if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
             end := mul(end, sgt(end, 0))
         }
@@ -218,7 +255,7 @@ abstract contract SampleRasterizer is Rasterizer {
         unchecked {
             uint256 kink = load(KINK_ROW);
             (uint256 left, uint256 right,,) = sidesAt(row);
-            (first, end) = columnsBetween(left, right);
+            (first, end) = columnsBetween(left, right, row);
             // sides are straight but for the kink
             if (kink > row && kink < last) (first, end) = widened(first, end, kink);
             return widened(first, end, last - 1);
@@ -227,12 +264,8 @@ abstract contract SampleRasterizer is Rasterizer {
 
     function widened(uint256 first, uint256 end, uint256 row) private pure returns (uint256, uint256) {
         (uint256 left, uint256 right,,) = sidesAt(row);
-        (uint256 begin, uint256 last) = columnsBetween(left, right);
+        (uint256 begin, uint256 last) = columnsBetween(left, right, row);
         return (min(first, begin), max(end, last));
-    }
-
-    function column(uint256 screenWord) private pure returns (uint256) {
-        return (screenWord >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK;
     }
 
     function min(uint256 a, uint256 b) internal pure returns (uint256) {

@@ -2,72 +2,22 @@
 pragma solidity 0.8.37;
 
 import {BEYOND_BYTE_85, BEYOND_CARRY, BEYOND_SIGN, BLUE_Q10_AT, GREEN_Q10_AT, HALF_85, HALF_85_Q10, ONES_85, RED_Q10_AT} from "./ExactSpans.sol";
-import {BYTES_OF_LANES, LANES_TO_BYTES, ABOVE_BYTES, NEXT_LANES, NEXT_LANE_TO_BYTE} from "./LinearSpans.sol";
 import "./Registers.sol";
 
-// Fragments of four samples: see SampleRasterizer. A fragment is shaded at the middle of the samples that its triangle covers, so that
-// nothing is computed outside the triangle; quadratic colours, which may leave it by a pixel, in the centre of the pixel.
+// Fragments of four samples: see SampleRasterizer. In each lane of a pixel stand a depth and a colour; what is nearer replaces both. Where
+// all four have one colour it is written to the picture at once. Other pixels are put on a list, and their mean is written in the end.
 //
-// In each lane of a pixel stand a depth and a colour. What is nearer replaces both; the pixel of the picture is the mean of the four
-// colours, and is written with them.
+// Linear and quadratic colours are those of the centre of the pixel, as in OpenGL, even if the triangle covers only samples beside it.
+// What is computed for each fragment, and would be unbounded outside the triangle, is taken in the middle of the samples that it covers
+// (`centroid` in OpenGL).
 
 library Samples {
-    /// @notice Fragments of which the accumulator holds the colour.
-    function linear(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
-        assembly ("memory-safe") {
-            let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))
-            let pixel := add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH)))))
-            let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
-            end := add(p, shl(SAMPLE_SIZE_BITS, end))
-            p := add(p, shl(SAMPLE_SIZE_BITS, column))
-            column := mul(shl(COLUMN_FRACTION, column), ONES_64)
-            for {} 1 {} {
-                let z := and(add(mul(shr(ACCUMULATOR_DEPTH_AT, attribute), ONES_64), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
-                let old := mload(p)
-                let covered := and(add(left, column), sub(right, column))
-                let seen := and(and(covered, sub(or(z, TOPS_64), or(old, SAMPLE_COLORS))), TOPS_64)
-                if seen {
-                    let color := attribute
-                    covered := and(covered, TOPS_64)
-                    if xor(covered, TOPS_64) {
-                        covered := and(shr(SET_AT, mul(shr(63, covered), COVERED_TO_SET)), SET_MASK)
-                        color := add(color, mul(signextend(0, shr(add(8, covered), CENTROIDS)), mload(DX_8)))
-                        color := add(color, mul(signextend(0, shr(covered, CENTROIDS)), mload(DY_8)))
-                    }
-                    if and(color, ABOVE_BYTES) {
-                        // as in LinearSpans
-                        covered := and(add(and(color, ABOVE_BYTES), ABOVE_BYTES), NEXT_LANES)
-                        color := or(color, shr(NEXT_LANE_TO_BYTE, mul(covered, 0xff)))
-                    }
-                    color := shr(PIXEL_AT, mul(and(color, BYTES_OF_LANES), LANES_TO_BYTES))
-                    z := or(z, mul(color, ONES_64))
-                    if xor(seen, TOPS_64) {
-                        z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-                        color := add(
-                            shr(UPPER_LANE_64_AT, mul(or(and(z, RED_BLUE_64), shl(GREEN_OF_SUM, and(z, GREEN_64))), ONES_64)),
-                            ROUND_SUM
-                        )
-                        color := or(and(shr(2, color), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, color), GREEN))
-                    }
-                    mstore(p, z)
-                    mstore(0, shl(PIXEL_AT, color))
-                    mcopy(pixel, 0, 3)
-                }
-                p := add(p, 32)
-                if eq(p, end) { break }
-                pixel := add(pixel, 3)
-                column := add(column, COLUMN_64)
-                attribute := add(attribute, mload(DX))
-            }
-        }
-    }
-
     /// @notice Fragments whose colours are a quadratic function of the place: see Patches.
     function quadratic(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         assembly ("memory-safe") {
             let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))
-            let pixel := add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH)))))
             let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
             end := add(p, shl(SAMPLE_SIZE_BITS, end))
             p := add(p, shl(SAMPLE_SIZE_BITS, column))
             row := sub(row, mload(QUADRATIC_ROW))
@@ -81,8 +31,7 @@ library Samples {
             for {} 1 {} {
                 let z := and(add(mul(shr(ACCUMULATOR_DEPTH_AT, attribute), ONES_64), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                 let old := mload(p)
-                let seen := and(and(add(left, column), sub(right, column)), sub(or(z, TOPS_64), or(old, SAMPLE_COLORS)))
-                seen := and(seen, TOPS_64)
+                let seen := and(and(add(left, column), sub(right, column)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                 if seen {
                     row := f
                     if mload(PATCH_WEIGHT) {
@@ -107,21 +56,24 @@ library Samples {
                     )
                     color := shr(PIXEL_AT, color)
                     z := or(z, mul(color, ONES_64))
-                    if xor(seen, TOPS_64) {
+                    switch eq(seen, TOPS_64)
+                    case 1 {
+                        mstore(0, shl(PIXEL_AT, color))
+                        mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
+                    }
+                    default {
                         z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-                        color := add(
-                            shr(UPPER_LANE_64_AT, mul(or(and(z, RED_BLUE_64), shl(GREEN_OF_SUM, and(z, GREEN_64))), ONES_64)),
-                            ROUND_SUM
-                        )
-                        color := or(and(shr(2, color), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, color), GREEN))
+                        if iszero(and(z, IS_LISTED)) {
+                            z := or(z, IS_LISTED)
+                            seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
+                            mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
+                            mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
+                        }
                     }
                     mstore(p, z)
-                    mstore(0, shl(PIXEL_AT, color))
-                    mcopy(pixel, 0, 3)
                 }
                 p := add(p, 32)
                 if eq(p, end) { break }
-                pixel := add(pixel, 3)
                 column := add(column, COLUMN_64)
                 attribute := add(attribute, mload(DX))
                 f := add(f, g)
@@ -130,12 +82,20 @@ library Samples {
         }
     }
 
-    /// @dev The middle of the samples that are covered, from the centre of their pixel, in eighths of it.
-    function centroid(uint256 covered) internal pure returns (uint256 x, uint256 y) {
+    /// @dev The highest bit of each sample of a pixel that lies between two sides.
+    function coverage(uint256 left, uint256 right, uint256 column) internal pure returns (uint256 lanes) {
         assembly ("memory-safe") {
-            covered := and(shr(SET_AT, mul(shr(63, and(covered, TOPS_64)), COVERED_TO_SET)), SET_MASK)
-            x := signextend(0, shr(add(8, covered), CENTROIDS))
-            y := signextend(0, shr(covered, CENTROIDS))
+            lanes := mul(shl(COLUMN_FRACTION, column), ONES_64)
+            lanes := and(and(add(left, lanes), sub(right, lanes)), TOPS_64)
+        }
+    }
+
+    /// @dev The middle of the samples that are covered, from the centre of their pixel, in eighths of it.
+    function centroid(uint256 lanes) internal pure returns (uint256 x, uint256 y) {
+        assembly ("memory-safe") {
+            lanes := and(shr(SET_AT, mul(shr(63, lanes), COVERED_TO_SET)), SET_MASK)
+            x := signextend(0, shr(add(8, lanes), CENTROIDS))
+            y := signextend(0, shr(lanes, CENTROIDS))
         }
     }
 
@@ -151,7 +111,7 @@ library Samples {
     }
 
     /// @dev The depths of the four samples.
-    function depths(uint256 attribute) internal pure returns (uint256 z) {
+    function depthsOf(uint256 attribute) internal pure returns (uint256 z) {
         assembly ("memory-safe") {
             z := and(add(mul(shr(ACCUMULATOR_DEPTH_AT, attribute), ONES_64), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
         }
@@ -173,17 +133,27 @@ library Samples {
         }
     }
 
-    /// @dev Writes the samples of a pixel, and their mean.
-    /// @param seen The highest bit of each lane that changes to what it is in `changed`.
-    function write(uint256 p, uint256 pixel, uint256 changed, uint256 seen) internal pure {
+    /// @dev Writes the samples of a pixel.
+    /// @param z What those change to of which the highest bit is in `seen`.
+    function write(uint256 row, uint256 column, uint256 z, uint256 seen) internal pure {
         assembly ("memory-safe") {
-            let z := mload(p)
-            z := xor(z, and(xor(z, changed), sub(shl(1, seen), shr(63, seen))))
+            let p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))
+            let old := mload(p)
+            z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
+            if iszero(and(z, IS_LISTED)) {
+                z := or(z, IS_LISTED)
+                let pixel := add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH)))))
+                mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel)))
+                mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
+            }
             mstore(p, z)
-            z := add(shr(UPPER_LANE_64_AT, mul(or(and(z, RED_BLUE_64), shl(GREEN_OF_SUM, and(z, GREEN_64))), ONES_64)), ROUND_SUM)
-            z := or(and(shr(2, z), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, z), GREEN))
-            mstore(0, shl(PIXEL_AT, z))
-            mcopy(pixel, 0, 3)
+        }
+    }
+
+    /// @dev Where a pixel has its samples.
+    function place(uint256 row, uint256 column) internal pure returns (uint256 p) {
+        assembly ("memory-safe") {
+            p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))
         }
     }
 }

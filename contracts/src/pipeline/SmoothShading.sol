@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Quadratic} from "./Quadratic.sol";
+import {Rasterizer} from "./Rasterizer.sol";
 import {Shading} from "./Shading.sol";
 import {SmoothLight, UNBOUNDED_LIGHT, STEEP_LIGHT} from "./SmoothLight.sol";
 import "./Registers.sol";
@@ -11,9 +12,8 @@ import "./Registers.sol";
 /// @dev Keeps colours (Q42) from being rounded below zero: 1/32 of a level.
 uint256 constant SMOOTH_BIAS = 0x100000000000020000000000000200000000000002000000000;
 
-library SmoothShading {
-    /// @notice Chooses the way to shade a smooth triangle, and sets what that way needs: see Rasterizer.shade.
-    function prepare(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
+abstract contract SmoothShading is Rasterizer {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
         unchecked {
             uint256 mode = load(OBJECT_MODE);
             uint256 kind = UNBOUNDED_LIGHT;
@@ -22,7 +22,7 @@ library SmoothShading {
                 // nothing is tried in triangles that are too large
                 if (size < 8 * load(SMOOTH_REACH)) kind = SmoothLight.setLight(a, b, c, size);
             }
-            if (kind == UNBOUNDED_LIGHT) return prepareExact(a, b, c, crossing);
+            if (kind == UNBOUNDED_LIGHT) return shadeExact(a, b, c, crossing);
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
             uint256 top = (a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT;
             if (top < load(BAND_TOP)) top = load(BAND_TOP);
@@ -42,21 +42,23 @@ library SmoothShading {
         }
     }
 
-    /// @notice Every fragment is lit for itself, but where nothing but colour changes, and that linearly.
-    function prepareExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure {
-        unchecked {
-            (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
-            uint256 mode = load(OBJECT_MODE) & ~IS_QUADRATIC;
-            if (mode & IS_SMOOTH != 0) {
-                Shading.setNormals(a, b, c);
-            } else {
-                if (mode & IS_FLAT != 0)
-                    (mode, attributesA, attributesB, attributesC) = Shading.setFace(attributesA, attributesB, attributesC);
-                if (mode & (IS_LIT | IS_BLENDED | IS_DEPTH_PASS) == 0 && Shading.isAffine(attributesA, attributesB, attributesC, a, b, c)) {
-                    return Shading.setLinear(attributesA, attributesB, attributesC, IS_LINEAR | crossing);
-                }
-            }
-            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+    /// @notice The same where every fragment is lit for itself.
+    function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual {
+        (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode) = surface(a, b, c);
+        Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+    }
+
+    /// @dev The attribute words of a triangle and its mode; its normal or its normals are set.
+    function surface(uint256 a, uint256 b, uint256 c)
+        internal
+        pure
+        returns (uint256 attributesA, uint256 attributesB, uint256 attributesC, uint256 mode)
+    {
+        (attributesA, attributesB, attributesC) = Shading.attributesOf(a, b, c);
+        mode = load(OBJECT_MODE) & ~IS_QUADRATIC;
+        if (mode & IS_SMOOTH != 0) Shading.setNormals(a, b, c);
+        else if (mode & IS_FLAT != 0) {
+            (mode, attributesA, attributesB, attributesC) = Shading.setFace(attributesA, attributesB, attributesC);
         }
     }
 

@@ -14,7 +14,7 @@ uint256 constant BY_FRAGMENTS = IS_BLENDED | IS_DEPTH_PASS | IS_PATCHED;
 /// @dev 1 / 2^8 of the length of a line in sub-pixels is an accumulator's change for each pixel: Q32 of attributes, Q8 of sub-pixels.
 int256 constant STEP_ONE = 1 << 40;
 
-abstract contract Wireframe is PixelRasterizer {
+abstract contract Wireframe is PixelRasterizer, SmoothShading {
     /// @notice Draws the rows from `row` to before `last`, if the mode is BY_FRAGMENTS: see Rasterizer.drawRows, where they are addresses.
     function drawFragments(uint256 edges, uint256 slopes, uint256 start, uint256 row, uint256 last) internal pure virtual;
 
@@ -32,7 +32,7 @@ abstract contract Wireframe is PixelRasterizer {
                 uint256 b = load((word >> TRIANGLE_B_AT) & TRIANGLE_B_MASK);
                 uint256 c = load(word & TRIANGLE_C_MASK);
                 store(FACE, load(MESH_FACES) + FACE_SIZE * ((word >> TRIANGLE_FACE_AT) & TRIANGLE_FACE_MASK));
-                SmoothShading.prepareExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
+                shadeExact(a, b, c, (word >> TRIANGLE_CROSSING_SHIFT) & IS_CROSSING);
                 (uint256 start, uint256 toB, uint256 toC) = (load(ATTRIBUTE_0), load(DELTA_1), load(DELTA_2));
                 if (load(MODE) & IS_DEEP != 0) {
                     uint256 depth = depthOf(a);

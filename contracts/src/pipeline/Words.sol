@@ -174,12 +174,28 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
 uint256 constant LANE_64 = 0xffffffffffffffff;
+/// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
+uint256 constant IS_LISTED = 0x4000000;
+/// @dev Where an entry of that list has the address of the samples; that of the colour, and its bits; the bytes of an entry.
+uint256 constant MIXED_AT = 224;
+uint256 constant MIXED_PIXEL_AT = 192;
+uint256 constant MIXED_PIXEL_MASK = 0xffffffff;
+uint256 constant MIXED_SIZE = 8;
 uint256 constant UPPER_LANE_64_AT = 192;
 /// @dev The samples of a pixel have 2^5 bytes.
 uint256 constant SAMPLE_SIZE_BITS = 5;
 /// @dev Bits of a column behind the point.
 uint256 constant COLUMN_FRACTION = 42;
 uint256 constant SUBPIXEL_TO_COLUMN = 34;
+/// @dev The same of an address of samples; addresses of whole pixels.
+uint256 constant ADDRESS_FRACTION = 37;
+uint256 constant WHOLE_SAMPLES = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffe0;
+/// @dev The column of a screen word in whole pixels; what is added to get the first column with a sample, and the last.
+uint256 constant SCREEN_PIXEL_COLUMN_AT = 72;
+uint256 constant FROM_FIRST_SAMPLE = 0x9f0000000000000000;
+uint256 constant TO_LAST_SAMPLE = 0x600000000000000000;
+/// @dev Where the uppermost lane has the whole column.
+uint256 constant COLUMN_OF_LANE_AT = 234;
 /// @dev Less the larger of a side's outer lanes: the first column that it may leave in, Q42. Those between are up to half a column farther.
 uint256 constant TO_FIRST_COLUMN = 0x800001ffffffffff;
 /// @dev The same for the right side: less this, its larger outer lane is the column after the last.
@@ -191,6 +207,10 @@ uint256 constant OUTERMOST_SAMPLE = 96;
 uint256 constant INNERMOST_SAMPLE = 32;
 /// @dev A lane has 2^6 bits.
 uint256 constant SAMPLE_LANE_BITS = 6;
+/// @dev 16 as a gradient, Q29 per pixel, and twice that; half a depth in an attribute word.
+uint256 constant LEAST_WIDTH = 0x200000000;
+uint256 constant TWICE_LEAST_WIDTH = 0x400000000;
+uint256 constant HALF_DEPTH = 0x800000000000000000000000000000000000000000;
 /// @dev An eighth of a depth in an accumulator.
 uint256 constant DEPTH_8_AT = 195;
 /// @dev Brings bits 0, 64, 128, 192 together as the number of a set, times 16; the bits of it.
@@ -443,26 +463,30 @@ uint256 constant CARRY_24 = 0x7e00007e00007e00007e00007e00007e00007e00007e0000;
 uint256 constant BYTES_24 = 0x1fe0001fe0001fe0001fe0001fe0001fe0001fe0001fe00;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
-// Four samples of a pixel in a word: in each lane the colour of what is nearest there, blue uppermost, and above it the highest 39 bits of
-// its depth; 0 where nothing is. The bit above stays free. They lie where Direct3D and most drivers of OpenGL have them.
+// Four samples of a pixel in a word: in each lane the colour of what is nearest there, blue uppermost, three bits that tell what happened
+// to it, and above them the highest 36 bits of its depth; 0 where nothing is. The bit above stays free. They lie where Direct3D and most
+// drivers of OpenGL have them.
 
 uint256 constant ONES_64 = 0x1000000000000000100000000000000010000000000000001;
-/// @dev The colours, the depths.
+/// @dev The depths.
+uint256 constant SAMPLE_DEPTHS = 0x7ffffffff80000007ffffffff80000007ffffffff80000007ffffffff8000000;
+/// @dev Below the depth, of objects that are not opaque: found by the first pass, drawn by the second, and all that tells them apart: see
+/// BlendedSamples.
+uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
+uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
+uint256 constant PASSES_OF_SAMPLES = 0x7ffffffffb0000007ffffffffb0000007ffffffffb0000007ffffffffb000000;
+/// @dev What is below the depths; the colours.
+uint256 constant BELOW_SAMPLE_DEPTHS = 0x7ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
 uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000000ffffff;
-uint256 constant SAMPLE_DEPTHS = 0x7fffffffff0000007fffffffff0000007fffffffff0000007fffffffff000000;
 /// @dev Where they are from the centre of the pixel, in eighths of it: columns, and rows.
 uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
 uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
 /// @dev The columns as Q42, and 2^-29, which makes samples that lie exactly on an edge come out as being to the right of it. Edges are off
 /// by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from it at least.
 uint256 constant SAMPLE_COLUMNS = 0x8000001ffffffffe80000020000000018000001fffffffff8000002000;
-/// @dev A column, Q42.
+/// @dev A column, Q42; a byte of samples, of which a column has 32.
 uint256 constant COLUMN_64 = 0x40000000000000004000000000000000400000000000000040000000000;
-/// @dev Depths without the two bits in which objects that are not opaque note their passes: see BlendedSamples; and these.
-uint256 constant TOUCHED_DEPTHS = 0x7ffffffffc0000007ffffffffc0000007ffffffffc0000007ffffffffc000000;
-uint256 constant FOUND_SAMPLES = 0x1000000000000000100000000000000010000000000000001000000;
-uint256 constant DRAWN_SAMPLES = 0x2000000000000000200000000000000020000000000000002000000;
-uint256 constant BELOW_TOUCHED = 0x3ffffff0000000003ffffff0000000003ffffff0000000003ffffff;
+uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
 /// @dev Red and blue, green.
 uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;
 uint256 constant GREEN_64 = 0xff00000000000000ff00000000000000ff00000000000000ff00;

@@ -122,6 +122,18 @@ library Extensions {
         }
     }
 
+    /// @notice Whether there is a record of this kind for the scene.
+    function has(Scene calldata scene, uint256 kind) internal pure returns (bool) {
+        unchecked {
+            (uint256 record, uint256 end) = bounds(scene);
+            while (record != end) {
+                if (keyOf(record) == kind << 16) return true;
+                record += RECORD_HEADER + ((word(record) >> 216) & 0xffff);
+            }
+            return false;
+        }
+    }
+
     /// @notice Whether the record that comes next is that of this kind and index. What follows the last record is none.
     function isOf(uint256 record, uint256 end, uint256 kind, uint256 index) internal pure returns (bool) {
         return record != end && keyOf(record) == (kind << 16 | index);

@@ -44,16 +44,24 @@ library Transform {
         }
     }
 
-    /// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it.
+    /// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it; with four
+    /// samples the outermost of them, and for a line, which is a pixel wide, those half a pixel farther.
     function setRounding(Rectangle memory tile, bool wireframe) internal pure {
         unchecked {
             uint256 wider = wireframe ? 0 : 127;
+            uint256 down = HALF_PIXEL + wider;
+            uint256 up = wireframe ? HALF_PIXEL + 256 : SUBPIXEL_MASK;
+            if (load(FRAME_IS_ANTIALIASED) != 0) {
+                wider = 127;
+                down = SUBPIXEL_MASK - OUTERMOST_SAMPLE - (wireframe ? HALF_PIXEL : 0);
+                up = 2 * SUBPIXEL_MASK - down;
+            }
             store(TILE_LEFT, ((tile.x + PIXEL_BIAS) << SUBPIXEL_BITS) - HALF_PIXEL - wider);
             store(TILE_SPAN, (tile.width << SUBPIXEL_BITS) - 1 + 2 * wider + (wider & 2));
             store(TILE_TOP, ((tile.y + PIXEL_BIAS) << SUBPIXEL_BITS) - HALF_PIXEL - wider);
             store(TILE_ROWS, (tile.height << SUBPIXEL_BITS) - 1 + 2 * wider + (wider & 2));
-            store(ROUND_TOP, (HALF_PIXEL + wider) << SCREEN_ROW_AT);
-            store(ROUND_BOTTOM, (wireframe ? HALF_PIXEL + 256 : SUBPIXEL_MASK) << SCREEN_ROW_AT);
+            store(ROUND_TOP, down << SCREEN_ROW_AT);
+            store(ROUND_BOTTOM, up << SCREEN_ROW_AT);
         }
     }
 }

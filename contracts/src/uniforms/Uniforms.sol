@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
+import {ANTIALIAS, Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
@@ -83,6 +83,7 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
+            store(FRAME_IS_ANTIALIASED, Extensions.has(scene, ANTIALIAS) ? 1 : 0);
             setBackground(scene, tile);
             store(INVERT, scene.invert);
             extension = Lights.set(view_, scene);

@@ -11,7 +11,15 @@ from ..errors import ChainError, InputError
 from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 
 #: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
-STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")
+STANDARD = (
+    "Engine",
+    "FragmentEngine",
+    "AntialiasedEngine",
+    "AntialiasedFragmentEngine",
+    "Renderer",
+    "Original",
+    "Genesis",
+)
 #: All contracts that `shackled deploy` can deploy.
 CONTRACTS = (*STANDARD, "PngEncoder", "Studio", "GenesisMetadata")
 

@@ -38,21 +38,23 @@ def modulated(color: int, factor: int) -> int:
     return product | ((factor >> 112) * (color >> 112)) >> 16 << 112
 
 
-def shade_quadratic(attribute: int, light: int, registers: Registers) -> int:
-    """Return the colour of a fragment, lanes of Q10, from the accumulator and the products, Q68."""
+def shade_quadratic(attribute: int, light: int, registers: Registers, extra: int = 0) -> int:
+    """Return the colour of a fragment, lanes of Q10, from the accumulator and the products, Q68 with `extra` bits
+    more.
+    """
     r = registers
     light &= MASK
     # N * N, Q68, and twice its root, Q34, by a line that is within 3 % of it and one step of Newton's method
-    square = light >> 170
+    square = light >> (170 + extra)
     length = ((702 * square) >> 44) + 5892665057
     length += divide(square, length)
     factor = r.face_light_40
     highlight = 0
-    diffuse = signed(light << 86) >> 180
+    diffuse = signed(light << 86) >> (180 + extra)
     if diffuse > 0:
         factor += r.lights[0].diffuse * divide(diffuse, length)
         # N * H, Q46
-        n_dot_h = signed(light << 171) >> 193
+        n_dot_h = signed(light << 171) >> (193 + extra)
         if n_dot_h > 0:
             value = specular(divide(n_dot_h * n_dot_h, square), r)
             highlight = (r.lights[0].color * value >> 6) & layout.LANES_24

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import compositor, primitive_assembly, rasterizer, uniforms, vertex_shader, wireframe
+from . import compositor, primitive_assembly, rasterizer, samples, uniforms, vertex_shader, wireframe
 from .checks import check_scene
-from .extensions import read_records
+from .extensions import is_antialiased, read_records
 from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
 from .mesh import Mesh, open_mesh
 from .primitive_assembly import Triangle
@@ -50,20 +50,34 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
     registers, view, geometry, triangles = assemble(scene, tile)
     for blended in (False, True):
         compositor.begin(blended, scene, registers)
+        if registers.antialiased and not blended:
+            registers.sample_colors = np.repeat(registers.image[:, :, None], 4, axis=2)
         for index, part in enumerate(geometry):
             uniforms.set_object(view, scene, index, registers)
             mode = registers.object_mode
             if (mode & IS_BLENDED != 0) != blended or registers.opacity == 0:
                 continue
-            stage = wireframe if part.object.flags & WIREFRAME else rasterizer
             if blended:
                 # first find its nearest surface, then draw its colour
                 registers.object_mode = (mode & IS_ORTHOGRAPHIC) | IS_DEPTH_PASS
-                stage.run(part.triangles, part.mesh, registers)
+                draw_object(part, registers)
                 registers.object_mode = mode
-            stage.run(part.triangles, part.mesh, registers)
+            draw_object(part, registers)
+    lit = registers.depth != 0
+    if registers.antialiased:
+        samples.resolve(registers)
+        lit = (registers.sample_depths != 0).any(axis=2)
     pixels = registers.image[:, :, ::-1]
-    return Picture(~pixels if scene.invert else pixels, triangles, int(np.count_nonzero(registers.depth)))
+    return Picture(~pixels if scene.invert else pixels, triangles, int(np.count_nonzero(lit)))
+
+
+def draw_object(part: Geometry, registers: Registers) -> None:
+    """Draw the triangles of an object, or their edges."""
+    is_wire = bool(part.object.flags & WIREFRAME)
+    if registers.antialiased:
+        samples.run(part.triangles, part.mesh, is_wire, registers)
+    else:
+        (wireframe if is_wire else rasterizer).run(part.triangles, part.mesh, registers)
 
 
 def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geometry], int]:
@@ -73,7 +87,10 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
         tile=tile,
         depth=np.zeros((tile.height, tile.width), np.uint64),
         image=np.zeros((tile.height, tile.width, 3), np.uint8),
-        records=read_records(scene.extensions),
+        records=(records := read_records(scene.extensions)),
+        antialiased=is_antialiased(records),
+        sample_depths=np.zeros((tile.height, tile.width, 4), np.uint64),
+        sample_colors=np.zeros((tile.height, tile.width, 4, 3), np.uint8),
         band_top=tile.y + PIXEL_BIAS,
         band_bottom=tile.y + tile.height + PIXEL_BIAS,
     )

@@ -61,6 +61,11 @@ class Registers:
     image: NDArray[np.uint8]
     #: the extension records of the scene, which the contracts read from the call
     records: Records
+    #: whether each pixel has four samples: their depths (height, width, 4), with two bits below that tell passes, and
+    #: colours (height, width, 4, 3)
+    antialiased: bool
+    sample_depths: NDArray[np.uint64]
+    sample_colors: NDArray[np.uint8]
 
     # frame
     frame_is_orthographic: bool = False

@@ -89,7 +89,7 @@ def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     if mode & layout.IS_SMOOTH:
         a, b, c = triangle.a, triangle.b, triangle.c
         r.normals = Normals(a.normal << 16, b.normal - a.normal, c.normal - a.normal)
-    elif mode & (layout.IS_LIT | IS_IN_PASSES) == 0 and is_affine(attributes, triangle):
+    elif mode & (layout.IS_LIT | IS_IN_PASSES) == 0 and not r.antialiased and is_affine(attributes, triangle):
         set_linear(attributes, layout.IS_LINEAR | crossing_of(triangle), r)
         return
     set_exact(triangle, attributes, mode | crossing_of(triangle), r)

@@ -46,9 +46,15 @@ def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None
     For a face these are the pixel centres from it on, for a line the pixels nearest to it.
     """
     before, beyond = (128, -1) if wireframe else (255, 255)
+    down, up = (layout.HALF_PIXEL, layout.HALF_PIXEL + 256) if wireframe else (layout.SUBPIXEL_MASK,) * 2
+    if registers.antialiased:
+        # to the outermost samples, and for a line, which is a pixel wide, half a pixel farther
+        before = beyond = 255
+        down = layout.SUBPIXEL_MASK - layout.OUTERMOST_SAMPLE - (layout.HALF_PIXEL if wireframe else 0)
+        up = 2 * layout.SUBPIXEL_MASK - down
     registers.tile_left = ((tile.x + layout.PIXEL_BIAS) << 8) - before
     registers.tile_span = (tile.width << 8) + beyond
     registers.tile_top = ((tile.y + layout.PIXEL_BIAS) << 8) - before
     registers.tile_rows = (tile.height << 8) + beyond
-    registers.round_top = (layout.HALF_PIXEL if wireframe else layout.SUBPIXEL_MASK) << layout.SCREEN_ROW_AT
-    registers.round_bottom = (layout.HALF_PIXEL + 256 if wireframe else layout.SUBPIXEL_MASK) << layout.SCREEN_ROW_AT
+    registers.round_top = down << layout.SCREEN_ROW_AT
+    registers.round_bottom = up << layout.SCREEN_ROW_AT

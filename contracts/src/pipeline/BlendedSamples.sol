@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ExactSamples} from "./ExactSamples.sol";
+import {Samples} from "./Samples.sol";
+import "./Registers.sol";
+
+// Objects that are not opaque, with four samples for each pixel: the two passes of BlendedSpans, made by each sample.
+
+library BlendedSamples {
+    /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
+    function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
+        unchecked {
+            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            for (; column != end; ++column) {
+                uint256 covered = Samples.coverage(left, right, column);
+                if (covered != 0) fragment(attribute, covered, column, row);
+                attribute += load(DX);
+            }
+        }
+    }
+
+    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+        unchecked {
+            uint256 old = load(Samples.place(row, column));
+            uint256 depths = Samples.depthsOf(attribute);
+            bool isFirst = load(MODE) & IS_BLENDED == 0;
+            // nearer than what is there; what the first pass has found
+            uint256 seen = isFirst
+                ? (depths | TOPS_64) - (old | BELOW_SAMPLE_DEPTHS)
+                : TOPS_64 - ((old ^ (depths | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
+            seen &= covered;
+            if (seen == 0) return;
+            depths |= isFirst
+                ? FOUND_SAMPLES | (old & SAMPLE_COLORS)
+                : DRAWN_SAMPLES | over(Samples.bytesOf(ExactSamples.colorAt(attribute, covered, column, row)), old);
+            Samples.write(row, column, depths, seen);
+        }
+    }
+
+    /// @dev A colour over those of the four samples: color * OPACITY + behind * (1 - OPACITY), to the nearest level.
+    function over(uint256 color, uint256 behind) private pure returns (uint256 mixed) {
+        unchecked {
+            (uint256 opacity, uint256 rest) = (load(OPACITY), ONE_24 - load(OPACITY));
+            for (uint256 lane; lane != 256; lane += 64) {
+                for (uint256 channel; channel != 24; channel += 8) {
+                    uint256 value = ((color >> channel) & 0xff) * opacity + ((behind >> (lane + channel)) & 0xff) * rest;
+                    mixed |= ((value + HALF_24) >> Q24) << (lane + channel);
+                }
+            }
+        }
+    }
+}
