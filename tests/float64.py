@@ -170,7 +170,7 @@ def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float]]:
         content, data = data[5 : 5 + size], data[5 + size :]
         if kind == 1:
             cones[index] = _q32(np.frombuffer(content, ">i8"))
-        else:
+        elif kind == 2:
             opacities[index] = int.from_bytes(content, "big") / 2.0**24
     return cones, opacities
 

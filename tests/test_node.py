@@ -70,7 +70,7 @@ class Node:
         self.w3 = Web3(HTTPProvider(connection.url, {"timeout": PATIENCE}, exception_retry_configuration=None))
         self.sender = self.w3.eth.accounts[0]
         self.contracts: dict[str, Contract] = {}
-        for name in ("Engine", "FragmentEngine", "Renderer", "Original"):
+        for name in (*artifact("Renderer").parts, "Renderer", "Original"):
             self.contracts[name] = self.deploy(name)
 
     def deploy(self, name: str) -> Contract:

@@ -222,12 +222,13 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
     engine, fragments, renderer = b"\x11" * 20, b"\x33" * 20, b"\x22" * 20
     try:
         code = embedded.code("Renderer")
-        for name, place in {"Engine": engine, "FragmentEngine": fragments}.items():
+        others = {name: embedded.address(name) for name in ("AntialiasedEngine", "AntialiasedFragmentEngine")}
+        for name, place in {"Engine": engine, "FragmentEngine": fragments, **others}.items():
             put(bare, place, embedded.code(name))
             code = code.replace(embedded.address(name).rjust(32, b"\0"), place.rjust(32, b"\0"))
         put(bare, renderer, code)
         check(open_node(bare.url, checksum_address(renderer)), embedded, "deployed")
-        places = {"Renderer": renderer, "Engine": engine, "FragmentEngine": fragments}
+        places = {"Renderer": renderer, "Engine": engine, "FragmentEngine": fragments, **others}
         AddressBook(book).write(bare.connection.chain_id, places)
         check(open_node(bare.url), embedded, "deployed")
         # a book that is out of date is passed over

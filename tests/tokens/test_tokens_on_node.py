@@ -33,7 +33,7 @@ def deploy(w3: Web3, name: str, *arguments: Any) -> Any:
 
 @pytest.fixture(scope="module")
 def metadata(w3: Web3) -> str:
-    renderer = deploy(w3, "Renderer", deploy(w3, "Engine").address, deploy(w3, "FragmentEngine").address)
+    renderer = deploy(w3, "Renderer", *(deploy(w3, part).address for part in artifact("Renderer").parts))
     parts = deploy(w3, "Genesis", renderer.address).address, deploy(w3, "PngEncoder").address
     return str(deploy(w3, "GenesisMetadata", *parts).address)
 

@@ -76,7 +76,7 @@ def both(node: Node) -> Both:
 def test_transactions_cost_what_a_node_says(both: Both) -> None:
     """Deployments too, and those of which a part is paid back or whose data costs more than what they do."""
     owner, alice, bob, carol = both.node.accounts[:4]
-    renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
+    renderer = both.deploy("Renderer", *map(both.deploy, artifact("Renderer").parts))
     metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     genesis = both.deploy("GenesisCollection", metadata, PRICE, 10, (owner, 5, owner, 500))
 
@@ -107,6 +107,6 @@ def test_transactions_cost_what_a_node_says(both: Both) -> None:
 
 @needs_anvil
 def test_pictures_cost_what_a_node_says(both: Both) -> None:
-    renderer = both.deploy("Renderer", both.deploy("Engine"), both.deploy("FragmentEngine"))
+    renderer = both.deploy("Renderer", *map(both.deploy, artifact("Renderer").parts))
     metadata = both.deploy("GenesisMetadata", both.deploy("Genesis", renderer), both.deploy("PngEncoder"))
     both.send(metadata, "tokenURI", 7, seed_of(7), sender=both.node.accounts[0])

@@ -10,6 +10,7 @@ from attrs import evolve
 from eth_utils.abi import collapse_if_tuple
 
 from shackled import Scene
+from shackled.artifacts import artifact
 from shackled.datasets import icons
 from shackled.scene import encode
 from tools.tokens.world import ETHER, GAS, Contract, World, account, keccak
@@ -55,7 +56,7 @@ class Stage:
 def _deployed(chain_id: int) -> Stage:
     world = World(chain_id)
     owner, alice, bob = (world.fund(account(name)) for name in ("owner", "alice", "bob"))
-    renderer = world.deploy("Renderer", world.deploy("Engine"), world.deploy("FragmentEngine"))
+    renderer = world.deploy("Renderer", *map(world.deploy, artifact("Renderer").parts))
     generator = world.deploy("Genesis", renderer)
     encoder = world.deploy("PngEncoder")
     metadata = world.deploy("GenesisMetadata", generator, encoder)

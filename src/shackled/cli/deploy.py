@@ -24,8 +24,9 @@ def deploy(
         str | None,
         option(
             "--contracts",
-            "Names with commas, of Engine, FragmentEngine, Renderer, Original, Genesis, PngEncoder, Studio and "
-            "GenesisMetadata; without it, the first five. Contracts that they call are added.",
+            "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, Renderer, "
+            "Original, Genesis, PngEncoder, Studio and GenesisMetadata; without it, the first seven. Contracts that "
+            "they call are added.",
             "NAMES",
         ),
     ] = None,

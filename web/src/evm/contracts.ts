@@ -12,8 +12,14 @@ export interface Contracts {
     errors: Record<string, [string, [string, string][]]>;
 }
 
-export type ContractName = "Engine" | "FragmentEngine" | "Renderer" | "Studio";
-export const RENDERER = ["Engine", "FragmentEngine", "Renderer"] as const;
+export const RENDERER = [
+    "Engine",
+    "FragmentEngine",
+    "AntialiasedEngine",
+    "AntialiasedFragmentEngine",
+    "Renderer",
+] as const;
+export type ContractName = (typeof RENDERER)[number] | "Studio";
 
 /** A call that a contract refused, or that did not end. The message is one line. */
 export class CallError extends Error {
