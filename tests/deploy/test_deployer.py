@@ -93,7 +93,7 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
 
 
 def test_a_constructor_that_refuses() -> None:
-    engines = 2 * (bytes(31) + b"\x05")
+    engines = 4 * (bytes(31) + b"\x05")
     with pytest.raises(ChainError, match=r"Renderer could not be deployed|the contract refused"):
         deployment("Renderer", artifact("Renderer").creation + engines)
 
@@ -145,13 +145,13 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
     with anvil(*NO_PROXY, "--chain-id", "4321") as node:
         deployer, transactor = parts(node, book)
         assert code(node, PROXY) == b""
-        plan = deployer.plan(wanted[:3])
+        plan = deployer.plan(wanted[: len(RENDERER)])
         assert missing(plan) == ["deployment proxy", *RENDERER]
         before = transactor.balance()
         deployer.execute(plan, transactor)
         assert before - transactor.balance() <= plan.cost
         assert code(node, PROXY) == PROXY_CODE
-        assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
         assert book.entries(4321).keys() == set(RENDERER)
 
 
@@ -219,10 +219,10 @@ def test_going_on_where_it_stopped(node: Anvil, book: AddressBook, wanted: list[
 @needs_anvil
 def test_anything_else_in_the_place(node: Anvil, book: AddressBook, wanted: list[Deployment]) -> None:
     deployer, _ = parts(node, book)
-    node.rpc("anvil_setCode", "0x" + wanted[2].address.hex(), "0x00")
+    node.rpc("anvil_setCode", "0x" + wanted[len(RENDERER) - 1].address.hex(), "0x00")
     with pytest.raises(TransactionError, match="is not that of Renderer"):
         deployer.plan(wanted)
-    node.rpc("anvil_setCode", "0x" + wanted[2].address.hex(), "0x")
+    node.rpc("anvil_setCode", "0x" + wanted[len(RENDERER) - 1].address.hex(), "0x")
     node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x00")
     with pytest.raises(TransactionError, match="other code at the address of the deployment proxy"):
         deployer.plan(wanted)
@@ -269,8 +269,8 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
         with serving(answer) as url:
             connection = Connection(url)
             deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
-            deployer.execute(deployer.plan(wanted[:3]), transactor)
-        assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+            deployer.execute(deployer.plan(wanted[: len(RENDERER)]), transactor)
+        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
 
 
 @needs_anvil
@@ -304,12 +304,12 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
 
     with serving(answer) as url:
         deployer = Deployer(Connection(url), book)
-        engine, _, renderer = deployer.plan(wanted[:3]).quotes
+        engine, *_, renderer = deployer.plan(wanted[: len(RENDERER)]).quotes
         assert engine.estimate is not None
         assert renderer.estimate is None
         assert 5 * renderer.call.gas <= renderer.gas <= 6 * renderer.call.gas
-        deployer.execute(deployer.plan(wanted[:3]), Transactor(Connection(url), Account.from_key(KEY)))
-    assert [code(node, each.address) for each in wanted[:3]] == [each.code for each in wanted[:3]]
+        deployer.execute(deployer.plan(wanted[: len(RENDERER)]), Transactor(Connection(url), Account.from_key(KEY)))
+    assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
 
 
 @needs_anvil

@@ -16,7 +16,7 @@ contract CreationCall {
 
     /// @param limit The gas that the call gets; 0 for all there is.
     /// @param count How many contracts are to be created. The constructor of each is handed the addresses of the two before, the last one
-    /// first.
+    /// first, twice: the Renderer takes two engines for plain pictures and two for those that are antialiased, of which one pair is called.
     /// @param packed Deflated: for each contract four bytes, the size of its creation code, and this code; then the data of the call.
     constructor(uint256 limit, uint256 count, bytes memory packed) {
         bytes memory data = inflate(packed);
@@ -35,14 +35,19 @@ contract CreationCall {
                 let code := next
                 next := add(next, size)
                 // the addresses take the place of what comes next for a moment
-                let behind := mload(next)
-                let further := mload(add(next, 0x20))
+                let first := mload(next)
+                let second := mload(add(next, 0x20))
+                let third := mload(add(next, 0x40))
+                let fourth := mload(add(next, 0x60))
                 mstore(next, target)
                 mstore(add(next, 0x20), before)
+                mcopy(add(next, 0x40), next, 0x40)
                 before := target
-                target := create(0, code, add(size, 0x40))
-                mstore(next, behind)
-                mstore(add(next, 0x20), further)
+                target := create(0, code, add(size, 0x80))
+                mstore(next, first)
+                mstore(add(next, 0x20), second)
+                mstore(add(next, 0x40), third)
+                mstore(add(next, 0x60), fourth)
             }
             if (target == address(0)) revert NotCreated(i);
         }

@@ -30,6 +30,12 @@ from ._failures import out_of_gas, revert_error
 #: Maximum size of the data of a call that creates a contract (EIP-3860).
 MAX_INIT_CODE = 49152
 
+#: The contracts that a creation call brings; antialiased pictures need two others of about the same size.
+CARRIED = ("Engine", "FragmentEngine", "Renderer")
+
+#: The word of a scene that has the offset of its extensions, and the record of those that says that it is antialiased.
+EXTENSIONS, ANTIALIASED = 20, bytes([3, 0, 0, 0, 0])
+
 #: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 
@@ -176,7 +182,7 @@ class NodeChain(ContractCaller):
         codes = {}
         if place is None:
             place = self._local.address(contract)
-            for name in [contract, *self._below(contract)]:
+            for name in [contract, *self._below(contract, data)]:
                 codes[self._local.address(name)] = self._local.code(name)
         return metered(self.connection, place, data, gas_limit, codes, self._probed.field)
 
@@ -196,7 +202,7 @@ class NodeChain(ContractCaller):
 
     def _created(self, contract: str, data: bytes, gas_limit: int | None) -> NodeResult:
         """Call a contract through a creation call that creates the contracts first."""
-        names = [*reversed(self._below(contract)), contract]
+        names = [*reversed(self._below(contract, data)), contract]
         codes = [artifact(name).creation for name in names]
         packed = b"".join(len(code).to_bytes(4, "big") + code for code in codes) + data
         head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
@@ -247,10 +253,16 @@ class NodeChain(ContractCaller):
             "call: use another node, or one where the contracts are deployed"
         )
 
-    def _below(self, contract: str) -> list[str]:
-        """Return the contracts that a contract needs, each before those that it needs itself."""
+    def _below(self, contract: str, data: bytes) -> list[str]:
+        """Return the contracts that a call of a contract needs, each before those that it needs itself.
+
+        The Renderer calls two of its engines: those for scenes that are antialiased, or the others.
+        """
         parts = artifact(contract).parts
-        return parts + [each for part in parts for each in self._below(part)]
+        if contract == "Renderer":
+            is_antialiased = _is_antialiased(data)
+            parts = [name for name in parts if name.startswith("Antialiased") == is_antialiased]
+        return parts + [each for part in parts for each in self._below(part, b"")]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
         """Return the error for a call that reverted with `data`, or, with None, ran out of gas."""
@@ -270,7 +282,7 @@ class NodeChain(ContractCaller):
         """An upper bound of the gas that a creation call uses to decompress and create the contracts."""
         if self._probed.overrides or self.place("Renderer") is not None:
             return 0
-        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in RENDERER]
+        sizes = [(len(self._local.code(name)), len(artifact(name).creation)) for name in CARRIED]
         return 6_000_000 + sum(200 * code + 200 * packed for code, packed in sizes)
 
 
@@ -334,6 +346,22 @@ def _probe(connection: Connection) -> _Probed:
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
     return _Probed(False, connection.block_gas_limit(), False, creations=False)
+
+
+def _is_antialiased(data: bytes) -> bool:
+    """Return whether a call of the Renderer asks for an antialiased picture; False if it has no such scene."""
+
+    def number(place: int) -> int:
+        return int.from_bytes(data[place : place + 32], "big")
+
+    scene = 4 + number(4)
+    records = scene + number(scene + 32 * EXTENSIONS)
+    place, end = records + 32, min(records + 32 + number(records), len(data))
+    while place < end:
+        if data[place : place + 5] == ANTIALIASED:
+            return True
+        place += 5 + int.from_bytes(data[place + 3 : place + 5], "big")
+    return False
 
 
 def _limit(gas: int | None) -> bytes:
