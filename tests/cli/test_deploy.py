@@ -128,6 +128,7 @@ def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
         "FragmentEngine",
         "Renderer",
         "PngEncoder",
+        "Turntable",
         "Studio",
     ]
     for each in deployments(names.split(",")):

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Base64} from "./Base64.sol";
+import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Bmp} from "./Bmp.sol";
 import {Crc32} from "./Crc32.sol";
+import {DataUri} from "./DataUri.sol";
 import {LITERALS, PngCode} from "./PngCode.sol";
 import {PngErrors} from "./PngErrors.sol";
-import {Text} from "./Text.sol";
 
 /// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
 /// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
@@ -16,6 +16,7 @@ import {Text} from "./Text.sol";
 /// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
 library Png {
     uint256 internal constant MAX_SCALE = 8;
+    string private constant URI = "data:image/png;base64,";
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
     uint256 private constant DATA = 75;
@@ -38,8 +39,8 @@ library Png {
     /// @dev Bits of the codes of a byte and of a pixel.
     uint256 private constant LITERAL_SIZE = 9;
     uint256 private constant PIXEL_SIZE = 27;
-    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, eight pixels of which so many are
-    /// not like those at their left are all written.
+    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, or where there is none, eight pixels
+    /// of which so many are not like those at their left are all written.
     uint256 private constant SHORT_MATCH = 5;
     uint256 private constant MANY = 4;
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
@@ -54,6 +55,10 @@ library Png {
     uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
     uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
     uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    /// @dev Of eight pixels of 27 bits in 32 each the lower of each two; of four pairs of 54 bits in 64 each likewise; the lower half.
+    uint256 private constant LOWER_ONE = 0x0000000007ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
+    uint256 private constant LOWER_TWO = 0x0000000000000000003fffffffffffff0000000000000000003fffffffffffff;
+    uint256 private constant LOWER_FOUR = 0x0000000000000000000000000000000000000fffffffffffffffffffffffffff;
     /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
     uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
     uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
@@ -142,26 +147,31 @@ library Png {
     }
 
     /// @notice A PNG file of a bitmap as a `data:` URI.
-    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory uri) {
+    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
+        // this stands before the file, since zeros are written behind that
+        string memory head = URI;
+        return DataUri.wrap(head, encode(bmp, scale), "");
+    }
+
+    /// @notice An SVG document of the size of the PNG file, which it holds.
+    function svg(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
         unchecked {
-            // this stands before the file, since zeros are written behind that
-            string memory prefix = "data:image/png;base64,";
-            bytes memory png = encode(bmp, scale);
-            uint256 file;
-            uint256 begin;
-            assembly ("memory-safe") {
-                file := add(png, 32)
-                // the encoder needs zeros behind the file
-                mstore(add(file, mload(png)), 0)
-                uri := add(mload(0x40), 32)
-                begin := add(uri, 32)
-            }
-            uint256 end = Base64.encode(file, png.length, Text.write(begin, prefix));
-            assembly ("memory-safe") {
-                mstore(uri, sub(end, begin))
-                mstore(end, 0)
-                mstore(0x40, and(add(end, 63), not(31)))
-            }
+            (uint256 width, uint256 height) = sizeOf(bmp);
+            (string memory w, string memory h) = (Strings.toString(width * scale), Strings.toString(height * scale));
+            string memory head = string.concat(
+                '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ',
+                w,
+                " ",
+                h,
+                '"><image width="',
+                w,
+                '" height="',
+                h,
+                '" style="image-rendering:pixelated" href="',
+                URI
+            );
+            string memory tail = '"/></svg>';
+            return DataUri.wrap(head, encode(bmp, scale), tail);
         }
     }
 
@@ -394,6 +404,14 @@ library Png {
                 newCount := and(newCount, 7)
             }
 
+            function writeBits(target, count, code) -> newTarget, newCount {
+                let size := and(code, 0xff)
+                mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, size))))
+                newCount := add(count, size)
+                newTarget := add(target, shr(3, newCount))
+                newCount := and(newCount, 7)
+            }
+
             let target := mload(stream)
             let count := mload(add(stream, 0x20))
             // the pixel that was written last: its match comes when it is known how far it goes
@@ -401,7 +419,8 @@ library Png {
             target, count := write(target, count, 0, first)
             mcopy(sub(first, 3), first, 3)
             // eight pixels that begin before this one may all be written
-            let full := mul(sub(end, 23), eq(byte(31, mload(add(gaps, 48))), SHORT_MATCH))
+            let short := byte(31, mload(add(gaps, 48)))
+            let full := mul(sub(end, 23), or(eq(short, SHORT_MATCH), iszero(short)))
             for {} lt(first, end) {} {
                 // most pixels are like those at their left, often 32 together
                 let left := sub(first, 3)
@@ -421,7 +440,8 @@ library Png {
                     let changed := or(change, or(shr(8, change), shr(16, change)))
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
                     changed := mod(and(shr(8, changed), EACH_PIXEL), 0xffffff)
-                    if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
+                    // without a match the first pixel, which is written already, could not be left out
+                    if gt(mul(changed, and(lt(first, full), gt(or(short, xor(first, last)), 0))), sub(MANY, 1)) {
                         // from 24 bits to 32 bits each: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
                         pixels := add(pixels, mul(and(pixels, UPPER_FOUR), 0xffffffff))
@@ -433,6 +453,17 @@ library Png {
                             and(shr(16, pixels), LOWEST_BYTES)
                         )
                         pixels := add(pixels, mload(gaps))
+                        if iszero(short) {
+                            // the match of the pixel before, if there is one, and 27 bytes
+                            target, count := writeBits(target, count, mload(add(gaps, shl(4, sub(first, last)))))
+                            pixels := add(and(pixels, LOWER_ONE), shr(5, sub(pixels, and(pixels, LOWER_ONE))))
+                            pixels := add(and(pixels, LOWER_TWO), shr(10, sub(pixels, and(pixels, LOWER_TWO))))
+                            pixels := add(and(pixels, LOWER_FOUR), shr(20, sub(pixels, and(pixels, LOWER_FOUR))))
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, shl(40, pixels))))
+                            target := add(target, 27)
+                            last := add(first, 21)
+                            continue
+                        }
                         switch sub(first, last)
                         case 3 {
                             // all of them: a word and what is pushed out of it
@@ -467,11 +498,9 @@ library Png {
                 }
             }
             // the last match
-            let code := mload(add(gaps, shl(4, sub(end, last))))
-            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, and(code, 0xff)))))
-            count := add(count, and(code, 0xff))
-            mstore(stream, add(target, shr(3, count)))
-            mstore(add(stream, 0x20), and(count, 7))
+            target, count := writeBits(target, count, mload(add(gaps, shl(4, sub(end, last)))))
+            mstore(stream, target)
+            mstore(add(stream, 0x20), count)
         }
     }
 

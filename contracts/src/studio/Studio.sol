@@ -12,6 +12,7 @@ import {WithRenderer} from "../WithRenderer.sol";
 import {Kept} from "./Kept.sol";
 import {Changes, SceneChanges} from "./SceneChanges.sol";
 import {StudioErrors} from "./StudioErrors.sol";
+import {Spin, Turntable} from "./Turntable.sol";
 
 /// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
@@ -20,6 +21,8 @@ import {StudioErrors} from "./StudioErrors.sol";
 contract Studio is WithRenderer, StudioErrors {
     /// @notice What makes PNG files of the pictures.
     PngEncoder public immutable encoder;
+    /// @notice What makes animated PNG files of scenes that turn.
+    Turntable public immutable turntable;
 
     /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart`
     /// and `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
@@ -29,10 +32,13 @@ contract Studio is WithRenderer, StudioErrors {
 
     /// @notice The address has no code.
     error NoEncoder(address encoder);
+    /// @notice The address has no code.
+    error NoTurntable(address turntable);
 
-    constructor(Renderer renderer_, PngEncoder encoder_) WithRenderer(renderer_) {
+    constructor(Renderer renderer_, PngEncoder encoder_, Turntable turntable_) WithRenderer(renderer_) {
         if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
-        encoder = encoder_;
+        if (address(turntable_).code.length == 0) revert NoTurntable(address(turntable_));
+        (encoder, turntable) = (encoder_, turntable_);
     }
 
     /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
@@ -124,6 +130,36 @@ contract Studio is WithRenderer, StudioErrors {
     /// @notice The same with changes.
     function renderDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer, changes)), scale)));
+    }
+
+    /// @notice An SVG document that holds the PNG file, and shows each pixel as a square without smoothing.
+    function renderSVG(address pointer, uint256 scale) external view returns (string memory) {
+        forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer)), scale)));
+    }
+
+    /// @notice The same with changes.
+    function renderSVG(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
+        forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer, changes)), scale)));
+    }
+
+    /// @notice The scene turning, as an animated PNG file: see `Turntable`, which draws scenes that are not kept.
+    function animate(address pointer, Spin memory spin) external view returns (bytes memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer), spin)));
+    }
+
+    /// @notice The same with changes, of which the first frame has the turn.
+    function animate(address pointer, Spin memory spin, Changes memory changes) external view returns (bytes memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer, changes), spin)));
+    }
+
+    /// @notice The animated PNG file as a `data:` URI.
+    function animateDataURI(address pointer, Spin memory spin) external view returns (string memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer), spin)));
+    }
+
+    /// @notice The same with changes.
+    function animateDataURI(address pointer, Spin memory spin, Changes memory changes) external view returns (string memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer, changes), spin)));
     }
 
     /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
