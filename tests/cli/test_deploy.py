@@ -129,6 +129,7 @@ def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
         "Renderer",
         "PngEncoder",
         "Turntable",
+        "GlbEncoder",
         "Studio",
     ]
     for each in deployments(names.split(",")):

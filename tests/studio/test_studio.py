@@ -424,7 +424,7 @@ def test_a_scene_of_parts_that_are_not_there_does_not_pass_the_check(world: Worl
         world.run(world.address("Studio"), call_data("check(address)", listed))
 
 
-@pytest.mark.parametrize("place", [0, 1, 2])
+@pytest.mark.parametrize("place", range(4))
 def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
     from shackled.artifacts import artifact
 

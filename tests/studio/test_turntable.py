@@ -15,6 +15,7 @@ from attrs import evolve
 from eth_abi.abi import decode, encode
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
+from PIL import ImageSequence
 from tools.ledger import World, call_data
 from tools.page_server import browser_path
 from tools.png_code import SIGNATURE, encode_png
@@ -63,11 +64,7 @@ def animate(scene: Scene, **spin: Any) -> bytes:
 
 def frames_of(png: bytes) -> list[Pixels]:
     with PillowImage.open(io.BytesIO(png)) as file:
-        found = []
-        for number in range(file.n_frames):
-            file.seek(number)
-            found.append(np.asarray(file.convert("RGB")))
-        return found
+        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
 
 
 def chunk(kind: bytes, data: bytes) -> bytes:
@@ -118,7 +115,7 @@ def test_each_frame_is_the_scene_turned(world: World, count: int, delay: int, sc
     for found, expected in zip(frames_of(png), pictures, strict=True):
         assert np.array_equal(found, expected.repeat(scale, 0).repeat(scale, 1))
     with PillowImage.open(io.BytesIO(png)) as file:
-        assert (file.n_frames, file.info["loop"], file.info["duration"]) == (count, 0, delay)
+        assert (file.info["loop"], file.info["duration"]) == (0, delay)
     uri = world.call("Studio", f"animateDataURI(address,{SPIN})", pointer, spin)
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
 

@@ -24,8 +24,8 @@ def deploy(
         str | None,
         option(
             "--contracts",
-            "Names with commas, of Engine, FragmentEngine, Renderer, Original, Genesis, PngEncoder, Turntable, Studio "
-            "and GenesisMetadata; without it, the first five. Contracts that they call are added.",
+            "Names with commas, of Engine, FragmentEngine, Renderer, Original, Genesis, PngEncoder, Turntable, "
+            "GlbEncoder, Studio and GenesisMetadata; without it, the first five. Contracts that they call are added.",
             "NAMES",
         ),
     ] = None,

@@ -13,7 +13,7 @@ from ..ethereum import PROXY, SALT, create2_address, intrinsic_gas
 #: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
 STANDARD = ("Engine", "FragmentEngine", "Renderer", "Original", "Genesis")
 #: All contracts that `shackled deploy` can deploy.
-CONTRACTS = (*STANDARD, "PngEncoder", "Turntable", "Studio", "GenesisMetadata")
+CONTRACTS = (*STANDARD, "PngEncoder", "Turntable", "GlbEncoder", "Studio", "GenesisMetadata")
 
 #: The runtime code of the proxy: CREATE2 of the call's data, whose first word is the salt.
 PROXY_CODE = bytes.fromhex(
