@@ -99,6 +99,15 @@ def test_sums_of_large_pictures() -> None:
     assert np.array_equal(opened(png), enlarged(pixels, 4))
 
 
+def test_a_file_without_sums() -> None:
+    """What is left to others: checksums, the size of the data, and the last chunk."""
+    pixels = np.random.default_rng(6).integers(0, 256, (9, 70, 3), np.uint8)
+    whole, bare = encode_png(pixels, 1), contract_answer(pixels, 1, "compress")
+    assert len(bare) == len(whole)
+    assert bare[:29] == whole[:29]
+    assert bare[37:-16] == whole[37:-16]
+
+
 def test_data_uri() -> None:
     import base64
 

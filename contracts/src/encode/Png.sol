@@ -108,6 +108,12 @@ library Png {
     /// @param bmp 24 bits a pixel, as the renderer makes it.
     /// @param scale How many pixels each becomes in both directions, 1..8.
     function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
+        png = compress(bmp, scale);
+        writeSums(png);
+    }
+
+    /// @notice The same without what `writeSums` fills in.
+    function compress(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
@@ -142,7 +148,6 @@ library Png {
             put(stream, rest << (256 - restSize), restSize);
             (uint256 second, uint256 first) = writeRows(stream, rows, scale);
             finish(png, stream, second, first);
-            writeSums(png);
         }
     }
 

@@ -12,7 +12,13 @@ contract PngEncoder is PngErrors {
         answer(Png.encode(bmp, scale));
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice The PNG file without the size of its data, the checksums of its chunks and the chunk IEND, for other files that have those:
+    /// `Apng`.
+    function compress(bytes calldata bmp, uint256 scale) external pure returns (bytes memory) {
+        answer(Png.compress(bmp, scale));
+    }
+
+    /// @notice The PNG file as a `data:` URI.
     function dataURI(bytes calldata bmp, uint256 scale) external pure returns (string memory) {
         answer(bytes(Png.dataURI(bmp, scale)));
     }

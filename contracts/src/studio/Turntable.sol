@@ -81,7 +81,7 @@ contract Turntable is WithRenderer, PngErrors, TurntableErrors {
                     mstore(0x40, and(add(end, 63), not(31)))
                 }
                 if (k != 0) turn(scene, still, center, axis, Fixed.wrap(int256((k * 360 << 32) / spin.frames)));
-                bytes memory png = encoder.encode(renderer.render(scene), spin.scale);
+                bytes memory png = encoder.compress(renderer.render(scene), spin.scale);
                 if (k == 0) end = Apng.begin(end, png, spin.frames);
                 end = Apng.frame(end, png, k, spin.delay);
             }
