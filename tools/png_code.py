@@ -85,8 +85,8 @@ LONGEST = 258
 
 #: Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
 PART = 256
-#: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, or 27 since there is no
-#: match, as many pixels as fit into a word are written all if so many of them are not like those at their left.
+#: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, as many pixels as fit into
+#: a word are written all if so many of them are not like those at their left. So they are where pixels are not enlarged.
 BLOCK = 8
 MANY = 4
 
@@ -134,9 +134,9 @@ def _written(part: NDArray[np.uint8], scale: int) -> list[int]:
     """Return which pixels are written; the others equal those at their left."""
     written = np.append(True, (part[1:] != part[:-1]).any(1))
     if scale == 1 or 3 * LITERAL_LENGTH + len(match(3 * scale - 3, PIXEL)) == 32:
-        # the first pixel of a part is written anyway; without its match, what follows it is not a whole number of bytes
+        # the first pixel of a part is written anyway
         changed = np.append(False, written[1:])
-        for begin in range(BLOCK if scale == 1 else 0, len(part) - BLOCK + 1, BLOCK):
+        for begin in range(0, len(part) - BLOCK + 1, BLOCK):
             if changed[begin : begin + BLOCK].sum() >= MANY:
                 written[begin : begin + BLOCK] = True
     return np.flatnonzero(written).tolist()

@@ -4,8 +4,8 @@ pragma solidity 0.8.37;
 import {Crc32} from "./Crc32.sol";
 
 /// @notice Animated PNG files, made of PNG files of one size: the first shows where animations are unknown.
-/// @dev Source: PNG, third edition (W3C), the chunks acTL, fcTL and fdAT. The PNG files are those of `Png.compress`: their pixels are in one
-/// chunk IDAT, behind the chunk IHDR, and checksums are missing.
+/// @dev Source: PNG, third edition (W3C), the chunks acTL, fcTL and fdAT. The PNG files are those of `Png.compress`: their pixels are in
+/// one chunk IDAT, behind the chunk IHDR, and checksums are missing.
 library Apng {
     /// @dev Where the chunk IHDR of a PNG file begins, the bytes of its data, and where the data of the chunk IDAT begin.
     uint256 private constant IHDR = 8;

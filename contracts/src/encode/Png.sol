@@ -43,6 +43,8 @@ library Png {
     /// of which so many are not like those at their left are all written.
     uint256 private constant SHORT_MATCH = 5;
     uint256 private constant MANY = 4;
+    /// @dev Bits of eight pixels without matches.
+    uint256 private constant ALL_EIGHT = 216;
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
@@ -55,10 +57,10 @@ library Png {
     uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
     uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
     uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
-    /// @dev Of eight pixels of 27 bits in 32 each the lower of each two; of four pairs of 54 bits in 64 each likewise; the lower half.
+    /// @dev Of eight pixels of 27 bits in 32 each the lower of each two; when that has moved up, of four pairs likewise; of two fours.
     uint256 private constant LOWER_ONE = 0x0000000007ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
-    uint256 private constant LOWER_TWO = 0x0000000000000000003fffffffffffff0000000000000000003fffffffffffff;
-    uint256 private constant LOWER_FOUR = 0x0000000000000000000000000000000000000fffffffffffffffffffffffffff;
+    uint256 private constant LOWER_TWO = 0x000000000000000007ffffffffffffe0000000000000000007ffffffffffffe0;
+    uint256 private constant LOWER_FOUR = 0x0000000000000000000000000000000007ffffffffffffffffffffffffff8000;
     /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
     uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
     uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
@@ -409,7 +411,7 @@ library Png {
                 newCount := and(newCount, 7)
             }
 
-            function writeBits(target, count, code) -> newTarget, newCount {
+            function writeMatch(target, count, code) -> newTarget, newCount {
                 let size := and(code, 0xff)
                 mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, size))))
                 newCount := add(count, size)
@@ -424,8 +426,8 @@ library Png {
             target, count := write(target, count, 0, first)
             mcopy(sub(first, 3), first, 3)
             // eight pixels that begin before this one may all be written
-            let short := byte(31, mload(add(gaps, 48)))
-            let full := mul(sub(end, 23), or(eq(short, SHORT_MATCH), iszero(short)))
+            let square := byte(31, mload(add(gaps, 48)))
+            let full := mul(sub(end, 23), or(eq(square, SHORT_MATCH), iszero(square)))
             for {} lt(first, end) {} {
                 // most pixels are like those at their left, often 32 together
                 let left := sub(first, 3)
@@ -445,8 +447,7 @@ library Png {
                     let changed := or(change, or(shr(8, change), shr(16, change)))
                     changed := add(and(changed, BYTE_OF_PIXEL), BYTE_OF_PIXEL)
                     changed := mod(and(shr(8, changed), EACH_PIXEL), 0xffffff)
-                    // without a match the first pixel, which is written already, could not be left out
-                    if gt(mul(changed, and(lt(first, full), gt(or(short, xor(first, last)), 0))), sub(MANY, 1)) {
+                    if gt(mul(changed, lt(first, full)), sub(MANY, 1)) {
                         // from 24 bits to 32 bits each: the upper half of each part moves up
                         let pixels := shr(64, mload(first))
                         pixels := add(pixels, mul(and(pixels, UPPER_FOUR), 0xffffffff))
@@ -458,14 +459,23 @@ library Png {
                             and(shr(16, pixels), LOWEST_BYTES)
                         )
                         pixels := add(pixels, mload(gaps))
-                        if iszero(short) {
-                            // the match of the pixel before, if there is one, and 27 bytes
-                            target, count := writeBits(target, count, mload(add(gaps, shl(4, sub(first, last)))))
-                            pixels := add(and(pixels, LOWER_ONE), shr(5, sub(pixels, and(pixels, LOWER_ONE))))
-                            pixels := add(and(pixels, LOWER_TWO), shr(10, sub(pixels, and(pixels, LOWER_TWO))))
-                            pixels := add(and(pixels, LOWER_FOUR), shr(20, sub(pixels, and(pixels, LOWER_FOUR))))
-                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, shl(40, pixels))))
-                            target := add(target, 27)
+                        if iszero(square) {
+                            // to 27 bits each: the lower one of each two moves up
+                            pixels := add(pixels, mul(and(pixels, LOWER_ONE), 31))
+                            pixels := add(pixels, mul(and(pixels, LOWER_TWO), 1023))
+                            pixels := shl(5, add(pixels, mul(and(pixels, LOWER_FOUR), 1048575)))
+                            let size := ALL_EIGHT
+                            switch xor(first, last)
+                            case 0 {
+                                // the first one is written already
+                                pixels := shl(PIXEL_SIZE, pixels)
+                                size := sub(ALL_EIGHT, PIXEL_SIZE)
+                            }
+                            default { target, count := writeMatch(target, count, mload(add(gaps, shl(4, sub(first, last))))) }
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, pixels)))
+                            count := add(count, size)
+                            target := add(target, shr(3, count))
+                            count := and(count, 7)
                             last := add(first, 21)
                             continue
                         }
@@ -503,9 +513,11 @@ library Png {
                 }
             }
             // the last match
-            target, count := writeBits(target, count, mload(add(gaps, shl(4, sub(end, last)))))
-            mstore(stream, target)
-            mstore(add(stream, 0x20), count)
+            let code := mload(add(gaps, shl(4, sub(end, last))))
+            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, and(code, 0xff)))))
+            count := add(count, and(code, 0xff))
+            mstore(stream, add(target, shr(3, count)))
+            mstore(add(stream, 0x20), and(count, 7))
         }
     }
 
