@@ -86,7 +86,7 @@ LONGEST = 258
 #: Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
 PART = 256
 #: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, as many pixels as fit into
-#: a word are written all if so many of them are not like those at their left. So they are where pixels are not enlarged.
+#: a word are written all if so many of them are not like those at their left; likewise where pixels are not enlarged.
 BLOCK = 8
 MANY = 4
 

@@ -216,6 +216,13 @@ def test_a_camera_that_shows_everything_stays() -> None:
         assert animate(scene, hold=True) == animate(scene)
 
 
+def test_a_scene_without_objects() -> None:
+    for camera in (SCENE.camera, evolve(SCENE.camera, projection="orthographic", half_height=9.0)):
+        film = frames_of(animate(Scene([], evolve(camera, near=1), width=8, height=8), frames=2, hold=True))
+        assert len(film) == 2
+        assert np.array_equal(*film)
+
+
 def test_wide_meshes_are_held() -> None:
     wide = Mesh(np.asarray(BOARD.positions) * 900, BOARD.faces)
     scene = Scene([Object(wide, scale=1 / 900, cull=False)], Camera((0, 0, 100), (0, 0, 0)), width=24, height=24)

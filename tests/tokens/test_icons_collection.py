@@ -262,8 +262,12 @@ def test_a_token_turns(s: Stage) -> None:
         assert 0.02 < (frame != frames[0]).any(axis=2).mean() < 0.6
         # the background is the same all along a row
         assert (frame[:, :4] == frame[:, -4:]).all()
-    with refused("OwnerQueryForNonexistentToken"):
-        s.icons.call("animation", 1)
+    scheme, _, text = s.icons.call("model", 0).partition(",")
+    assert scheme == "data:model/gltf-binary;base64"
+    assert base64.b64decode(text, validate=True) == s.studio.call("glb", s.icons.call("iconAt", 1)[1])
+    for function in ("animation", "model"):
+        with refused("OwnerQueryForNonexistentToken"):
+            s.icons.call(function, 1)
 
 
 def test_the_collection_speaks_of_itself(s: Stage) -> None:

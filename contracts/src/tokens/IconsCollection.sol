@@ -228,6 +228,11 @@ contract IconsCollection is Collection, StudioErrors {
         return studio.animateDataURI(it.scene, Spin(FRAMES, FRAME_TIME, it.scale, Vector(ZERO, ONE, ZERO), true), changes);
     }
 
+    /// @notice The icon of a token as a model, which viewers turn: a `data:` URI of a binary glTF file.
+    function model(uint256 tokenId) external view returns (string memory) {
+        return studio.glbDataURI(icons[iconOf(tokenId)].scene);
+    }
+
     /// @notice The metadata of a token.
     /// @return A `data:` URI of JSON, the picture in it a PNG.
     function tokenURI(uint256 tokenId) public view override returns (string memory) {
