@@ -27,6 +27,7 @@ from shackled.datasets.icons import pieces as icons
 from shackled.scene import LookOptions, resize, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
+from shackled.studio import make_apng
 
 HERE = Path(__file__).resolve().parent
 IMAGES = HERE / "images"
@@ -133,6 +134,9 @@ def main() -> None:
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}
+    film = make_apng(load("icons/rocket", 64), frames=12, duration=100, scale=4)
+    film.save(IMAGES / "motion.png")
+    figures["motion"] = {"frames": 12, "gas": film.gas}
     images = strip()
     PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
     figures["strip"] = {"gas": [image.gas for image in images]}

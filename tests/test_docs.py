@@ -27,7 +27,19 @@ PROGRAMS = sorted((ROOT / "examples" / "programs").glob("*.py"))
 #: Those that need a node, whose address is in SHACKLED_RPC.
 ON_A_NODE = {"node", "stored_mesh"}
 #: Pages whose blocks form one program; of the others only the imports are run, since they need nodes or much time.
-RUNNING = {"datasets", "energy", "export", "gas", "genesis", "icons", "look", "reference", "stages", "tutorial"}
+RUNNING = {
+    "datasets",
+    "energy",
+    "export",
+    "gas",
+    "genesis",
+    "icons",
+    "look",
+    "motion",
+    "reference",
+    "stages",
+    "tutorial",
+}
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
 MODEL = """ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z
 element face 1\nproperty list uchar int vertex_indices\nend_header\n0 1 0\n-1 -1 0\n1 -1 0\n3 0 1 2\n"""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import io
+import re
 import struct
 import xml.etree.ElementTree as ElementTree
 
@@ -93,9 +94,18 @@ def test_all_entry_points_return_the_same_picture(width: int, height: int) -> No
 
 
 def test_the_svg_of_an_image_is_that_of_the_contract() -> None:
+    """But for the file in it, which is a PNG of the same pixels."""
     scene = evolve(teapot_scene(), width=20, height=14)
     image: Image = render(scene)
-    assert image.encode(".svg") == dynamic(call("renderSVG", fit(scene)).output)
+    ours, theirs = (
+        re.fullmatch(rb'(.*href="data:image/)(\w+);base64,([^"]*)(".*)', svg)
+        for svg in (image.encode(".svg"), dynamic(call("renderSVG", fit(scene)).output))
+    )
+    assert ours is not None
+    assert theirs is not None
+    assert (ours[1], ours[2], ours[4]) == (theirs[1], b"png", theirs[4])
+    with PillowImage.open(io.BytesIO(base64.b64decode(ours[3], validate=True))) as picture:
+        assert np.array_equal(np.asarray(picture), image.pixels)
 
 
 @pytest.mark.parametrize(("width", "height"), [(1, 2), (5, 300), (300, 5), (3, 1024)])

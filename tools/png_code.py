@@ -86,7 +86,7 @@ LONGEST = 258
 #: Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
 PART = 256
 #: Where the codes of a pixel and of a match of the rest of its square have 32 bits together, as many pixels as fit into
-#: a word are written all if so many of them are not like those at their left.
+#: a word are written all if so many of them are not like those at their left; likewise where pixels are not enlarged.
 BLOCK = 8
 MANY = 4
 
@@ -133,7 +133,7 @@ def _deflate(pixels: NDArray[np.uint8], scale: int) -> bytes:
 def _written(part: NDArray[np.uint8], scale: int) -> list[int]:
     """Return which pixels are written; the others equal those at their left."""
     written = np.append(True, (part[1:] != part[:-1]).any(1))
-    if 3 * LITERAL_LENGTH + len(match(3 * scale - 3, PIXEL)) == 32:
+    if scale == 1 or 3 * LITERAL_LENGTH + len(match(3 * scale - 3, PIXEL)) == 32:
         # the first pixel of a part is written anyway
         changed = np.append(False, written[1:])
         for begin in range(0, len(part) - BLOCK + 1, BLOCK):

@@ -10,6 +10,7 @@ from ._load import Thing, load
 from ._on import On, where_of
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
+from .errors import InputError
 from .image import Image, decode_bmp
 from .scene import LookOptions, Scene, full_turn, size_of
 
@@ -54,6 +55,7 @@ def turntable(
     tile: int | tuple[int, int] | None = None,
     listener: Listener | None = None,
     keep: Path | None = None,
+    one_call: bool = False,
     **look: Unpack[LookOptions],
 ) -> Animation:
     """Render a full turn about the vertical axis through the middle of the scene.
@@ -64,7 +66,17 @@ def turntable(
     frames: number of frames, 2..720.
     duration: time for which a frame is shown in milliseconds, 20..10,000.
     on, gas_limit, tile, listener, keep: as in `render`.
+    one_call: whether the contract Turntable makes the whole animated PNG file in one call, as for a token. At most 360
+        frames, no tiles, and `on` as in `shackled.studio.make_apng`.
     """
+    if one_call:
+        from .studio import make_apng
+
+        if tile is not None:
+            raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
+        return Animation.of(
+            make_apng(load(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
+        )
     from .parallel import render_frames
 
     turned = full_turn(load(thing, size, **look), frames)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 import webbrowser
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
+from PIL import ImageSequence
 
 from .checks import number
 from .errors import InputError
@@ -34,6 +36,9 @@ from .scene import PICTURE
 from .values import plural
 from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
 
+if TYPE_CHECKING:
+    from .studio import ContractFile
+
 #: Milliseconds for which a frame is shown.
 DURATION = 80
 
@@ -51,17 +56,28 @@ def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
 class Animation:
     """Frames as a contract made them, all of one size, repeated endlessly.
 
-    frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000.
+    frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a
+    contract made all of it.
     """
 
     frames: tuple[Image, ...] = field(converter=_frames)
     duration: int = field(default=DURATION, converter=check_duration)
+    file: ContractFile | None = None
 
     def __attrs_post_init__(self) -> None:
         """Check that the frames fit together."""
         sizes = {frame.pixels.shape for frame in self.frames}
         if len(sizes) != 1:
             raise InputError(f"an animation needs at least one frame, and all of one size, not {len(sizes)} sizes")
+
+    @classmethod
+    def of(cls, file: ContractFile, duration: int) -> Animation:
+        """Return the animation of an APNG that a contract made."""
+        with PillowImage.open(io.BytesIO(file.content), formats=["PNG"]) as film:
+            frames = [
+                Image(np.array(frame.convert("RGB")), made_by=file.made_by) for frame in ImageSequence.Iterator(film)
+            ]
+        return cls(frames, duration, file)
 
     def __repr__(self) -> str:
         first = self.frames[0]
@@ -71,17 +87,17 @@ class Animation:
     @property
     def gas(self) -> int | None:
         """The sum of all frames; None where gas is not counted."""
-        return _sum([frame.gas for frame in self.frames])
+        return _sum([frame.gas for frame in self.frames]) if self.file is None else self.file.gas
 
     @property
     def intrinsic_gas(self) -> int | None:
         """The sum of all frames; None where gas is not counted."""
-        return _sum([frame.intrinsic_gas for frame in self.frames])
+        return _sum([frame.intrinsic_gas for frame in self.frames]) if self.file is None else self.file.intrinsic_gas
 
     @property
     def calls(self) -> int:
         """The number of calls for all frames."""
-        return sum(frame.calls for frame in self.frames)
+        return sum(frame.calls for frame in self.frames) if self.file is None else 1
 
     @property
     def pixels(self) -> NDArray[np.uint8]:
@@ -92,7 +108,7 @@ class Animation:
         """Return the bytes of a file: ".gif", or ".png" for an APNG. InputError for any other.
 
         A GIF has at most 256 colours for all frames, the nearest where there are more; an APNG is exact.
-        scene: whether an APNG carries the scene of its first frame, as in `Image.encode`.
+        scene: whether an APNG carries the scene of its first frame, as in `Image.encode`; that of a contract does not.
         """
         extension = check_extension(extension, FORMATS)
         if extension == PICTURE:
@@ -153,6 +169,8 @@ def _encode_gif(animation: Animation) -> bytes:
 
 
 def _encode_apng(animation: Animation, scene: bool | None = None) -> bytes:
+    if animation.file is not None and not scene:
+        return animation.file.content
     options = png_options(animation.frames[0], scene)
     return _encode(animation, animation.to_pil(), "PNG", default_image=False, **options)
 

@@ -167,11 +167,11 @@ def _encode_png(image: Image, scene: bool | None = None) -> bytes:
 
 
 def _encode_svg(image: Image) -> bytes:
-    # character by character what the contract's renderSVG returns
+    # a PNG, since image servers draw nothing for a bitmap within an SVG
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {image.width} {image.height}">'
         f'<image width="{image.width}" height="{image.height}" style="image-rendering:pixelated"'
-        f' href="{data_uri("image/bmp", image.bmp)}"/></svg>'
+        f' href="{data_uri("image/png", _encode_png(image, False))}"/></svg>'
     ).encode()
 
 

@@ -128,6 +128,8 @@ def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:
         *artifact("Renderer").parts,
         "Renderer",
         "PngEncoder",
+        "Turntable",
+        "GlbEncoder",
         "Studio",
     ]
     for each in deployments(names.split(",")):

@@ -19,6 +19,7 @@ from shackled import InputError, Scene, __version__, load, render
 from shackled.chain import CHAINS
 from shackled.cli.app import run
 from shackled.scene import render_call
+from shackled.studio import make_apng
 
 
 def pixels(path: str) -> np.ndarray:
@@ -404,6 +405,28 @@ def test_a_turntable_carries_its_scene(output: str, capsys: pytest.CaptureFixtur
     assert run([*turned, "--no-scene"]) == 0
     with pytest.raises(InputError, match="carries no scene"):
         load(first)
+
+
+def test_a_turntable_of_one_call(capsys: pytest.CaptureFixture[str]) -> None:
+    turned = ["render", "shape.obj", "--size", "16", "--turntable", "5", "--one-call", "--duration", "50"]
+    assert run([*turned, "-o", "one.png", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    made = make_apng(load("shape.obj", 16), 5, 50)
+    assert Path("one.png").read_bytes() == made.content
+    assert (report["frames"], report["calls"], report["gas"]) == (5, 1, made.gas)
+    assert run([*turned, "-o", "one"]) == 0
+    assert len(list(Path("one").iterdir())) == 5
+    assert "visible" not in capsys.readouterr().err
+    wrong = {
+        ("--tile", "8"): "has no tiles: leave out --tile or --one-call",
+        ("--jobs", "2"): "needs an EVM that runs the contracts, or a node; not several processes",
+        ("--scene", "-o", "a.png"): "--scene and --one-call exclude each other",
+    }
+    for options, message in wrong.items():
+        assert run([*turned, *options]) == 2
+        assert message in capsys.readouterr().err
+    assert run(["render", "shape.obj", "--one-call"]) == 2
+    assert "--one-call needs --turntable" in capsys.readouterr().err
 
 
 def test_as_a_process(folder: Path) -> None:

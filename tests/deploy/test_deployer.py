@@ -82,7 +82,13 @@ def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
         assert len(each.code) == len(artifact(each.name).runtime)
     assert [each.name for each in deployments(["Renderer"])] == list(RENDERER)
     assert [each.name for each in deployments(["Genesis", "Renderer"])] == [*RENDERER, "Genesis"]
-    assert [each.name for each in deployments(["Studio"])] == [*RENDERER, "PngEncoder", "Studio"]
+    assert [each.name for each in deployments(["Studio"])] == [
+        *RENDERER,
+        "PngEncoder",
+        "Turntable",
+        "GlbEncoder",
+        "Studio",
+    ]
     assert [each.name for each in deployments(["PngEncoder"])] == ["PngEncoder"]
     for name in CONTRACTS:
         assert deployments([name])[-1].name == name

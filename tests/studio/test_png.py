@@ -6,6 +6,7 @@ import io
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -98,6 +99,15 @@ def test_sums_of_large_pictures() -> None:
     assert np.array_equal(opened(png), enlarged(pixels, 4))
 
 
+def test_a_file_without_sums() -> None:
+    """What is left to others: checksums, the size of the data, and the last chunk."""
+    pixels = np.random.default_rng(6).integers(0, 256, (9, 70, 3), np.uint8)
+    whole, bare = encode_png(pixels, 1), contract_answer(pixels, 1, "compress")
+    assert len(bare) == len(whole)
+    assert bare[:29] == whole[:29]
+    assert bare[37:-16] == whole[37:-16]
+
+
 def test_data_uri() -> None:
     import base64
 
@@ -105,6 +115,24 @@ def test_data_uri() -> None:
     for scale in range(1, 9):
         uri = contract_answer(pixels, scale, "dataURI")
         assert uri == b"data:image/png;base64," + base64.b64encode(encode_png(pixels, scale))
+
+
+def test_svg() -> None:
+    """A document of the size of the file that it holds."""
+    pixels = np.random.default_rng(4).integers(0, 256, (7, 300, 3), np.uint8)
+    for scale in (1, 8):
+        root = ElementTree.fromstring(contract_answer(pixels, scale, "svg").decode("ascii"))
+        assert root.attrib == {"viewBox": f"0 0 {300 * scale} {7 * scale}"}
+        (image,) = root
+        uri = image.attrib.pop("href")
+        assert image.attrib == {
+            "width": str(300 * scale),
+            "height": str(7 * scale),
+            "style": "image-rendering:pixelated",
+        }
+        assert uri == contract_answer(pixels, scale, "dataURI").decode()
+    with pytest.raises(RenderError, match="ScaleOutOfRange"):
+        contract_answer(pixels, 9, "svg")
 
 
 def test_data_uri_of_whole_words() -> None:

@@ -77,6 +77,7 @@ def test_a_scene_is_drawn_as_it_was(world: World) -> None:
     assert np.array_equal(pixels(png), picture.pixels.repeat(3, 0).repeat(3, 1))
     uri = world.call("Studio", "renderDataURI(address,uint256)", pointer, 1)
     assert uri.startswith("data:image/png;base64,iVBORw0KGgo")
+    assert f'href="{uri}"' in world.call("Studio", "renderSVG(address,uint256)", pointer, 1)
 
 
 def test_a_data_uri_of_whole_words(world: World) -> None:
@@ -90,6 +91,7 @@ def test_a_data_uri_of_whole_words(world: World) -> None:
     assert len(png) % 32 == 0
     uri = world.call("Studio", f"renderDataURI(address,uint256,{CHANGES})", pointer, 2, changes)
     assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
+    assert f'href="{uri}"' in world.call("Studio", f"renderSVG(address,uint256,{CHANGES})", pointer, 2, changes)
 
 
 def test_what_is_kept_is_the_scene(world: World) -> None:
@@ -440,11 +442,11 @@ def test_a_scene_of_parts_that_are_not_there_does_not_pass_the_check(world: Worl
         world.run(world.address("Studio"), call_data("check(address)", listed))
 
 
-@pytest.mark.parametrize("place", [0, 1])
+@pytest.mark.parametrize("place", range(4))
 def test_an_address_without_code_is_no_part(world: World, place: int) -> None:
     from shackled.artifacts import artifact
 
-    parts = [world.address("Renderer"), world.address("PngEncoder")]
+    parts = [world.address(name) for name in artifact("Studio").parts]
     world.deploy(artifact("Studio").creation, b"".join(part.rjust(32, b"\0") for part in parts))
     parts[place] = b"\x77" * 20
     with pytest.raises(ChainError, match="could not be deployed"):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -15,6 +17,8 @@ import numpy as np
 from eth_abi.abi import encode
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from PIL import Image as PillowImage
+from PIL import ImageSequence
 from tools.tokens.merkle import leaf
 from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import ETHER, GAS, ZERO, Contract, Refused, keccak
@@ -241,6 +245,29 @@ def test_icons_that_cannot_be_drawn_are_refused(s: Stage) -> None:
         if len(error) > 1:
             assert caught.value.values == error[1:]
     assert c.call("iconCount") == 1
+
+
+def test_a_token_turns(s: Stage) -> None:
+    """Its picture in `tokenURI` and its animation show the same icon, which is not cut off."""
+    s.icons.send("mint", 1, 1, sender=s.alice, value=PRICES[1])
+    scheme, _, text = s.icons.call("animation", 0).partition(",")
+    assert scheme == "data:image/png;base64"
+    with PillowImage.open(io.BytesIO(base64.b64decode(text, validate=True))) as film:
+        assert (film.size, film.info["loop"], film.info["duration"]) == ((256, 256), 0, 100)
+        frames = [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(film)]
+    assert len(frames) == 12
+    still = render(evolve(icon_scene("icons/ethereum"), width=64, height=64)).pixels.repeat(4, 0).repeat(4, 1)
+    assert (np.abs(frames[0].astype(int) - still) > 8).mean() < 0.05
+    for frame in frames[1:]:
+        assert 0.02 < (frame != frames[0]).any(axis=2).mean() < 0.6
+        # the background is the same all along a row
+        assert (frame[:, :4] == frame[:, -4:]).all()
+    scheme, _, text = s.icons.call("model", 0).partition(",")
+    assert scheme == "data:model/gltf-binary;base64"
+    assert base64.b64decode(text, validate=True) == s.studio.call("glb", s.icons.call("iconAt", 1)[1])
+    for function in ("animation", "model"):
+        with refused("OwnerQueryForNonexistentToken"):
+            s.icons.call(function, 1)
 
 
 def test_the_collection_speaks_of_itself(s: Stage) -> None:

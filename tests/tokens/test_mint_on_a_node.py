@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import re
@@ -10,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image as PillowImage
+from PIL import ImageSequence
 
 from shackled import load, render
 from shackled.cli.app import run
@@ -50,6 +52,20 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     large = tmp_path / "large.png"
     assert "bytes" in shackled("token", "picture", minted["pointer"], "-o", large, "--scale", 2).out
     assert pixels(large.read_bytes()).shape == (256, 256, 3)
+    vector, model, film = tmp_path / "bell.svg", tmp_path / "bell.glb", tmp_path / "film.png"
+    shackled("token", "picture", minted["pointer"], "-o", vector, "--scale", 2)
+    assert base64.b64encode(large.read_bytes()) in vector.read_bytes()
+    shackled("token", "picture", minted["pointer"], "-o", model)
+    assert model.read_bytes()[:4] == b"glTF"
+    turned = ["--turntable", 3, "--scale", 1, "--duration", 40]
+    shackled("token", "picture", minted["pointer"], "-o", film, "--size", 16, *turned)
+    with PillowImage.open(film) as opened:
+        assert (opened.size, opened.info["duration"]) == ((16, 16), 40)
+        assert len(list(ImageSequence.Iterator(opened))) == 3
+    shackled("token", "picture", minted["pointer"], "-o", film, *turned)
+    assert pixels(film.read_bytes()).shape == (128, 128, 3)
+    for options in (["-o", vector, "--turntable", 3], ["-o", large, "--size", 8], ["-o", tmp_path / "a.gif"]):
+        shackled("token", "picture", minted["pointer"], *options, expect=2)
     said = shackled("token", "picture", "0x" + "12" * 20, "-o", large, expect=1)
     assert "no scene is stored at 0x1212" in said.error
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Base64} from "./Base64.sol";
+import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Bmp} from "./Bmp.sol";
 import {Crc32} from "./Crc32.sol";
+import {DataUri} from "./DataUri.sol";
 import {LITERALS, PngCode} from "./PngCode.sol";
 import {PngErrors} from "./PngErrors.sol";
-import {Text} from "./Text.sol";
 
 /// @notice PNG files of the renderer's bitmaps, each pixel a square of up to 8 x 8, so that it stays crisp wherever pictures are smoothed.
 /// @dev Source: PNG (W3C), RFC 1950 (zlib), RFC 1951 (deflate).
@@ -16,6 +16,7 @@ import {Text} from "./Text.sol";
 /// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
 library Png {
     uint256 internal constant MAX_SCALE = 8;
+    string private constant URI = "data:image/png;base64,";
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
     uint256 private constant DATA = 75;
@@ -38,10 +39,12 @@ library Png {
     /// @dev Bits of the codes of a byte and of a pixel.
     uint256 private constant LITERAL_SIZE = 9;
     uint256 private constant PIXEL_SIZE = 27;
-    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, eight pixels of which so many are
-    /// not like those at their left are all written.
+    /// @dev Where the match of the rest of a square has so many bits, so that a pixel has 32 with it, or where there is none, eight pixels
+    /// of which so many are not like those at their left are all written.
     uint256 private constant SHORT_MATCH = 5;
     uint256 private constant MANY = 4;
+    /// @dev Bits of eight pixels without matches.
+    uint256 private constant ALL_EIGHT = 216;
     /// @dev Of pixels without their bytes 18 and more: the uppermost bytes of eight pixels in the lower 24 bytes of a word.
     uint256 private constant BYTE_OF_PIXEL = 0x00000000000000000000ff0000ff0000ff0000ff0000ff0000ff0000ff0000ff;
 
@@ -54,6 +57,10 @@ library Png {
     uint256 private constant UPPER_FOUR = 0x0000000000000000ffffffffffffffffffffffff000000000000000000000000;
     uint256 private constant UPPER_TWO = 0x00000000ffffffffffff00000000000000000000ffffffffffff000000000000;
     uint256 private constant UPPER_ONE = 0x0000ffffff0000000000ffffff0000000000ffffff0000000000ffffff000000;
+    /// @dev Of eight pixels of 27 bits in 32 each the lower of each two; when that has moved up, of four pairs likewise; of two fours.
+    uint256 private constant LOWER_ONE = 0x0000000007ffffff0000000007ffffff0000000007ffffff0000000007ffffff;
+    uint256 private constant LOWER_TWO = 0x000000000000000007ffffffffffffe0000000000000000007ffffffffffffe0;
+    uint256 private constant LOWER_FOUR = 0x0000000000000000000000000000000007ffffffffffffffffffffffffff8000;
     /// @dev 1 in each 32 bits; their lowest byte, and the one above it.
     uint256 private constant EACH_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
     uint256 private constant LOWEST_BYTES = 0x000000ff000000ff000000ff000000ff000000ff000000ff000000ff000000ff;
@@ -103,6 +110,12 @@ library Png {
     /// @param bmp 24 bits a pixel, as the renderer makes it.
     /// @param scale How many pixels each becomes in both directions, 1..8.
     function encode(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
+        png = compress(bmp, scale);
+        writeSums(png);
+    }
+
+    /// @notice The same without what `writeSums` fills in.
+    function compress(bytes calldata bmp, uint256 scale) internal pure returns (bytes memory png) {
         unchecked {
             (uint256 width, uint256 height) = sizeOf(bmp);
             if (scale == 0 || scale > MAX_SCALE) revert PngErrors.PixelScaleOutOfRange(scale, MAX_SCALE);
@@ -137,31 +150,35 @@ library Png {
             put(stream, rest << (256 - restSize), restSize);
             (uint256 second, uint256 first) = writeRows(stream, rows, scale);
             finish(png, stream, second, first);
-            writeSums(png);
         }
     }
 
     /// @notice A PNG file of a bitmap as a `data:` URI.
-    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory uri) {
+    function dataURI(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
+        // this stands before the file, since zeros are written behind that
+        string memory head = URI;
+        return DataUri.wrap(head, encode(bmp, scale), "");
+    }
+
+    /// @notice An SVG document of the size of the PNG file, which it holds.
+    function svg(bytes calldata bmp, uint256 scale) internal pure returns (string memory) {
         unchecked {
-            // this stands before the file, since zeros are written behind that
-            string memory prefix = "data:image/png;base64,";
-            bytes memory png = encode(bmp, scale);
-            uint256 file;
-            uint256 begin;
-            assembly ("memory-safe") {
-                file := add(png, 32)
-                // the encoder needs zeros behind the file
-                mstore(add(file, mload(png)), 0)
-                uri := add(mload(0x40), 32)
-                begin := add(uri, 32)
-            }
-            uint256 end = Base64.encode(file, png.length, Text.write(begin, prefix));
-            assembly ("memory-safe") {
-                mstore(uri, sub(end, begin))
-                mstore(end, 0)
-                mstore(0x40, and(add(end, 63), not(31)))
-            }
+            (uint256 width, uint256 height) = sizeOf(bmp);
+            (string memory w, string memory h) = (Strings.toString(width * scale), Strings.toString(height * scale));
+            string memory head = string.concat(
+                '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ',
+                w,
+                " ",
+                h,
+                '"><image width="',
+                w,
+                '" height="',
+                h,
+                '" style="image-rendering:pixelated" href="',
+                URI
+            );
+            string memory tail = '"/></svg>';
+            return DataUri.wrap(head, encode(bmp, scale), tail);
         }
     }
 
@@ -394,6 +411,14 @@ library Png {
                 newCount := and(newCount, 7)
             }
 
+            function writeMatch(target, count, code) -> newTarget, newCount {
+                let size := and(code, 0xff)
+                mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, xor(code, size))))
+                newCount := add(count, size)
+                newTarget := add(target, shr(3, newCount))
+                newCount := and(newCount, 7)
+            }
+
             let target := mload(stream)
             let count := mload(add(stream, 0x20))
             // the pixel that was written last: its match comes when it is known how far it goes
@@ -401,7 +426,8 @@ library Png {
             target, count := write(target, count, 0, first)
             mcopy(sub(first, 3), first, 3)
             // eight pixels that begin before this one may all be written
-            let full := mul(sub(end, 23), eq(byte(31, mload(add(gaps, 48))), SHORT_MATCH))
+            let square := byte(31, mload(add(gaps, 48)))
+            let full := mul(sub(end, 23), or(eq(square, SHORT_MATCH), iszero(square)))
             for {} lt(first, end) {} {
                 // most pixels are like those at their left, often 32 together
                 let left := sub(first, 3)
@@ -433,6 +459,26 @@ library Png {
                             and(shr(16, pixels), LOWEST_BYTES)
                         )
                         pixels := add(pixels, mload(gaps))
+                        if iszero(square) {
+                            // to 27 bits each: the lower one of each two moves up
+                            pixels := add(pixels, mul(and(pixels, LOWER_ONE), 31))
+                            pixels := add(pixels, mul(and(pixels, LOWER_TWO), 1023))
+                            pixels := shl(5, add(pixels, mul(and(pixels, LOWER_FOUR), 1048575)))
+                            let size := ALL_EIGHT
+                            switch xor(first, last)
+                            case 0 {
+                                // the first one is written already
+                                pixels := shl(PIXEL_SIZE, pixels)
+                                size := sub(ALL_EIGHT, PIXEL_SIZE)
+                            }
+                            default { target, count := writeMatch(target, count, mload(add(gaps, shl(4, sub(first, last))))) }
+                            mstore(target, or(and(mload(target), FIRST_BYTE), shr(count, pixels)))
+                            count := add(count, size)
+                            target := add(target, shr(3, count))
+                            count := and(count, 7)
+                            last := add(first, 21)
+                            continue
+                        }
                         switch sub(first, last)
                         case 3 {
                             // all of them: a word and what is pushed out of it

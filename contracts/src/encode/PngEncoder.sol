@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {answer} from "./Forward.sol";
 import {Png} from "./Png.sol";
 import {PngErrors} from "./PngErrors.sol";
 
@@ -11,19 +12,19 @@ contract PngEncoder is PngErrors {
         answer(Png.encode(bmp, scale));
     }
 
-    /// @notice The same as a `data:` URI.
+    /// @notice The PNG file without the size of its data, the checksums of its chunks and the chunk IEND, for other files that have those:
+    /// `Apng`.
+    function compress(bytes calldata bmp, uint256 scale) external pure returns (bytes memory) {
+        answer(Png.compress(bmp, scale));
+    }
+
+    /// @notice The PNG file as a `data:` URI.
     function dataURI(bytes calldata bmp, uint256 scale) external pure returns (string memory) {
         answer(bytes(Png.dataURI(bmp, scale)));
     }
 
-    /// @dev Ends the call with bytes from where they are: the compiler would copy them.
-    function answer(bytes memory data) private pure {
-        assembly ("memory-safe") {
-            let begin := sub(data, 0x20)
-            let size := mload(data)
-            mstore(begin, 0x20)
-            mstore(add(add(data, 0x20), size), 0)
-            return(begin, add(0x40, and(add(size, 0x1f), not(0x1f))))
-        }
+    /// @notice An SVG document that holds the PNG file, and shows each pixel of the bitmap as a square without smoothing.
+    function svg(bytes calldata bmp, uint256 scale) external pure returns (string memory) {
+        answer(bytes(Png.svg(bmp, scale)));
     }
 }

@@ -43,12 +43,12 @@ library PackedMesh {
         }
     }
 
-    /// @dev Where the vertices are.
+    /// @notice Where the vertices are.
     /// @return begin The first one.
     /// @return end Behind the last one; 0 if the bytes end before.
     /// @return size Bytes of a coordinate.
     /// @return stride Bytes of a vertex.
-    function vertices(bytes memory mesh) private pure returns (uint256 begin, uint256 end, uint256 size, uint256 stride) {
+    function vertices(bytes memory mesh) internal pure returns (uint256 begin, uint256 end, uint256 size, uint256 stride) {
         unchecked {
             uint256 header;
             assembly ("memory-safe") {

@@ -46,8 +46,8 @@ library SceneChanges {
         if (fields > 63) revert StudioErrors.UnknownChanges(fields);
         if (fields & TURN != 0) {
             checkTurn(changes.turn);
-            for (uint256 k; k < scene.objects.length; ++k) checkPlace(scene.objects[k], k);
-            turn(scene, changes.turn);
+            checkPlaces(scene);
+            turn(scene, changes.turn, middle(scene));
         }
         if (fields & PAINT != 0) {
             if (changes.color > 0xffffff) revert StudioErrors.ColorOutOfRange(changes.color);
@@ -59,7 +59,11 @@ library SceneChanges {
         if (fields & ANTIALIAS != 0) scene.extensions = Extensions.added(scene.extensions, ANTIALIAS_RECORD, 0, "");
     }
 
-    /// @dev What is computed with here must be within its bounds before; the renderer checks the rest.
+    /// @notice What is computed with here must be within its bounds before; the renderer checks the rest.
+    function checkPlaces(Scene memory scene) internal pure {
+        for (uint256 k; k < scene.objects.length; ++k) checkPlace(scene.objects[k], k);
+    }
+
     function checkPlace(Object memory object, uint256 index) private pure {
         Vector memory p = object.position;
         checkPosition(p.x.raw(), p.y.raw(), p.z.raw(), index);
@@ -69,10 +73,9 @@ library SceneChanges {
         checkRotation(q.x.raw(), q.y.raw(), q.z.raw(), q.w.raw(), index);
     }
 
-    /// @notice Turns all objects about their middle.
-    function turn(Scene memory scene, Quaternion memory q) internal pure {
+    /// @notice Turns all objects about a point.
+    function turn(Scene memory scene, Quaternion memory q, Vector memory center) internal pure {
         Matrix memory m = q.toMatrix();
-        Vector memory center = middle(scene);
         for (uint256 k; k < scene.objects.length; ++k) {
             Object memory object = scene.objects[k];
             object.position = center.add(m.times(object.position.sub(center)));

@@ -3,15 +3,19 @@ pragma solidity 0.8.37;
 
 import {LibZip} from "solady/src/utils/LibZip.sol";
 import {forward} from "../encode/Forward.sol";
+import {GlbEncoder} from "../encode/GlbEncoder.sol";
 import {PngEncoder} from "../encode/PngEncoder.sol";
+import {ONE} from "../math/Fixed.sol";
 import {COMPACT, LAST_FORMAT, SCENE, kindOf} from "../mesh/Kinds.sol";
 import {Meshes} from "../mesh/Meshes.sol";
-import {Rectangle, Scene} from "../scene/Scene.sol";
+import {NORMALS} from "../scene/Mesh.sol";
+import {FLAT, SMOOTH, Object, Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
 import {Kept} from "./Kept.sol";
 import {Changes, SceneChanges} from "./SceneChanges.sol";
 import {StudioErrors} from "./StudioErrors.sol";
+import {Spin, Turntable} from "./Turntable.sol";
 
 /// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
@@ -20,6 +24,10 @@ import {StudioErrors} from "./StudioErrors.sol";
 contract Studio is WithRenderer, StudioErrors {
     /// @notice What makes PNG files of the pictures.
     PngEncoder public immutable encoder;
+    /// @notice What makes animated PNG files of scenes that turn.
+    Turntable public immutable turntable;
+    /// @notice What makes models of scenes.
+    GlbEncoder public immutable modeller;
 
     /// @notice Bytes were stored by `storeMesh` or `storeScene`. There is no event where they were kept already, nor for what `storePart`
     /// and `join` store: that nothing was told does not mean that nothing is kept. Ask the pointer.
@@ -29,10 +37,16 @@ contract Studio is WithRenderer, StudioErrors {
 
     /// @notice The address has no code.
     error NoEncoder(address encoder);
+    /// @notice The address has no code.
+    error NoTurntable(address turntable);
+    /// @notice The address has no code.
+    error NoModeller(address modeller);
 
-    constructor(Renderer renderer_, PngEncoder encoder_) WithRenderer(renderer_) {
+    constructor(Renderer renderer_, PngEncoder encoder_, Turntable turntable_, GlbEncoder modeller_) WithRenderer(renderer_) {
         if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
-        encoder = encoder_;
+        if (address(turntable_).code.length == 0) revert NoTurntable(address(turntable_));
+        if (address(modeller_).code.length == 0) revert NoModeller(address(modeller_));
+        (encoder, turntable, modeller) = (encoder_, turntable_, modeller_);
     }
 
     /// @notice Stores a mesh in any of its forms but a pointer: packed (`Mesh.sol`) or compact (`CompactMesh.sol`).
@@ -79,7 +93,7 @@ contract Studio is WithRenderer, StudioErrors {
     function scene(address pointer) public view returns (Scene memory scene_) {
         bytes memory data = Kept.read(pointer);
         if (kindOf(data) != SCENE) revert NotAScene(pointer);
-        scene_ = opened(abi.decode(LibZip.cdDecompress(Meshes.rest(data)), (Scene)));
+        return decoded(data);
     }
 
     /// @notice The same with changes.
@@ -126,6 +140,36 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(scene(pointer, changes)), scale)));
     }
 
+    /// @notice An SVG document that holds the PNG file, and shows each pixel as a square without smoothing.
+    function renderSVG(address pointer, uint256 scale) external view returns (string memory) {
+        forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer)), scale)));
+    }
+
+    /// @notice The same with changes.
+    function renderSVG(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
+        forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer, changes)), scale)));
+    }
+
+    /// @notice The scene turning, as an animated PNG file: see `Turntable`, which draws scenes that are not kept.
+    function animate(address pointer, Spin memory spin) external view returns (bytes memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer), spin)));
+    }
+
+    /// @notice The same with changes, of which the first frame has the turn.
+    function animate(address pointer, Spin memory spin, Changes memory changes) external view returns (bytes memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer, changes), spin)));
+    }
+
+    /// @notice The animated PNG file as a `data:` URI.
+    function animateDataURI(address pointer, Spin memory spin) external view returns (string memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer), spin)));
+    }
+
+    /// @notice The same with changes.
+    function animateDataURI(address pointer, Spin memory spin, Changes memory changes) external view returns (string memory) {
+        forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer, changes), spin)));
+    }
+
     /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
     function drawPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(opened(scene_)), scale)));
@@ -134,6 +178,33 @@ contract Studio is WithRenderer, StudioErrors {
     /// @notice The same as a `data:` URI.
     function drawDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(opened(scene_)), scale)));
+    }
+
+    /// @notice A scene or a mesh that is kept, as a binary glTF file, which viewers turn: see `GlbEncoder`, which takes scenes that are not
+    /// kept.
+    function glb(address pointer) external view returns (bytes memory) {
+        forward(address(modeller), abi.encodeCall(GlbEncoder.encode, (shown(pointer))));
+    }
+
+    /// @notice The same as a `data:` URI.
+    function glbDataURI(address pointer) external view returns (string memory) {
+        forward(address(modeller), abi.encodeCall(GlbEncoder.dataURI, (shown(pointer))));
+    }
+
+    /// @dev A scene that is kept, or one with a mesh that is kept, seen from both sides.
+    function shown(address pointer) private view returns (Scene memory scene_) {
+        bytes memory data = Kept.read(pointer);
+        if (kindOf(data) == SCENE) return decoded(data);
+        scene_.objects = new Object[](1);
+        Object memory object = scene_.objects[0];
+        object.mesh = Meshes.open(data);
+        (object.rotation.w, object.scale) = (ONE, ONE);
+        object.material.shading = kindOf(object.mesh) & NORMALS == 0 ? FLAT : SMOOTH;
+        object.material.shininess = 1;
+    }
+
+    function decoded(bytes memory data) private view returns (Scene memory) {
+        return opened(abi.decode(LibZip.cdDecompress(Meshes.rest(data)), (Scene)));
     }
 
     function opened(Scene memory scene_) private view returns (Scene memory) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {GlbErrors} from "../encode/GlbErrors.sol";
 import {PngErrors} from "../encode/PngErrors.sol";
 import {MeshErrors} from "../mesh/MeshErrors.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {TurntableErrors} from "./TurntableErrors.sol";
 
 /// @title StudioErrors: what can be wrong with what the Studio keeps, with changes of it, and with its pictures.
-interface StudioErrors is SceneErrors, MeshErrors, PngErrors {
+interface StudioErrors is SceneErrors, MeshErrors, PngErrors, GlbErrors, TurntableErrors {
     /// @notice Nothing is kept there by this contract.
     error NothingKept(address pointer);
     /// @notice There is nothing to be kept, or its first byte is that of a list of parts.

@@ -2,6 +2,10 @@
 pragma solidity 0.8.37;
 
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
+import {ZERO, ONE} from "../math/Fixed.sol";
+import {Vector} from "../math/Vector.sol";
+import {CANVAS, Changes} from "../studio/SceneChanges.sol";
+import {Spin} from "../studio/Turntable.sol";
 import {Studio} from "../studio/Studio.sol";
 import {StudioErrors} from "../studio/StudioErrors.sol";
 import {Collection, Terms} from "./Collection.sol";
@@ -40,6 +44,10 @@ contract IconsCollection is Collection, StudioErrors {
         "Not by the authors of the Shackled contracts of 2021, nor endorsed by them.";
     uint256 internal constant MAX_SCALE = 8;
     uint256 internal constant MAX_NAME = 64;
+    /// @dev Of animations: how many frames, their sides in pixels, and how long each is shown, in milliseconds.
+    uint256 internal constant FRAMES = 12;
+    uint256 internal constant FRAME_SIDE = 64;
+    uint256 internal constant FRAME_TIME = 100;
 
     /// @notice What keeps the scenes, and has them drawn.
     Studio public immutable studio;
@@ -208,6 +216,21 @@ contract IconsCollection is Collection, StudioErrors {
     /// @return A Windows bitmap.
     function renderIcon(uint256 icon) external view returns (bytes memory) {
         return studio.render(known(icon).scene);
+    }
+
+    /// @notice The icon of a token turning about the vertical axis, for pages that show more than `tokenURI`. Much dearer than that: the
+    /// icons of the project take 14 to 60 million gas.
+    /// @return A `data:` URI of an animated PNG file: 12 frames of 64 x 64 pixels, each enlarged as in `tokenURI`.
+    function animation(uint256 tokenId) external view returns (string memory) {
+        Icon storage it = icons[iconOf(tokenId)];
+        Changes memory changes;
+        (changes.fields, changes.canvas.width, changes.canvas.height) = (CANVAS, FRAME_SIDE, FRAME_SIDE);
+        return studio.animateDataURI(it.scene, Spin(FRAMES, FRAME_TIME, it.scale, Vector(ZERO, ONE, ZERO), true), changes);
+    }
+
+    /// @notice The icon of a token as a model, which viewers turn: a `data:` URI of a binary glTF file.
+    function model(uint256 tokenId) external view returns (string memory) {
+        return studio.glbDataURI(icons[iconOf(tokenId)].scene);
     }
 
     /// @notice The metadata of a token.

@@ -25,8 +25,8 @@ def deploy(
         option(
             "--contracts",
             "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, Renderer, "
-            "Original, Genesis, PngEncoder, Studio and GenesisMetadata; without it, the first seven. Contracts that "
-            "they call are added.",
+            "Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio and GenesisMetadata; without it, the first "
+            "seven. Contracts that they call are added.",
             "NAMES",
         ),
     ] = None,

@@ -12,9 +12,12 @@ import typer
 
 from .._load import locate
 from ..datasets import Piece
+from ..errors import InputError
+from ..studio import make_glb
 from ..web import check_page
 from ..web import export as write_page
-from .look_options import with_look
+from ..whole_file import check_output_file
+from .look_options import load_with, with_look
 from .option import option
 from .progress import LateBar
 
@@ -27,7 +30,8 @@ SLOW = 2_000_000_000
 def export(
     input: Annotated[str, typer.Argument(help="Mesh file, scene file, or name of a piece.", metavar="INPUT")],
     output: Annotated[
-        str | None, option("-o --output", "Page to write: .html. Named after INPUT by default.", "FILE")
+        str | None,
+        option("-o --output", "File to write: a page, .html, or a model, .glb. Named after INPUT by default.", "FILE"),
     ] = None,
     title: Annotated[
         str | None, option("--title", "Title of the page (default: that of the piece, or the name of FILE).", "TEXT")
@@ -36,13 +40,35 @@ def export(
     *,
     look: dict[str, Any],
 ) -> None:
-    """Write a scene as a page of one file, on which anybody can turn it, in any browser and without a network."""
+    """Write a scene as a page of one file, on which anybody can turn it, in any browser and without a network.
+
+    A .glb file is a model for other viewers: one call of a contract makes it, as for a token.
+    """
     source = locate(input)
     stem = source.file_stem if isinstance(source, Piece) else source.stem
-    path = check_page(output if output is not None else f"{stem or 'scene'}.html")
+    is_model = output is not None and Path(output).suffix.lower() == ".glb"
+    path = (
+        check_output_file(Path(output or ""), "model") if is_model else check_page(output or f"{stem or 'scene'}.html")
+    )
     if isinstance(source, Piece) and source.notice:
         print(source.notice, file=sys.stderr)
     started = time.perf_counter()
+    if is_model:
+        if title is not None:
+            raise InputError("--title is for pages, and the model has none")
+        with LateBar("writing"):
+            made = make_glb(load_with(input, look))
+            made.save(path)
+        report = {
+            "input": input,
+            "gas": made.gas,
+            "seconds": round(time.perf_counter() - started, 6),
+            "output": str(path),
+            "bytes": len(made.content),
+        }
+        text = f"model    {path}, {report['bytes']:,} bytes\ngas      {made.gas:,}\ntime     {report['seconds']:.3f} s"
+        print(json.dumps(report) if as_json else text)
+        return
     with LateBar("rendering"):
         image = write_page(source, path, title=title, **look)
     seconds = time.perf_counter() - started

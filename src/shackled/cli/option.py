@@ -22,6 +22,7 @@ OPTIONS = {
     "licence": "--licence",
     "max_fee": "--max-fee",
     "max_triangles": "--max-triangles",
+    "one_call": "--one-call",
     "port": "--port",
     "rpc": "--rpc",
     "salt": "--salt",

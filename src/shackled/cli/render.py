@@ -63,6 +63,12 @@ def render(
         int | None,
         option("--duration", f"Duration of a frame (default: {DURATION}).", "MILLISECONDS", "Turntable"),
     ] = None,
+    one_call: Annotated[
+        bool,
+        option(
+            "--one-call", "Have one call of a contract make the whole animated PNG, as for a token.", None, "Turntable"
+        ),
+    ] = False,
     chain: Annotated[
         str | None,
         option("--chain", f"EVM to render in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME", "Where"),
@@ -119,6 +125,8 @@ def render(
     if turntable is None:
         if duration is not None:
             raise InputError("--duration needs --turntable")
+        if one_call:
+            raise InputError("--one-call needs --turntable")
         path = check_output(output if output is not None else f"{stem}.png")
     else:
         path = check_animation(output if output is not None else f"{stem}.gif")
@@ -126,9 +134,11 @@ def render(
         rpc = None  # options override the environment
     on = _on(chain, jobs, rpc or (), address, rpc_timeout, cluster, verify)
     sides = None if tile is None else parse_sides(tile, "--tile")
-    in_parts = turntable is not None or not where_of(on, gas_limit, sides).alone
+    in_parts = not one_call and (turntable is not None or not where_of(on, gas_limit, sides).alone)
     if chain is not None:
         open_chain(chain)
+    if scene and one_call:
+        raise InputError("--scene and --one-call exclude each other: the contract's file has no scene")
     if scene and path.suffix.lower() not in (PICTURE, ""):
         raise InputError(f"--scene needs a {PICTURE} file, not {path}")
     loaded = load_with(input, look)
@@ -143,7 +153,7 @@ def render(
         if turntable is None:
             made = draw(loaded, on=on, **told)
         else:
-            made = turn(loaded, turntable, duration=shown, on=on, **told)
+            made = turn(loaded, turntable, duration=shown, on=on, one_call=one_call, **told)
         counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
     try:
         with LateBar("writing"):
@@ -157,8 +167,9 @@ def render(
     frames = [made] if isinstance(made, Image) else made.frames
     chunk = frames[0].scene_chunk if path.suffix.lower() in (PICTURE, "") and scene is not False else None
     written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
-    report = _report(made, input, path, time.perf_counter() - started, counts, written, in_parts)
-    if not any(frame.covered_pixels for frame in frames):
+    several = in_parts or turntable is not None
+    report = _report(made, input, path, time.perf_counter() - started, counts, written, several)
+    if all(frame.covered_pixels == 0 for frame in frames):
         print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
@@ -205,7 +216,7 @@ def _report(
     seconds: float,
     counts: tuple[int | None, int | None],
     scene_bytes: int | None,
-    in_parts: bool,
+    several: bool,
 ) -> dict[str, Any]:
     """Return the object of --json; with the number of frames and calls for pictures in parts and turntables."""
     frames = [made] if isinstance(made, Image) else made.frames
@@ -226,7 +237,7 @@ def _report(
         "sha256": digest.hexdigest(),
         "scene_bytes": scene_bytes,
     }
-    return report | {"frames": len(frames), "calls": made.calls} if in_parts else report
+    return report | {"frames": len(frames), "calls": made.calls} if several else report
 
 
 def _words(report: dict[str, Any], scene: int | None) -> str:

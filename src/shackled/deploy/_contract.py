@@ -21,7 +21,7 @@ STANDARD = (
     "Genesis",
 )
 #: All contracts that `shackled deploy` can deploy.
-CONTRACTS = (*STANDARD, "PngEncoder", "Studio", "GenesisMetadata")
+CONTRACTS = (*STANDARD, "PngEncoder", "Turntable", "GlbEncoder", "Studio", "GenesisMetadata")
 
 #: The runtime code of the proxy: CREATE2 of the call's data, whose first word is the salt.
 PROXY_CODE = bytes.fromhex(

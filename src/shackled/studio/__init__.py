@@ -1,4 +1,4 @@
-"""Storage of meshes and scenes on chain, in the contract Studio (contracts/src/studio)."""
+"""Storage of meshes and scenes on chain, in the contract Studio (contracts/src/studio), and files made by contracts."""
 
 import lazy_loader
 

@@ -16,6 +16,11 @@ from ..scene import Object, Scene, encode_scene, fit, pack, rotate
 from ._compact_mesh import compact
 
 STUDIO = "Studio"
+#: The Studio's function that makes an animated PNG file: of a pointer, how it turns (the struct Spin), and Changes.
+ANIMATE = (
+    "animate(address,(uint256,uint256,uint256,(int256,int256,int256),bool),"
+    "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256)))"
+)
 
 #: Maximum size of a part: a contract of 24,576 bytes, less the STOP instruction in front.
 MAX_PART = 24575

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from itertools import chain
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from ...animation import DURATION
 from ...errors import InputError, VerificationError
 from ...ethereum import amount, ether
-from ...image import check_output
+from ...image import check_output, one_of
 from ...whole_file import check_output_file, write_output
 from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
-from ..option import option
+from ..option import option, parse_size
 from ..output import print_line, print_table
 from .options import MAX_NUMBER, PHASES, CollectionOptions
 
@@ -93,22 +94,47 @@ def picture(
         str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
     ],
     node: NodeOptions,
-    output: Annotated[Path, option("-o --output", "File for the picture, .png.", "FILE")],
+    output: Annotated[
+        Path, option("-o --output", "File: a picture, .png or .svg, or a model, .glb, that viewers turn.", "FILE")
+    ],
     scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
+    turntable: Annotated[
+        int | None, option("--turntable", "Animated PNG of a full turn in this many frames.", "FRAMES", min=2, max=360)
+    ] = None,
+    duration: Annotated[
+        int, option("--duration", "Duration of a frame.", "MILLISECONDS", min=20, max=10_000)
+    ] = DURATION,
+    size: Annotated[str | None, option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE")] = None,
 ) -> None:
-    """Have a chain draw a scene that is stored there, as a PNG file that contracts make."""
-    from ...studio import STUDIO
+    """Have a chain draw a scene that is stored there, as a file that contracts make."""
+    from ...studio import ANIMATE, STUDIO
     from ...tokens import Contract, address_of, parts_of
 
     place = parse_checksum_address(pointer, "the pointer")
-    if output.suffix.lower() != ".png":
-        raise InputError(f"the picture {output} must end in .png")
+    calls: dict[str, tuple[Any, ...]] = {
+        ".png": ("renderPNG(address,uint256)", place, scale),
+        ".svg": ("renderSVG(address,uint256)", place, scale),
+        ".glb": ("glb(address)", place),
+    }
+    kind = output.suffix.lower()
+    if kind not in calls:
+        raise InputError(f"the picture {output} must end in {one_of(calls)}")
+    if turntable is None and size is not None:
+        raise InputError("--size needs --turntable: a stored scene has its size")
+    if turntable is not None:
+        if kind != ".png":
+            raise InputError(f"the turntable {output} must end in .png")
+        width, height = (0, 0) if size is None else parse_size(size)
+        # the axis (0, 1, 0) as Q32, the camera moved back; changes of the canvas only
+        spin = (turntable, duration, scale, (0, 1 << 32, 0), True)
+        changes = (16 if size else 0, (0, 0, 0, 0), 0, (0, 0), 0, (width, height))
+        calls[kind] = (ANIMATE, place, spin, changes)
     check_output_file(output, "picture")
     studio = Contract(node.connect(), STUDIO, address_of(parts_of(STUDIO, itself=True), STUDIO))
-    call = ("renderPNG(address,uint256)", place, scale)
-    content = studio.call(*call)
+    content = studio.call(*calls[kind])
+    content = content.encode() if isinstance(content, str) else content
     write_output(output, content)
-    gas = studio.gas(*call)
+    gas = studio.gas(*calls[kind])
     print_line(f"{output}: {len(content):,} bytes" + ("" if gas is None else f", {gas:,} gas"))
 
 

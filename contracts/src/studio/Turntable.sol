@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Apng} from "../encode/Apng.sol";
+import {DataUri} from "../encode/DataUri.sol";
+import {answer} from "../encode/Forward.sol";
+import {PngEncoder} from "../encode/PngEncoder.sol";
+import {PngErrors} from "../encode/PngErrors.sol";
+import {sinCosOfHalf} from "../math/Euler.sol";
+import {Fixed} from "../math/Fixed.sol";
+import {Quaternion} from "../math/Quaternion.sol";
+import {Vector} from "../math/Vector.sol";
+import {inRange} from "../scene/Checks.sol";
+import {Object, Scene} from "../scene/Scene.sol";
+import {Renderer} from "../Renderer.sol";
+import {WithRenderer} from "../WithRenderer.sol";
+import {Holding} from "./Holding.sol";
+import {SceneChanges} from "./SceneChanges.sol";
+import {TurntableErrors} from "./TurntableErrors.sol";
+
+/// @notice A full turn of all objects of a scene about their middle, in equal steps; camera and lights stay.
+/// @param frames How many pictures, 2..360.
+/// @param delay How long each is shown, in milliseconds: 20..10,000.
+/// @param scale How many pixels each pixel becomes in both directions, 1..8.
+/// @param axis Seen from where it points, objects turn counter-clockwise. Of any length but zero; (0, 1, 0) is upright.
+/// @param hold Whether the camera is moved back until nothing leaves the picture, at whatever angle.
+struct Spin {
+    uint256 frames;
+    uint256 delay;
+    uint256 scale;
+    Vector axis;
+    bool hold;
+}
+
+/// @title Turntable: scenes that turn, as animated PNG files, for the Studio and all contracts.
+/// @notice Stateless. Each frame is drawn by a call of its own, and only its compressed bytes are kept: memory costs the square.
+contract Turntable is WithRenderer, PngErrors, TurntableErrors {
+    uint256 internal constant MAX_FRAMES = 360;
+    uint256 internal constant MIN_DELAY = 20;
+    uint256 internal constant MAX_DELAY = 10000;
+
+    /// @notice What makes a PNG file of each frame.
+    PngEncoder public immutable encoder;
+
+    /// @notice The address has no code.
+    error NoEncoder(address encoder);
+
+    constructor(Renderer renderer_, PngEncoder encoder_) WithRenderer(renderer_) {
+        if (address(encoder_).code.length == 0) revert NoEncoder(address(encoder_));
+        encoder = encoder_;
+    }
+
+    /// @notice An animated PNG file, repeated for ever. The first frame is the scene as it is.
+    /// @param scene Its meshes in the format of `Mesh.sol`.
+    function animate(Scene memory scene, Spin memory spin) external view returns (bytes memory) {
+        answer(film(scene, spin));
+    }
+
+    /// @notice The same as a `data:` URI, for the `animation_url` of a token.
+    function animateDataURI(Scene memory scene, Spin memory spin) external view returns (string memory) {
+        string memory head = "data:image/png;base64,";
+        answer(bytes(DataUri.wrap(head, film(scene, spin), "")));
+    }
+
+    function film(Scene memory scene, Spin memory spin) private view returns (bytes memory file) {
+        unchecked {
+            Vector memory axis = check(spin);
+            SceneChanges.checkPlaces(scene);
+            Vector memory center = SceneChanges.middle(scene);
+            if (spin.hold) Holding.hold(scene, center, axis);
+            Object[] memory still = copied(scene.objects);
+            uint256 begin;
+            assembly ("memory-safe") {
+                file := mload(0x40)
+                begin := add(file, 32)
+            }
+            uint256 end = begin;
+            for (uint256 k; k != spin.frames; ++k) {
+                // what is allocated for a frame stands behind those that are finished, and is given up
+                assembly ("memory-safe") {
+                    mstore(0x40, and(add(end, 63), not(31)))
+                }
+                if (k != 0) turn(scene, still, center, axis, Fixed.wrap(int256((k * 360 << 32) / spin.frames)));
+                bytes memory png = encoder.compress(renderer.render(scene), spin.scale);
+                if (k == 0) end = Apng.begin(end, png, spin.frames);
+                end = Apng.frame(end, png, k, spin.delay);
+            }
+            end = Apng.finish(end);
+            assembly ("memory-safe") {
+                mstore(file, sub(end, begin))
+                mstore(0x40, and(add(end, 63), not(31)))
+            }
+        }
+    }
+
+    /// @return axis Of length 1.
+    function check(Spin memory spin) private pure returns (Vector memory axis) {
+        if (spin.frames < 2 || spin.frames > MAX_FRAMES) revert FramesOutOfRange(spin.frames, 2, MAX_FRAMES);
+        if (spin.delay < MIN_DELAY || spin.delay > MAX_DELAY) revert DelayOutOfRange(spin.delay, MIN_DELAY, MAX_DELAY);
+        axis = spin.axis;
+        bool fits = inRange(axis.x.raw()) && inRange(axis.y.raw()) && inRange(axis.z.raw());
+        if (!fits || axis.isZero()) revert AxisOutOfRange();
+        axis = axis.normalize();
+    }
+
+    /// @dev The objects with their places and rotations; what those consist of is common to both.
+    function copied(Object[] memory objects) private pure returns (Object[] memory copies) {
+        copies = new Object[](objects.length);
+        for (uint256 k; k < objects.length; ++k) {
+            (copies[k].position, copies[k].rotation) = (objects[k].position, objects[k].rotation);
+        }
+    }
+
+    /// @dev Turns the objects by an angle from where they stand still.
+    function turn(Scene memory scene, Object[] memory still, Vector memory center, Vector memory axis, Fixed degrees_) private pure {
+        for (uint256 k; k < still.length; ++k) {
+            (scene.objects[k].position, scene.objects[k].rotation) = (still[k].position, still[k].rotation);
+        }
+        (Fixed sine, Fixed cosine) = sinCosOfHalf(degrees_.raw());
+        SceneChanges.turn(scene, Quaternion(axis.x * sine, axis.y * sine, axis.z * sine, cosine), center);
+    }
+}

@@ -1,0 +1,118 @@
+"""Files that contracts make of a scene in one call: animated PNG files and models."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from attrs import frozen
+from numpy.typing import ArrayLike
+
+from .._on import Nodes, On
+from ..animation import DURATION, check_duration
+from ..artifacts import artifact
+from ..chain import ContractChain, NodeChain, open_chain, open_node, returned_bytes
+from ..checks import number
+from ..errors import InputError, VerificationError
+from ..ethereum import intrinsic_gas
+from ..image import data_uri
+from ..scene import Scene, encode
+from ..whole_file import check_output_file, write_output
+
+#: The most frames of an animated PNG file that a contract makes.
+MOST_FRAMES = 360
+#: The largest square that a pixel can become.
+MOST_SCALE = 8
+ONE = 1 << 32
+
+
+@frozen(repr=False)
+class ContractFile:
+    """A file, byte for byte as a contract made it.
+
+    gas: of the execution; None where it is not counted. made_by: the EVM or node.
+    """
+
+    content: bytes
+    media_type: str
+    gas: int | None
+    intrinsic_gas: int
+    made_by: str
+
+    def __repr__(self) -> str:
+        return f"<ContractFile {self.media_type}, {len(self.content):,} bytes>"
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file atomically."""
+        write_output(check_output_file(Path(path), "file"), self.content)
+
+    def data_uri(self) -> str:
+        """Return a URI that holds the file, as for the `animation_url` of a token."""
+        return data_uri(self.media_type, self.content)
+
+
+def make_apng(
+    scene: Scene,
+    frames: int = 12,
+    duration: int = DURATION,
+    scale: int = 1,
+    axis: ArrayLike = (0, 1, 0),
+    hold: bool = True,
+    on: On | None = None,
+    gas_limit: int | None = None,
+) -> ContractFile:
+    """Have the contract Turntable make an animated PNG file of a full turn, in one call.
+
+    frames: 2..360. duration: of a frame in milliseconds, 20..10,000. scale: side of the square that each pixel becomes,
+    1..8. axis: (x, y, z), from whose end the turn is counter-clockwise. hold: whether the camera is moved back until
+    nothing leaves the picture. on: the name of an EVM, or Nodes, of which the first is called and its answer compared
+    with that of the embedded EVM, unless `verify` is "none".
+    """
+    vector = np.asarray(axis, dtype=np.float64)
+    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
+        raise InputError(f"the axis of a turn must be three numbers, not all zero, not {axis!r:.60}")
+    vector = vector / np.abs(vector).max()
+    words = (
+        _whole(frames, "the number of frames of a turntable", 2, MOST_FRAMES),
+        check_duration(duration),
+        _whole(scale, "the scale of a picture", 1, MOST_SCALE),
+        *(round(part * ONE) for part in vector.tolist()),
+        int(hold),
+    )
+    data = encode(artifact("Turntable").selectors["animate"], scene, None, *words)
+    return _made("Turntable", data, "image/png", on, gas_limit)
+
+
+def make_glb(scene: Scene, on: On | None = None, gas_limit: int | None = None) -> ContractFile:
+    """Have the contract GlbEncoder make a binary glTF file of the objects of a scene, in one call.
+
+    on: as in `make_apng`.
+    """
+    data = encode(artifact("GlbEncoder").selectors["encode"], scene)
+    return _made("GlbEncoder", data, "model/gltf-binary", on, gas_limit)
+
+
+def _whole(value: float, what: str, least: int, most: int) -> int:
+    if number(value, what, least, most) != int(value):
+        raise InputError(f"{what} must be a whole number, not {value!r}")
+    return int(value)
+
+
+def _made(contract: str, data: bytes, media_type: str, on: On | None, gas_limit: int | None) -> ContractFile:
+    chain = _chain(on)
+    result = chain.call(contract, data, gas_limit)
+    is_checked = isinstance(on, Nodes) and on.verify != "none"
+    if is_checked and result.output != _chain(None).call(contract, data).output:
+        raise VerificationError(f"the {chain.name} returned another file than the embedded EVM: use another node")
+    content = returned_bytes(result.output, 0)
+    return ContractFile(content, media_type, result.gas, intrinsic_gas(data), chain.name)
+
+
+def _chain(on: On | None) -> ContractChain | NodeChain:
+    if isinstance(on, Nodes):
+        return open_node(on.urls[0], on.address, on.timeout)
+    chain = open_chain(on) if on is None or isinstance(on, str) else on
+    if not isinstance(chain, ContractChain | NodeChain):
+        raise InputError("a file of one call needs an EVM that runs the contracts, or a node; not several processes")
+    return chain

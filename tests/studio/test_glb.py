@@ -1,0 +1,360 @@
+"""GLB files: the contract against a model, Khronos' validator, trimesh, a plain reader and the package's own."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import struct
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve
+from eth_abi.abi import decode
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from tools.ledger import World, call_data
+
+import gltf_reader
+from evms import Ours, pyevm_call, pyrevm_call
+from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
+from shackled.artifacts import artifact
+from shackled.chain import EmbeddedChain, open_chain
+from shackled.datasets import pieces, teapot
+from shackled.ethereum import word
+from shackled.scene import encode_scene, fit, from_euler, pack, rotate
+from shackled.studio import compact, scene_struct, store_mesh, store_scene
+
+MODULES = Path(__file__).resolve().parents[2] / "web" / "node_modules"
+HERE = Path(__file__).resolve().parent
+
+POT = Mesh(np.round(np.asarray(teapot(2).positions) * 100), teapot(2).faces)
+TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 40]], [[0, 1, 2]], [[255, 0, 0], [0, 128, 3], [10, 0, 255]])
+WIDE = Mesh(np.asarray(TENT.positions) * 40_000, [[0, 1, 2], [0, 2, 1]], TENT.colors)
+SMOOTH, FLAT, UNLIT = (Material(shading) for shading in ("smooth", "flat", "unlit"))
+SCENE = Scene(
+    [
+        Object(POT, (0.1, -100, -1e-9), material=SMOOTH),
+        Object(TENT, (50, 20, 200), from_euler((10, 30, -40)), 0.5, cull=False, opacity=0.25),
+        Object(WIDE, (-1 / 3, 1e7, 0), from_euler((0, 180, 0)), 1 / 40_000, UNLIT),
+        Object(TENT, material=SMOOTH, wireframe=True),
+    ],
+    Camera((200, 250, 900), (0, 40, 0)),
+    [Light("spot", (300, 500, 900), (255, 240, 200), (-300, -500, -900), 5, 20)],
+    width=48,
+    height=40,
+)
+
+
+def call(scene: Scene, function: str = "encode") -> bytes:
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    data = artifact("GlbEncoder").selectors[function] + word(32) + encode_scene(fit(scene))
+    (answer,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
+    return bytes(answer)
+
+
+def linear(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    """sRGB (IEC 61966-2-1) as 16 bits."""
+    c = np.asarray(colors) / 255
+    return np.round(np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4) * 65535).astype("<u2")
+
+
+def model(scene: Scene) -> tuple[dict[str, Any], bytes]:
+    """The document and the buffer; the normals as the renderer has them."""
+    nodes, meshes, materials, accessors, views, buffer = [], [], [], [], [], b""  # type: ignore[var-annotated]
+    for o in scene.objects:
+        unlit = o.wireframe or o.material.shading == "unlit"
+        smooth = o.material.shading == "smooth" and not unlit
+        count = len(o.mesh.positions)
+        positions = np.asarray(o.mesh.positions).astype("<f4")
+        colors = np.hstack([linear(o.mesh.colors), np.full((count, 1), 65535, "<u2")])
+        columns = [positions.view(np.uint8), colors.view(np.uint8).reshape(count, 8)]
+        if smooth:
+            columns.append(normals(pack(o.mesh, True), count).astype("<f4").view(np.uint8))
+        vertices = np.hstack(columns)
+        faces = np.asarray(o.mesh.faces)
+        if o.wireframe:
+            faces = faces[:, [0, 1, 1, 2, 2, 0]]
+        indices = faces.astype("<u2").tobytes()
+        stride = vertices.shape[1]
+        view, first = len(views), len(accessors)
+        for target, data, more in ((34962, vertices.tobytes(), {"byteStride": stride}), (34963, indices, {})):
+            views.append({"buffer": 0, "target": target, "byteOffset": len(buffer), "byteLength": len(data)} | more)
+            buffer += data + bytes(-len(data) % 4)
+        of = {"bufferView": view, "count": count}
+        accessors.append({"componentType": 5123, "type": "SCALAR", "bufferView": view + 1, "count": faces.size})
+        low, high = positions.min(axis=0).tolist(), positions.max(axis=0).tolist()
+        accessors.append({"componentType": 5126, "type": "VEC3", "byteOffset": 0, "min": low, "max": high} | of)
+        accessors.append({"componentType": 5123, "type": "VEC4", "byteOffset": 12, "normalized": True} | of)
+        attributes = {"POSITION": first + 1, "COLOR_0": first + 2}
+        if smooth:
+            accessors.append({"componentType": 5126, "type": "VEC3", "byteOffset": 20} | of)
+            attributes["NORMAL"] = first + 3
+        primitive = {"indices": first, "attributes": attributes, "material": len(materials)}
+        meshes.append({"primitives": [primitive | ({"mode": 1} if o.wireframe else {})]})
+        surface: dict[str, Any] = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.8}}
+        if o.opacity < 1:
+            surface["pbrMetallicRoughness"]["baseColorFactor"] = [1, 1, 1, pytest.approx(o.opacity)]
+            surface["alphaMode"] = "BLEND"
+        if not o.cull:
+            surface["doubleSided"] = True
+        if unlit:
+            surface["extensions"] = {"KHR_materials_unlit": {}}
+        materials.append(surface)
+        scale = pytest.approx(o.scale, rel=1e-4, abs=2e-10)
+        nodes.append(
+            {
+                "mesh": len(nodes),
+                "translation": pytest.approx(list(o.position), abs=1e-9),
+                "rotation": pytest.approx(list(o.rotation / np.linalg.norm(o.rotation)), abs=1e-6),
+                "scale": [scale, scale, scale],
+            }
+        )
+    document = {
+        "asset": {"version": "2.0", "generator": "Shackled"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": nodes,
+        "meshes": meshes,
+        "materials": materials,
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(buffer)}],
+    }
+    if any("extensions" in surface for surface in materials):
+        document["extensionsUsed"] = ["KHR_materials_unlit"]
+    return document, buffer
+
+
+def normals(packed: bytes, count: int) -> NDArray[np.float64]:
+    stride = 13 if packed[0] == 1 else 16
+    rows = np.frombuffer(packed, np.uint8, count * stride, 5).reshape(count, stride)[:, -4:]
+    words = np.ascontiguousarray(rows).view(">u4").astype(np.int64)
+    parts = np.hstack([words >> 22, words >> 12 & 1023, words >> 2 & 1023])
+    parts = np.where(parts > 511, parts - 1024, parts).astype(np.float64)
+    parts[(parts == 0).all(axis=1)] = 0, 0, 1
+    unit: NDArray[np.float64] = parts / np.linalg.norm(parts, axis=1, keepdims=True)
+    return unit
+
+
+def compare(glb: bytes, scene: Scene, fitted: bool = False) -> None:
+    document, buffer = model(scene if fitted else fit(scene))
+    magic, version, length = struct.unpack_from("<4sII", glb)
+    assert (magic, version, length) == (b"glTF", 2, len(glb))
+    size, kind = struct.unpack_from("<I4s", glb, 12)
+    assert (kind, size % 4) == (b"JSON", 0)
+    found = json.loads(glb[20 : 20 + size])
+    assert found == document
+    size, kind = struct.unpack_from("<I4s", glb, 20 + size)
+    assert kind == b"BIN\0"
+    data = glb[len(glb) - size :]
+    assert len(data) == len(buffer)
+    for view in document["bufferViews"]:
+        begin, end = view["byteOffset"], view["byteOffset"] + view["byteLength"]
+        if view.get("byteStride") != 32:
+            assert data[begin:end] == buffer[begin:end]
+            continue
+        ours, theirs = (np.frombuffer(each[begin:end], np.uint8).reshape(-1, 32) for each in (data, buffer))
+        assert np.array_equal(ours[:, :20], theirs[:, :20])
+        ours, theirs = (np.ascontiguousarray(each[:, 20:]).view("<f4") for each in (ours, theirs))
+        assert np.abs(ours - theirs).max() < 1e-6
+
+
+def reports(files: list[bytes], folder: Path) -> list[dict[str, Any]]:
+    """What Khronos' validator says of each."""
+    if not (MODULES / "gltf-validator").is_dir():
+        pytest.skip("needs gltf-validator: npm ci in web/")
+    (folder / "files").write_bytes(b"".join(len(each).to_bytes(4, "big") + each for each in files))
+    subprocess.run(["node", HERE / "validate_glb.mjs", MODULES, folder / "files", folder / "reports"], check=True)
+    found: list[dict[str, Any]] = json.loads((folder / "reports").read_text("utf-8"))
+    assert len(found) == len(files)
+    return found
+
+
+def assert_valid(files: list[bytes], folder: Path) -> None:
+    for report in reports(files, folder):
+        issues = report["issues"]
+        assert issues["numErrors"] == issues["numWarnings"] == 0, issues["messages"]
+
+
+def test_a_scene_of_every_kind(tmp_path: Path) -> None:
+    glb = call(SCENE)
+    compare(glb, SCENE)
+    assert_valid([glb], tmp_path)
+    assert call(SCENE, "dataURI") == b"data:model/gltf-binary;base64," + base64.b64encode(glb)
+
+
+@st.composite
+def scenes(draw: st.DrawFn) -> Scene:
+    rng = np.random.default_rng(draw(st.integers(0, 2**32)))
+    objects = []
+    for _ in range(draw(st.integers(1, 3))):
+        count, size = draw(st.integers(3, 9)), draw(st.sampled_from([3, 300, 32_767, 8_000_000]))
+        positions = rng.integers(-size, size + 1, (count, 3))
+        faces = [rng.permutation(count)[:3] for _ in range(draw(st.integers(1, 5)))]
+        objects.append(
+            Object(
+                Mesh(positions, faces, rng.integers(0, 256, (count, 3))),
+                rng.normal(0, 10.0 ** rng.integers(-3, 6), 3),
+                rng.normal(0, 1, 4),
+                10.0 ** rng.uniform(-3, 0),
+                draw(st.sampled_from([SMOOTH, FLAT, UNLIT])),
+                cull=draw(st.booleans()),
+                wireframe=draw(st.booleans()),
+                opacity=draw(st.sampled_from([0.0, 0.5, 1.0])),
+            )
+        )
+    return Scene(objects)
+
+
+@settings(max_examples=60, deadline=None)
+@given(scenes())
+def test_any_scene(scene: Scene) -> None:
+    compare(call(scene), scene)
+
+
+def test_the_longest_document() -> None:
+    """Numbers of the most characters fit the room that is set aside for each object."""
+    far = -(2.0**26) + 2**-31
+    mesh = evolve(WIDE, positions=[[-8_388_607, -8_388_600, -8_388_601], [8_388_607] * 3, [-1, -2, -8_388_602]])
+    each = Object(
+        mesh,
+        (far, far, far),
+        (-0.7071067811, -0.1234567, -0.4321111, -0.54),
+        0.1234567891,
+        SMOOTH,
+        cull=False,
+        opacity=0.3333333,
+    )
+    scene = Scene([each] * 40)
+    glb = call(scene)
+    compare(glb, scene)
+    size = struct.unpack_from("<I", glb, 12)[0]
+    assert size < 512 + 1536 * 40
+
+
+def test_readers_see_the_scene(tmp_path: Path) -> None:
+    """Positions in the world and colours, by a plain reader, by trimesh and by the package itself."""
+    import trimesh
+
+    lit = evolve(SCENE, objects=SCENE.objects[:3])
+    glb = call(lit)
+    expected = []
+    for o in fit(lit).objects:
+        world = rotate(o.rotation, np.asarray(o.mesh.positions) * o.scale) + o.position
+        expected.append((world[np.asarray(o.mesh.faces)], linear(o.mesh.colors)[np.asarray(o.mesh.faces)] / 65535))
+    places, colors = (np.concatenate(each) for each in zip(*expected, strict=True))
+    triangles = gltf_reader.read(glb)
+    found = np.array([triangle[0] for triangle in triangles])
+    assert found == pytest.approx(places, rel=1e-5, abs=1e-3)
+    assert np.array([triangle[1] for triangle in triangles]) == pytest.approx(colors, abs=1e-6)
+    model_ = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
+    assert len(model_.geometry) == 3
+    assert model_.bounds == pytest.approx(np.array([places.min((0, 1)), places.max((0, 1))]), rel=1e-5)
+    file = tmp_path / "scene.glb"
+    file.write_bytes(call(evolve(SCENE, objects=[evolve(SCENE.objects[1], opacity=1.0)])))
+    (loaded,) = load(file).objects
+    # which takes linear colours as they are
+    assert np.array_equal(np.asarray(loaded.mesh.colors), np.round(linear(TENT.colors) / 257))
+
+
+def test_every_icon_is_valid(tmp_path: Path) -> None:
+    assert_valid([call(piece.make()) for piece in pieces("icons")], tmp_path)
+
+
+def test_the_studio_models_what_it_keeps(tmp_path: Path) -> None:
+    world = World()
+    studio = world.address("Studio")
+    for storing in store_scene(SCENE, studio, chain=world.chain):
+        world.run(studio, storing.data, created=True)
+    glb = world.call("Studio", "glb(address)", "0x" + storing.pointer.hex())
+    # vertices and faces are in another order when they are kept
+    kept, plain = (json.loads(json_of(each)) for each in (glb, call(SCENE)))
+    assert kept == plain
+    uri = world.call("Studio", "glbDataURI(address)", "0x" + storing.pointer.hex())
+    assert uri == "data:model/gltf-binary;base64," + base64.b64encode(glb).decode()
+    files = [glb]
+    for packed in (pack(POT, True), pack(TENT, False)):
+        (storing,) = store_mesh(packed, studio, chain=world.chain)
+        world.run(studio, storing.data, created=True)
+        plain = world.store("storeMesh(bytes)", packed)
+        assert storing.content == compact(packed)
+        for pointer in (storing.pointer, plain):
+            files.append(world.call("Studio", "glb(address)", "0x" + pointer.hex()))
+        material = SMOOTH if packed[0] else FLAT
+        compare(files[-1], Scene([Object(POT if packed[0] else TENT, material=material, cull=False)]), fitted=True)
+    assert_valid(files, tmp_path)
+    with pytest.raises(RenderError, match="UnknownMesh"):
+        world.call("Studio", "glb(address)", "0x" + world.store("storePart(bytes)", b"\x44").hex())
+
+
+def json_of(glb: bytes) -> bytes:
+    return glb[20 : 20 + struct.unpack_from("<I", glb, 12)[0]]
+
+
+def changed(change: Any) -> bytes:
+    """Data of a call with other objects."""
+    kind = scene_struct()
+    (values,) = decode([kind], word(32) + encode_scene(fit(evolve(SCENE, objects=[SCENE.objects[1]]))))
+    *others, objects, extensions = values
+    return call_data(f"encode({kind})", (*others, [change(objects[0])], extensions))
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        (lambda o: (b"\0\0\0\0\0", *o[1:]), "NothingToShow()"),
+        (lambda o: (b"\0\0\1\0\0" + bytes(9), *o[1:]), "NothingToShow()"),
+        (lambda o: (o[0][:-1], *o[1:]), "MeshLength(object=0"),
+        (lambda o: (o[0][:-1] + b"\3", *o[1:]), "IndexOutOfRange(object=0, face=0, vertexCount=3)"),
+        (lambda o: (o[0], ((1 << 58) + 1, 0, 0), *o[2:]), "PositionOutOfRange(object=0"),
+        (lambda o: (*o[:2], (0, 0, 0, 0), *o[3:]), "RotationIsZero(object=0)"),
+        (lambda o: (*o[:4], (2, *o[4][1:]), o[5]), "NoNormals(object=0)"),
+    ],
+)
+def test_what_is_refused(change: Any, error: str) -> None:
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    with pytest.raises(RenderError) as caught:
+        chain.call("GlbEncoder", changed(change))
+    assert error in str(caught.value)
+
+
+def test_objects_without_faces_are_left_out(tmp_path: Path) -> None:
+    """Opacities stay with their objects."""
+    kind = scene_struct()
+    scene = evolve(SCENE, objects=[SCENE.objects[at] for at in (2, 1, 0, 1)], lights=[])
+    (values,) = decode([kind], word(32) + encode_scene(fit(scene)))
+    objects = list(values[6])
+    objects[0], objects[1] = (b"\0\0\1\0\0" + bytes(9), *objects[0][1:]), (bytes(5), *objects[1][1:])
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    data = call_data(f"encode({kind})", (*values[:6], objects, values[7]))
+    (glb,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
+    compare(glb, evolve(fit(scene), objects=fit(scene).objects[2:]), fitted=True)
+    assert_valid([glb], tmp_path)
+
+
+def test_a_normal_of_no_length_becomes_one(tmp_path: Path) -> None:
+    packed = pack(TENT, True)
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    data = changed(lambda o: (packed[:14] + bytes(4) + packed[18:], *o[1:4], (2, *o[4][1:]), o[5]))
+    (glb,) = decode(["bytes"], chain.call("GlbEncoder", data).output)
+    assert_valid([glb], tmp_path)
+
+
+def test_every_evm_agrees() -> None:
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    address = chain.address("GlbEncoder")
+    data = artifact("GlbEncoder").selectors["encode"] + word(32) + encode_scene(fit(SCENE))
+    ours = Ours().call(chain.codes(), address, data, 10**8)
+    assert decode(["bytes"], ours.output)[0] == call(SCENE)
+    assert pyrevm_call(chain.codes(), address, data, 10**8) == ours
+    assert pyevm_call(chain.codes(), address, data, 10**8) == ours

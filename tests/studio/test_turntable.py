@@ -1,0 +1,332 @@
+"""Animated PNG files: the contract against a model, byte for byte, and both against Pillow and chromium."""
+
+from __future__ import annotations
+
+import base64
+import io
+import struct
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve
+from eth_abi.abi import decode, encode
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+from PIL import ImageSequence
+from tools.ledger import World, call_data
+from tools.page_server import browser_path
+from tools.png_code import SIGNATURE, encode_png
+
+from evms import Ours, pyevm_call, pyrevm_call
+from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, load, render
+from shackled.artifacts import artifact
+from shackled.chain import open_chain
+from shackled.ethereum import word
+from shackled.scene import encode_scene, fit, from_euler, pack, rotate
+from shackled.studio import scene_struct, store_scene
+
+SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
+CHANGES = "(uint256,(int256,int256,int256,int256),uint256,(uint256,uint256),uint256,(uint256,uint256))"
+ONE = 1 << 32
+UPRIGHT = (0, ONE, 0)
+TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 40]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])
+BOARD = Mesh([[-60, -9, 30], [60, -9, 0], [60, 9, 0], [-60, 9, 0]], [[0, 1, 2], [0, 2, 3]])
+SCENE = Scene(
+    [
+        Object(TENT, (0, -100, 0), material=Material("flat", 0.25, 0.75, 0.5, 16), cull=False),
+        Object(BOARD, (50, 20, 200), from_euler((0, 30, 0)), 0.5, cull=False),
+    ],
+    Camera((200, 250, 900), (0, 40, 0)),
+    [Light("directional", (-1, 2, 3))],
+    Background("#102040", "#a0b0c0"),
+    width=31,
+    height=24,
+)
+
+Pixels = NDArray[np.uint8]
+
+
+def turned(
+    scene: Scene, frames: int = 4, delay: int = 80, scale: int = 1, axis: object = UPRIGHT, hold: bool = False
+) -> bytes:
+    """Data of a call of `animate`."""
+    values = encode([SPIN], [(frames, delay, scale, axis, hold)])
+    return artifact("Turntable").selectors["animate"] + word(256) + values + encode_scene(fit(scene))
+
+
+def animate(scene: Scene, **spin: Any) -> bytes:
+    output = open_chain().call("Turntable", turned(scene, **spin)).output  # type: ignore[attr-defined]
+    return bytes(decode(["bytes"], output)[0])
+
+
+def frames_of(png: bytes) -> list[Pixels]:
+    with PillowImage.open(io.BytesIO(png)) as file:
+        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
+
+
+def chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def model(pictures: list[Pixels], delay: int, scale: int) -> bytes:
+    """The file, as the specification has it."""
+    height, width, _ = pictures[0].shape
+    sides = struct.pack(">II", width * scale, height * scale)
+    parts = [SIGNATURE, chunk(b"IHDR", sides + b"\x08\x02\0\0\0"), chunk(b"acTL", struct.pack(">II", len(pictures), 0))]
+    sequence = 0
+    for number, pixels in enumerate(pictures):
+        control = struct.pack(">I", sequence) + sides + struct.pack(">IIHHBB", 0, 0, delay, 1000, 0, 0)
+        parts.append(chunk(b"fcTL", control))
+        data = encode_png(pixels, scale)[41:-16]
+        parts.append(chunk(b"fdAT", struct.pack(">I", sequence + 1) + data) if number else chunk(b"IDAT", data))
+        sequence += 2 if number else 1
+    return b"".join([*parts, chunk(b"IEND", b"")])
+
+
+@pytest.fixture(scope="module")
+def world() -> World:
+    return World()
+
+
+def stored(world: World, scene: Scene) -> str:
+    for storing in store_scene(scene, world.address("Studio"), chain=world.chain):
+        world.run(world.address("Studio"), storing.data, created=True)
+    return "0x" + storing.pointer.hex()
+
+
+@pytest.mark.parametrize(("count", "delay", "scale"), [(2, 20, 1), (5, 10_000, 2), (8, 77, 3), (12, 100, 8)])
+def test_each_frame_is_the_scene_turned(world: World, count: int, delay: int, scale: int) -> None:
+    pointer = stored(world, SCENE)
+    pictures = []
+    for step in range(count):
+        angle = step * 360 * ONE // count
+        turn = world.chain.ask("Renderer", "eulerRotation", 0, angle, 0)
+        changes = (1, turn, 0, (0, 0), 0, (0, 0))
+        bmp = world.call("Studio", f"render(address,{CHANGES})", pointer, changes)
+        pictures.append(np.flip(np.frombuffer(bmp, np.uint8, offset=54).reshape(24, 96)[:, :93], 0))
+    pictures = [each.reshape(24, 31, 3)[:, :, ::-1] for each in pictures]
+    spin = (count, delay, scale, UPRIGHT, False)
+    png = world.call("Studio", f"animate(address,{SPIN})", pointer, spin)
+    assert png == model(pictures, delay, scale)
+    assert np.array_equal(pictures[0], render(SCENE).pixels)
+    for found, expected in zip(frames_of(png), pictures, strict=True):
+        assert np.array_equal(found, expected.repeat(scale, 0).repeat(scale, 1))
+    with PillowImage.open(io.BytesIO(png)) as file:
+        assert (file.info["loop"], file.info["duration"]) == (0, delay)
+    uri = world.call("Studio", f"animateDataURI(address,{SPIN})", pointer, spin)
+    assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
+
+
+def test_pillow_writes_the_same_frames() -> None:
+    png = animate(SCENE)
+    first, *others = (PillowImage.fromarray(each) for each in frames_of(png))
+    file = io.BytesIO()
+    first.save(file, "PNG", save_all=True, append_images=others, loop=0, duration=80, default_image=False)
+    theirs = frames_of(file.getvalue())
+    assert all(np.array_equal(a, b) for a, b in zip(theirs, frames_of(png), strict=True))
+
+
+def test_changes_come_first(world: World) -> None:
+    pointer = stored(world, SCENE)
+    changes = (16 + 4, (0, 0, 0, 0), 0, (0xFF0000, 0xFF0000), 0, (16, 8))
+    spin = (3, 50, 2, UPRIGHT, False)
+    png = world.call("Studio", f"animate(address,{SPIN},{CHANGES})", pointer, spin, changes)
+    expected = render(evolve(SCENE, width=16, height=8, background=Background("#ff0000"))).pixels
+    assert np.array_equal(frames_of(png)[0][::2, ::2], expected)
+    uri = world.call("Studio", f"animateDataURI(address,{SPIN},{CHANGES})", pointer, spin, changes)
+    assert uri == "data:image/png;base64," + base64.b64encode(png).decode()
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 0, -1), (2, -3, 1)])
+def test_any_axis(axis: tuple[int, int, int]) -> None:
+    """Of any length; the middle is that of the Studio's turns."""
+    near = evolve(SCENE, camera=Camera((100, 120, 450), (0, 0, 80)), width=64, height=48)
+    short = animate(near, axis=tuple(part * (ONE >> 16) for part in axis), frames=3)
+    assert short == animate(near, axis=tuple(part * ONE * 1000 for part in axis), frames=3)
+    found = frames_of(short)
+    length = np.linalg.norm(axis)
+    center, covered = middle_of_balls(SCENE), 0
+    for step, pixels in enumerate(found):
+        half = np.pi * step / 3
+        q = np.array([*(np.sin(half) * np.array(axis) / length), np.cos(half)])
+        expected = render(evolve(near, objects=[about(o, q, center) for o in near.objects]))
+        covered += expected.covered_pixels or 0
+        assert (np.abs(pixels.astype(int) - expected.pixels).max(axis=2) > 3).mean() < 0.02
+    assert covered > 60
+
+
+def middle_of_balls(scene: Scene) -> NDArray[np.float64]:
+    low, high = [], []
+    for o in scene.objects:
+        positions = o.mesh.positions
+        place = o.position + rotate(o.rotation, (positions.min(axis=0) + positions.max(axis=0)) / 2 * o.scale)
+        radius = o.scale * np.linalg.norm(np.ptp(positions, axis=0)) / 2
+        low.append(place - radius)
+        high.append(place + radius)
+    middle: NDArray[np.float64] = (np.min(low, axis=0) + np.max(high, axis=0)) / 2
+    return middle
+
+
+def about(o: Object, q: NDArray[np.float64], center: NDArray[np.float64]) -> Object:
+    """The object, turned about a point."""
+    x, y, z, w = np.asarray(o.rotation)
+    a, b, c, d = q
+    product = [
+        d * x + a * w + b * z - c * y,
+        d * y - a * z + b * w + c * x,
+        d * z + a * y - b * x + c * w,
+        d * w - a * x - b * y - c * z,
+    ]
+    return evolve(o, position=center + rotate(q, o.position - center), rotation=product)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("projection", ["perspective", "orthographic"])
+def test_nothing_leaves_the_picture(seed: int, projection: str) -> None:
+    """The camera moves back as far as it must, and not much farther."""
+    rng = np.random.default_rng(seed)
+    cloud = Mesh(rng.integers(-200, 200, (12, 3)), rng.permutation(12).reshape(4, 3))
+    objects = [
+        Object(cloud, rng.uniform(-300, 300, 3), from_euler(rng.uniform(0, 360, 3)), 1.3, Material("unlit"), cull=False)
+        for _ in range(2)
+    ]
+    size = (40, 30) if seed % 2 else (30, 40)
+    away = rng.normal(0, 1, 3)
+    view = Camera(away * 500 / np.linalg.norm(away), (0, 0, 0))
+    if projection == "orthographic":
+        view = evolve(view, projection=projection, half_height=100.0)
+    scene = Scene(objects, view, background=Background("#000001"), width=size[0], height=size[1])
+    axis = tuple(int(part) for part in rng.normal(0, ONE, 3))
+    still, held = (frames_of(animate(scene, frames=24, axis=axis, hold=hold)) for hold in (False, True))
+    covered = [np.any([(each != (0, 0, 1)).any(axis=2) for each in film], axis=0) for film in (still, held)]
+    border = np.ones(covered[0].shape, bool)
+    border[1:-1, 1:-1] = False
+    assert (covered[0] & border).any()
+    assert not (covered[1] & border).any()
+    # of half of the picture 8 % are free, between the pictures of the film something less is covered
+    assert (covered[1][5:-5, 5:-5].sum()) < covered[1].sum()
+
+
+def test_a_camera_that_shows_everything_stays() -> None:
+    for camera in (Camera((0, 0, 2000), (0, 0, 0)), Camera((0, 0, 900), (0, 0, 0), (0, 1, 0), "orthographic", 900.0)):
+        scene = evolve(SCENE, camera=camera)
+        assert animate(scene, hold=True) == animate(scene)
+
+
+def test_a_scene_without_objects() -> None:
+    for camera in (SCENE.camera, evolve(SCENE.camera, projection="orthographic", half_height=9.0)):
+        first, second = frames_of(animate(Scene([], evolve(camera, near=1), width=8, height=8), frames=2, hold=True))
+        assert np.array_equal(first, second)
+
+
+def test_wide_meshes_are_held() -> None:
+    wide = Mesh(np.asarray(BOARD.positions) * 900, BOARD.faces)
+    scene = Scene([Object(wide, scale=1 / 900, cull=False)], Camera((0, 0, 100), (0, 0, 0)), width=24, height=24)
+    narrow = evolve(scene, objects=[Object(BOARD, cull=False)])
+    assert pack(wide, False)[0] == 2
+    found, expected = (np.stack(frames_of(animate(each, hold=True))).astype(int) for each in (scene, narrow))
+    assert (np.abs(found - expected).max(axis=3) > 8).mean() < 0.01
+
+
+@pytest.mark.parametrize(
+    ("spin", "error"),
+    [
+        ({"frames": 1}, "FramesOutOfRange(frames=1, least=2, most=360)"),
+        ({"frames": 361}, "FramesOutOfRange(frames=361, least=2, most=360)"),
+        ({"delay": 19}, "DelayOutOfRange(delay=19, least=20, most=10000)"),
+        ({"delay": 1 << 255}, f"DelayOutOfRange(delay={1 << 255}, least=20, most=10000)"),
+        ({"scale": 9}, "PixelScaleOutOfRange(scale=9, largest=8)"),
+        ({"axis": (0, 0, 0)}, "AxisOutOfRange()"),
+        ({"axis": (0, 0, (1 << 58) + 1)}, "AxisOutOfRange()"),
+    ],
+)
+def test_what_is_refused(spin: dict[str, Any], error: str) -> None:
+    with pytest.raises(RenderError) as caught:
+        animate(SCENE, **spin)
+    assert error in str(caught.value)
+
+
+@pytest.mark.parametrize("hold", [False, True])
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        (lambda s: (*s[:6], [(s[6][0][0], ((1 << 255) - 1, 0, 0), *s[6][0][2:])], s[7]), "PositionOutOfRange(object=0"),
+        (lambda s: (*s[:6], [(*s[6][0][:2], (0, 0, 0, 0), *s[6][0][3:])], s[7]), "RotationIsZero(object=0)"),
+        (lambda s: ((0, 4), *s[1:]), "CanvasSize(width=0, height=4)"),
+        (lambda s: (s[0], (s[1][0], s[1][0], *s[1][2:]), *s[2:]), "NoViewDirection()"),
+        (lambda s: (s[0], ((1 << 254, 0, 0), *s[1][1:]), *s[2:]), "CameraOutOfRange"),
+        (lambda s: (s[0], (*s[1][:4], 0, s[1][5]), *s[2:]), "HalfHeightOutOfRange(halfHeight=0)"),
+        (lambda s: (*s[:6], [(b"", *s[6][0][1:])], s[7]), "MeshHeader(object=0"),
+        (lambda s: (*s[:6], [(*s[6][0][:3], 1 << 200, *s[6][0][4:])], s[7]), "ScaleOutOfRange(object=0"),
+    ],
+)
+def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: bool) -> None:
+    """With the error of the renderer, whatever is computed before."""
+    kind = scene_struct()
+    (struct_,) = decode([kind], word(32) + encode_scene(fit(SCENE)))
+    data = call_data(f"animate({kind},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
+    with pytest.raises(RenderError) as caught:
+        open_chain().call("Turntable", data)  # type: ignore[attr-defined]
+    assert error in str(caught.value)
+
+
+def test_every_evm_agrees() -> None:
+    chain = open_chain()
+    chain.address("Turntable")  # type: ignore[attr-defined]
+    codes, address = chain.codes(), chain.address("Turntable")  # type: ignore[attr-defined]
+    data = turned(evolve(SCENE, width=6, height=5), frames=2, hold=True)
+    ours = Ours().call(codes, address, data, 10**8)
+    assert len(decode(["bytes"], ours.output)[0]) > 200
+    assert pyrevm_call(codes, address, data, 10**8) == ours
+    assert pyevm_call(codes, address, data, 10**8) == ours
+
+
+def test_an_address_without_code_is_no_part() -> None:
+    chain = open_chain()
+    parts = [chain.address("Renderer"), chain.address("PngEncoder")]  # type: ignore[attr-defined]
+    for place in range(2):
+        given = [b"\x77" * 20 if at == place else part for at, part in enumerate(parts)]
+        with pytest.raises(ChainError, match="could not be deployed"):
+            chain.create("Turntable", artifact("Turntable").creation + b"".join(map(word_of, given)))  # type: ignore[attr-defined]
+
+
+def word_of(address: bytes) -> bytes:
+    return address.rjust(32, b"\0")
+
+
+@pytest.mark.skipif(browser_path() is None, reason="needs chromium")
+def test_chromium_plays_it(browser: Any, tmp_path: Path) -> None:
+    png = animate(load("icons/diamond", size=32), frames=5, delay=40, hold=True)
+    page = browser.new_page()
+    script = """async uri => {
+        const data = await (await fetch(uri)).arrayBuffer()
+        const decoder = new ImageDecoder({ data, type: "image/png" })
+        await decoder.tracks.ready
+        await decoder.completed
+        const found = []
+        for (let k = 0; k < decoder.tracks.selectedTrack.frameCount; ++k) {
+            const { image } = await decoder.decode({ frameIndex: k })
+            const canvas = new OffscreenCanvas(image.displayWidth, image.displayHeight)
+            const context = canvas.getContext("2d")
+            context.drawImage(image, 0, 0)
+            const pixels = context.getImageData(0, 0, canvas.width, canvas.height).data
+            found.push([image.duration, Array.from(pixels)])
+        }
+        return [decoder.tracks.selectedTrack.repetitionCount, found]
+    }"""
+    try:
+        # a page that may use ImageDecoder
+        (tmp_path / "page.html").write_text("<!doctype html>", "utf-8")
+        page.goto((tmp_path / "page.html").as_uri())
+        repetitions, found = page.evaluate(script, "data:image/png;base64," + base64.b64encode(png).decode())
+    finally:
+        page.close()
+    assert repetitions is None or repetitions > 10**6
+    assert len(found) == 5
+    for (duration, values), expected in zip(found, frames_of(png), strict=True):
+        assert duration == 40_000
+        pixels = np.array(values, np.uint8).reshape(32, 32, 4)[:, :, :3]
+        assert np.array_equal(pixels, expected)
