@@ -104,11 +104,11 @@ STUDIO = Staging(
     view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
     flat_elevation=40.0,
     lights=(
-        ((-0.5, 0.7, 0.9), (255, 243, 226)),
-        ((0.8, -0.25, 0.55), (60, 68, 84)),
-        ((0.4, 0.5, -0.9), (150, 160, 180)),
+        ((-0.6, 0.8, 0.9), (255, 243, 226)),
+        ((0.8, -0.25, 0.55), (46, 52, 66)),
+        ((0.4, 0.5, -0.9), (165, 175, 195)),
     ),
-    material=Material("smooth", ambient=0.28, diffuse=0.84, specular=0.28, shininess=30),
+    material=Material("smooth", ambient=0.28, diffuse=0.8, specular=0.28, shininess=30),
     by_normals=True,
     # fields that make pictures better for more gas, such as anti-aliasing, belong here
     fields={"background": Background((36, 41, 53), (108, 117, 134)), "ambient_light": (232, 240, 255)},
