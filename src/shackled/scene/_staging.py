@@ -63,7 +63,7 @@ class Staging:
     """How a mesh without a scene is shown.
 
     side: of the picture in pixels, where none is given.
-    view: of meshes as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
+    view: of meshes at least half as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
     lights: directions, right, up and toward the viewer, and colours.
     material: of the mesh. Its shading is replaced if `by_normals`: by that of the mesh's normals, or of computed ones.
     fields: of the Scene, by their names.
@@ -82,7 +82,7 @@ class Staging:
         with np.errstate(over="ignore"):
             x, y, z = np.ptp(points, axis=0).tolist()
         width = max(x, z)
-        flatness = 1 - y / width if y < width < np.inf else 0.0
+        flatness = 1 - 2 * y / width if 2 * y < width < np.inf else 0.0
         lowest = self.view.elevation
         return evolve(self.view, elevation=lowest + flatness * (self.flat_elevation - lowest))
 
@@ -98,17 +98,17 @@ PLAIN = Staging(
     fields={"background": BACKGROUND},
 )
 #: Of mesh files: as a product is photographed, with a warm key light from the upper left, a weak cool one that fills
-#: the shadows from the lower right, and one from behind that draws the rim, through a lens of a narrow angle.
+#: the shadows from the right, and one from above and behind that draws the rim, through a lens of a narrow angle.
 STUDIO = Staging(
     side=256,
     view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
     flat_elevation=40.0,
     lights=(
-        ((-0.6, 0.8, 0.9), (255, 243, 226)),
-        ((0.8, -0.25, 0.55), (46, 52, 66)),
-        ((0.4, 0.5, -0.9), (165, 175, 195)),
+        ((-0.6, 0.7, 0.9), (255, 243, 226)),
+        ((0.95, -0.15, 0.1), (56, 62, 76)),
+        ((0.15, 0.6, -0.8), (130, 140, 158)),
     ),
-    material=Material("smooth", ambient=0.28, diffuse=0.8, specular=0.28, shininess=30),
+    material=Material("smooth", ambient=0.28, diffuse=0.8, specular=0.4, shininess=28),
     by_normals=True,
     # fields that make pictures better for more gas, such as anti-aliasing, belong here
     fields={"background": Background((36, 41, 53), (108, 117, 134)), "ambient_light": (232, 240, 255)},

@@ -54,7 +54,7 @@ _UNLIT = "KHR_materials_unlit"
 #: Roughness and metalness, 0..1, and whether light falls on it; None if the file does not say.
 _Surface = tuple[float, float, bool] | None
 #: The exponent of the widest highlights; even wider ones only fade the colours.
-_WIDEST = 6
+_WIDEST = 10
 
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
@@ -389,7 +389,7 @@ def _material(parts: list[_Part], surfaces: list[_Surface]) -> dict[str, Any]:
     roughness, metalness = np.clip(np.average([surface[:2] for _, surface in known], 0, areas), 0, 1).tolist()
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return {
-        "specular": (0.5 + 0.4 * metalness) * (1 - roughness),
+        "specular": (0.8 + 0.3 * metalness) * (1 - roughness),
         "shininess": min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1]),
     }
 
