@@ -526,9 +526,16 @@ def site(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[str]:
 
 def test_a_page_of_files(browser: Any, site: str, request: pytest.FixtureRequest) -> None:
     page = browser.new_page(viewport={"width": 400, "height": 500})
-    page.goto(site)
+    # the EVM is held back until the poster has been seen
+    held: list[Any] = []
+    page.route("**/evm.wasm", lambda route: held.append(route))
+    with page.expect_request("**/evm.wasm"):
+        page.goto(site)
     view, poster = page.locator("shackled-view").first, page.locator("img").first
     assert poster.is_visible()
+    for route in held:
+        route.continue_()
+    page.unroute("**/evm.wasm")
     if request.node.callspec.params["site"] == "blob:":
         view.get_by_role("button", name="Exact pixels").wait_for(timeout=1000 * PATIENCE)
         assert view.evaluate("view => view.picture.sha256") == sha256(render(scene()))
