@@ -389,7 +389,7 @@ def _material(parts: list[_Part], surfaces: list[_Surface]) -> dict[str, Any]:
     roughness, metalness = np.clip(np.average([surface[:2] for _, surface in known], 0, areas), 0, 1).tolist()
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return {
-        "specular": (0.8 + 0.3 * metalness) * (1 - roughness),
+        "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
         "shininess": min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1]),
     }
 
