@@ -120,6 +120,7 @@ def _without_dead_ends(hard: Flags, weak: Flags, corners: Ints, proper: Ints, li
         degree -= np.bincount(ends[dead].ravel(), minlength=count)
 
 
+@np.errstate(over="ignore", invalid="ignore")
 def _areas_and_angles(positions: Floats, faces: Ints) -> tuple[Floats, Floats]:
     """Return the normals of faces, of their size, (m, 3), and the angles at their corners in radians, (m, 3)."""
     # of any size: products of lengths stay within floats
