@@ -42,9 +42,7 @@ opengl:
 
 demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 	@$(BIN)/python examples/meshes.py --into build teapot
-	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --size 256 --smooth --rotate 0,12,0 --color '#c8553d' \
-		--cull --light 'directional:-0.2,0.8,0.9' --ambient 0.25 --diffuse 0.85 --specular 0.6 --shininess 30 \
-		--background '#f3e9dc,#c7b8a6'
+	$(BIN)/shackled render build/teapot.obj -o build/teapot.png --rotate 0,12,0 --color '#c8553d'
 
 creator: $(CREATOR) ## the page on which pictures are made without code, in the browser
 	$(BIN)/shackled creator

@@ -49,8 +49,10 @@ def pot(divisions: int, size: int, material: Material, **look: Unpack[LookOption
 
 def smooth() -> Image:
     """What `make demo` draws."""
-    light = Light("directional", (-0.2, 0.8, 0.9))
-    return render(pot(8, 256, GLAZED, color=CLAY, lights=light, background=CREAM, cull=True))
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, str(EXAMPLES / "meshes.py"), "--into", folder, "teapot"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        return render(Path(folder, "teapot.obj"), rotate=(0, 12, 0), color=CLAY)
 
 
 def wireframe() -> Image:

@@ -16,10 +16,14 @@ import shackled
 from shackled import Background, Camera, InputError, Light, Mesh, Object, Scene, load, render
 from shackled.datasets import require
 from shackled.errors import InputWarning
-from shackled.scene import SETTINGS, LookOptions, read_mesh, rotate, signed_volume, stage, write_obj
+from shackled.scene import SETTINGS, LookOptions, look_at, read_mesh, rotate, signed_volume, write_obj
 
 BALL = trimesh.creation.icosphere(subdivisions=1)
 MESH = Mesh(BALL.vertices, BALL.faces)
+
+
+def staged(mesh: Mesh) -> Scene:
+    return look_at(mesh, {})
 
 
 def same(one: Scene, other: Scene) -> bool:
@@ -37,17 +41,17 @@ def same(one: Scene, other: Scene) -> bool:
         lambda: [BALL.vertices.tolist(), BALL.faces.tolist()],
         lambda: (BALL.vertices, BALL.faces, "#c8c8c8"),
         lambda: trimesh.Trimesh(BALL.vertices, BALL.faces, process=False),
-        lambda: stage(MESH),
+        lambda: staged(MESH),
     ],
     ids=["mesh", "arrays", "lists", "colours", "trimesh", "scene"],
 )
 def test_a_mesh_in_many_forms(make: Callable[[], Any]) -> None:
-    assert same(load(make()), stage(MESH))
+    assert same(load(make()), staged(MESH))
 
 
 def test_a_mesh_file(tmp_path: Path) -> None:
     write_obj(MESH, tmp_path / "ball.obj")
-    expected = render(stage(read_mesh(tmp_path / "ball.obj")))
+    expected = render(staged(read_mesh(tmp_path / "ball.obj")))
     assert render(tmp_path / "ball.obj") == expected
     assert render(str(tmp_path / "ball.obj")) == expected
 
@@ -136,11 +140,12 @@ VALUES: dict[str, Any] = {
     "margin": 0.5,
     "fov": 20,
     "half_height": 0.9,
-    "near": 2.3,
+    "near": 4.5,
     "orthographic": True,
     "lights": Light.point((2, 2, 2), "orange"),
     "ambient_light": "red",
-    "shading": "smooth",
+    "shading": "unlit",
+    "crease": 20,
     "smooth": True,
     "unlit": True,
     "ambient": 1.0,
@@ -198,6 +203,8 @@ def test_looks_in_other_words() -> None:
         ({"smooth": True, "unlit": True}, "the shading cannot be smooth and unlit at once"),
         ({"opacity": 2}, "`opacity` must be a finite number from 0 to 1, not 2"),
         ({"shininess": 2.5}, "`shininess` must be a whole number, from 1 to 128, not 2.5"),
+        ({"crease": 30, "shading": "flat"}, "`crease` is for smooth shading, and excludes flat"),
+        ({"crease": 181}, "`crease` must be a finite number from 0 to 180, not 181"),
         ({"max_triangles": 0}, "`max_triangles` must be a whole number, at least 1, not 0"),
         (
             {"color": "reddish"},

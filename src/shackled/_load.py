@@ -7,12 +7,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Unpack
 
+from attrs import evolve
+
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
     PICTURE,
     READERS,
     SCENES,
+    STUDIO,
     LookOptions,
     Mesh,
     Object,
@@ -23,7 +26,7 @@ from .scene import (
     look_at,
     mesh_of,
     objects_of,
-    read_mesh,
+    read_model,
     read_scene,
 )
 
@@ -37,8 +40,9 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
     "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object, or a list of these;
     (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene.
-    A mesh is staged so that it fills the picture; a scene keeps its look except for the given settings.
-    size: side of a square picture, or (width, height), in pixels; None for the scene's, or 128.
+    A mesh is staged: it fills the picture, under three lights, in smooth shading except across creases. A scene keeps
+    its look except for the given settings.
+    size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh.
     look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
     background="white", fov=40.
     InputError, one line, if the input does not exist or is not valid.
@@ -46,9 +50,13 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     chosen = checked_look({"size": size, **look})
     found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
     if isinstance(found, Path):
-        read = read_mesh(found) if found.suffix.lower() in READERS else read_scene(found)
+        material: dict[str, Any] = {}
+        if found.suffix.lower() in READERS:
+            thing, material = read_model(found)
+        else:
+            thing = read_scene(found)
         with about(str(found)):
-            return look_at(read, chosen)
+            return look_at(thing, chosen, evolve(STUDIO, material=evolve(STUDIO.material, **material)))
     return look_at(_made(found, chosen), chosen)
 
 

@@ -39,7 +39,7 @@ def test_a_mesh_becomes_a_picture(capsys: pytest.CaptureFixture[str]) -> None:
     expected = render(load("shape.obj"))
     assert (pixels("shape.png") == expected.pixels).all()
     assert len(np.unique(expected.pixels.reshape(-1, 3), axis=0)) > 50
-    assert "shape.png, 128 x 128 pixels" in output
+    assert "shape.png, 256 x 256 pixels" in output
     assert f"{expected.gas:,} (and {expected.intrinsic_gas:,} to send the scene)" in output
     assert f"{expected.triangles:,} triangles, {expected.covered_pixels:,} lit pixels" in output
     assert expected.made_by in output
@@ -87,7 +87,7 @@ def test_every_chain_makes_the_same_picture(capsys: pytest.CaptureFixture[str]) 
         ["--target", "0.5,0,0"],
         ["--up", "1,1,0"],
         ["--fov", "20", "--eye", "0,0,5", "--target", "0,0,0"],
-        ["--near", "2.5"],
+        ["--near", "4.5"],
         ["--half-height", "3", "--orthographic"],
         ["--orthographic"],
         ["--light", "point:1,2,3:#ff0000"],

@@ -16,7 +16,6 @@ from shackled.datasets.common import (
     checksum,
     clean,
     creased,
-    parts,
     placed,
     prepare,
     reduce,
@@ -26,7 +25,7 @@ from shackled.datasets.common import (
 from shackled.datasets.common import model as find_model
 from shackled.datasets.common.shapes import cylinder, icosphere, joined, torus
 from shackled.errors import InputError
-from shackled.scene import FORCEFUL, is_closed, signed_volume, simplify
+from shackled.scene import FORCEFUL, components, is_closed, signed_volume, simplify
 
 SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).resolve().parents[3] / "shared"))
 
@@ -94,7 +93,7 @@ def test_crumbs_go_and_parts_stay() -> None:
     whole = joined(Mesh(BALL.positions, BALL.faces), moved(BALL, 0.3, (0, 0, 3)), board)
     mesh = without_crumbs(joined(whole, crumb))
     assert count(mesh) == count(whole)
-    assert len(np.unique(parts(mesh.faces, len(mesh.positions)))) == 3
+    assert len(np.unique(components(mesh.faces, len(mesh.positions)))) == 3
     assert count(without_crumbs(board)) == count(board)
 
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from shackled import load
 from shackled.errors import InputError
 from shackled.scene import (
     Light,
@@ -83,6 +84,36 @@ def test_the_key_light_comes_from_the_upper_left_of_the_viewer() -> None:
         (key,) = scene.lights
         assert key.vector @ right < 0 < key.vector @ np.cross(back, right)
         assert key.vector @ back > 0
+
+
+def test_a_mesh_is_photographed_under_three_lights() -> None:
+    scene = load(BOX)
+    assert (scene.width, scene.height, scene.objects[0].cull) == (256, 256, True)
+    back = scene.camera.eye - scene.camera.target
+    right = np.cross(scene.camera.up, back)
+    key, fill, rim = scene.lights
+    assert key.vector @ right < 0 < key.vector @ back
+    assert fill.vector @ right > 0
+    assert rim.vector @ back < 0
+    assert sum(key.color) > 2 * sum(fill.color)
+    # warm and cool
+    assert key.color[0] > key.color[2]
+    assert fill.color[0] < fill.color[2]
+    assert np.abs(picture(scene)).max() == pytest.approx(0.85)
+    assert load(BOX, lights=Light("directional", (0, 0, 1))).lights == (Light("directional", (0, 0, 1)),)
+
+
+def test_the_flatter_a_mesh_the_higher_the_viewer() -> None:
+    def elevation(mesh: Mesh, **look: float) -> float:
+        camera = load(mesh, **look).camera  # type: ignore[arg-type]
+        x, y, z = camera.eye - camera.target
+        return float(np.degrees(np.arctan2(y, np.hypot(x, z))))
+
+    heights = (0.0, 0.5, 1.0, 3.0)
+    found = [elevation(Mesh(CORNERS * (1, height, 1), FACES)) for height in heights]
+    assert found == pytest.approx([40, 20, 20, 20])
+    assert elevation(Mesh(CORNERS * (1, 0.25, 1), FACES)) == pytest.approx(30)
+    assert elevation(Mesh(CORNERS * (1, 0.25, 1), FACES), elevation=-5) == pytest.approx(-5)
 
 
 def test_what_may_be_chosen_is_taken() -> None:

@@ -17,10 +17,11 @@ from ._codec import (
     extensions,
     render_call,
 )
+from ._crease import CREASE, SIMPLIFIED_CREASE, creased
 from ._decode import decode
 from ._files.colors import TEXTURED, sample
 from ._files.content import MAX_BYTES
-from ._files.mesh_file import READERS, read_mesh
+from ._files.mesh_file import READERS, read_mesh, read_model
 from ._files.obj import write_obj
 from ._files.original import original_scene
 from ._files.picture import CHUNK, LONGEST_TEXT, PICTURE, SceneChunk, scene_chunk
@@ -33,19 +34,20 @@ from ._from_trimesh import is_trimesh, mesh_of, objects_of
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
-from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, vertex_normals, without_slivers
+from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, is_closed, painted, signed_volume, view_axes
+from ._staging import BACKGROUND, STUDIO, is_closed, painted, signed_volume, view_axes
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
     "ANTIALIAS",
     "BACKGROUND",
     "CHUNK",
+    "CREASE",
     "CULL_BACKFACES",
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
@@ -73,7 +75,9 @@ __all__ = [
     "SCENES",
     "SETTINGS",
     "SHADINGS",
+    "SIMPLIFIED_CREASE",
     "SPOT",
+    "STUDIO",
     "TEXTURED",
     "WHITE",
     "WIDE",
@@ -95,7 +99,9 @@ __all__ = [
     "Shading",
     "about",
     "checked_look",
+    "components",
     "cosine",
+    "creased",
     "cut",
     "decode",
     "encode",
@@ -122,6 +128,7 @@ __all__ = [
     "pack",
     "painted",
     "read_mesh",
+    "read_model",
     "read_scene",
     "render_call",
     "resize",

@@ -15,13 +15,14 @@ from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
+from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, smoothed, without_normals
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
-from ._rotation import IDENTITY, rotation_of
-from ._scene import DEFAULT_SIDE, MAX_SIDE, Scene, lights_of
-from ._staging import AZIMUTH, ELEVATION, ELEVATIONS, MARGIN, MARGINS, Viewpoint, frame, painted, placed
+from ._rotation import IDENTITY, rotate, rotation_of
+from ._scene import MAX_SIDE, Scene, lights_of
+from ._staging import ELEVATIONS, MARGINS, PLAIN, STUDIO, Staging, Viewpoint, frame, painted, placed
 from ._turning import middle, turn
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made.
@@ -89,13 +90,21 @@ _WORDS: dict[Kind, str] = {
     "lights": "lights",
 }
 
-#: The material of staged meshes.
-_SURFACE = Material()
+#: The material of mesh files.
+_SURFACE = STUDIO.material
 
 #: All settings, in the order in which they are shown.
 SETTINGS = (
     Setting(
-        "size", "size", None, "Canvas", "Width and height of the picture.", 1, MAX_SIDE, "pixels", "the scene's, or 128"
+        "size",
+        "size",
+        None,
+        "Canvas",
+        "Width and height of the picture.",
+        1,
+        MAX_SIDE,
+        "pixels",
+        f"the scene's, or {STUDIO.side} for mesh files",
     ),
     Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
     Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
@@ -126,7 +135,7 @@ SETTINGS = (
         "Camera",
         "Angle at which the camera stands to the right of the front.",
         unit="degrees",
-        default=f"{AZIMUTH:g} for mesh files",
+        default=f"{STUDIO.view.azimuth:g} for mesh files",
     ),
     Setting(
         "elevation",
@@ -136,7 +145,7 @@ SETTINGS = (
         "Angle at which the camera stands above the horizon.",
         *ELEVATIONS,
         "degrees",
-        f"{ELEVATION:g} for mesh files",
+        f"{STUDIO.view.elevation:g} for mesh files, up to {STUDIO.flat_elevation:g} for flat ones",
     ),
     Setting(
         "margin",
@@ -145,7 +154,7 @@ SETTINGS = (
         "Camera",
         "Part of half the picture that stays free around the objects.",
         *MARGINS,
-        default=f"{MARGIN:g} for mesh files",
+        default=f"{STUDIO.view.margin:g} for mesh files",
     ),
     Setting(
         "fov",
@@ -155,7 +164,7 @@ SETTINGS = (
         "Vertical field of view of a perspective camera.",
         *FIELDS_OF_VIEW,
         "degrees",
-        "about 50",
+        "30 for mesh files, else about 50",
     ),
     Setting(
         "half_height", "number", "camera", "Camera", "Half the height of the view, in perspective at distance 1.", 0
@@ -173,7 +182,12 @@ SETTINGS = (
         "lights", "lights", "scene", "Light", "Up to four lights in place of those of the scene.", option="--light"
     ),
     Setting(
-        "ambient_light", "color", "scene", "Light", "Colour of the light that comes from everywhere.", default="white"
+        "ambient_light",
+        "color",
+        "scene",
+        "Light",
+        "Colour of the light that comes from everywhere.",
+        default="bluish white for mesh files, else white",
     ),
     Setting(
         "shading",
@@ -181,8 +195,18 @@ SETTINGS = (
         "material",
         "Light",
         "Kind of shading.",
-        default=f"{_SURFACE.shading} for mesh files",
+        default="by `crease` for mesh files",
         choices=SHADINGS,
+    ),
+    Setting(
+        "crease",
+        "number",
+        None,
+        "Light",
+        "Compute normals for smooth shading, except across edges of more than this angle.",
+        *CREASES,
+        "degrees",
+        f"the normals of mesh files, or {CREASE:g} where there are none",
     ),
     Setting("smooth", "flag", None, "Light", "Short for shading smooth.", option="--smooth"),
     Setting("unlit", "flag", None, "Light", "Short for shading unlit.", option="--unlit"),
@@ -267,6 +291,7 @@ class LookOptions(TypedDict, total=False):
     lights: Light | Sequence[Light] | None
     ambient_light: AnyColor | None
     shading: Shading | None
+    crease: float | None
     smooth: bool | None
     unlit: bool | None
     ambient: float | None
@@ -296,6 +321,8 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(f"the shading cannot be {' and '.join(sorted(shadings))} at once")
     if shadings:
         look["shading"] = shadings.pop()
+    if "crease" in look and look.get("shading", "smooth") != "smooth":
+        raise InputError(f"`crease` is for smooth shading, and excludes {look['shading']}")
     exclude(look, "`{}`".format)
     return look
 
@@ -315,27 +342,27 @@ def stage(
     material: Material | None = None,
     **look: Unpack[LookOptions],
 ) -> Scene:
-    """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, that fills the picture.
+    """Return a plain scene of one mesh, scaled to a bounding sphere of radius 1 about the origin; it fills the picture.
 
     material: of the surface, before the settings of the look. look: as in `load`.
     """
-    chosen = checked_look({"size": size, **look})
-    scene = look_at(mesh, chosen)
-    if material is None:
-        return scene
-    material = evolve(material, **_given(chosen, settings_of("material")))
-    return evolve(scene, objects=[evolve(o, material=material) for o in scene.objects])
+    return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
+def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = STUDIO) -> Scene:
     """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture."""
     if isinstance(thing, Scene) and not look:
         return thing
+    crease = look.get("crease", SIMPLIFIED_CREASE)
     if isinstance(thing, Mesh):
-        width, height = look.get("size", (DEFAULT_SIDE, DEFAULT_SIDE))
+        width, height = look.get("size", (staging.side, staging.side))
         Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
-        view = view_of(look, width, height, look.get("orthographic", False))
-        scene = placed(thing, look.get("rotate", IDENTITY), view, width, height)
+        rotation = look.get("rotate", IDENTITY)
+        own = staging.view_of(rotate(rotation, thing.positions))
+        view = view_of(look, width, height, look.get("orthographic", False), own)
+        if staging.by_normals:
+            thing, look = _shaded(thing, look, staging.material.shading)
+        scene = placed(thing, rotation, view, staging, width, height)
     else:
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
@@ -350,16 +377,30 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any]) -> Scene:
         return scene
     from ._simplify import simplify_scene
 
-    return simplify_scene(scene, look["max_triangles"])
+    return simplify_scene(scene, look["max_triangles"], crease)
 
 
-def view_of(look: Mapping[str, Any], width: int, height: int, orthographic: bool) -> Viewpoint:
-    """Return the view that a look asks for, in a picture of this size."""
+def _shaded(mesh: Mesh, look: Mapping[str, Any], shading: Shading) -> tuple[Mesh, Mapping[str, Any]]:
+    """Return the mesh and the look with the shading that suits its normals, unless the look or its file says which."""
+    if shading == "unlit" or {"shading", "crease"} & look.keys():
+        return mesh, look
+    if mesh.normals is None:
+        return mesh, {**look, "crease": CREASE}
+    if is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
+        return without_normals(mesh), {**look, "shading": "flat"}
+    return mesh, {**look, "shading": "smooth"}
+
+
+def view_of(
+    look: Mapping[str, Any], width: int, height: int, orthographic: bool, own: Viewpoint | None = None
+) -> Viewpoint:
+    """Return the view that a look asks for, in a picture of this size. own: what it changes; None for a plain one."""
     chosen = {name: look[name] for name in ("azimuth", "elevation", "margin") if name in look}
     half_height = half_height_in(look, orthographic)
     if half_height is not None and not orthographic:
         chosen["half_height"] = half_height
-    return Viewpoint(projection="orthographic" if orthographic else "perspective", aspect=width / height, **chosen)
+    projection: Projection = "orthographic" if orthographic else "perspective"
+    return evolve(own or Viewpoint(), projection=projection, aspect=width / height, **chosen)
 
 
 def resize(scene: Scene, size: int | tuple[int, int]) -> Scene:
@@ -384,7 +425,9 @@ def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, in
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
     changes = _given(look, settings_of("object"))
     mesh = painted(o.mesh, changes.pop("color")) if "color" in changes else o.mesh
-    return evolve(o, mesh=mesh, material=evolve(o.material, **_given(look, settings_of("material"))), **changes)
+    material = evolve(o.material, **_given(look, settings_of("material")))
+    o = evolve(o, mesh=mesh, material=material, **changes)
+    return smoothed(o, look["crease"]) if "crease" in look else o
 
 
 def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:

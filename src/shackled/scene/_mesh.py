@@ -166,6 +166,23 @@ def without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(faces[(a != b) & (b != c) & (c != a)])
 
 
+def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+    """Return, for each of `count` vertices, the least number among those that links connect it with, (count,).
+
+    links: (n, k) int, the numbers of k vertices that are connected, such as the faces of a mesh.
+    """
+    label = np.arange(count)
+    while True:
+        least = label[links].min(axis=1)
+        new = label.copy()
+        for column in links.T:
+            np.minimum.at(new, column, least)
+        new = new[new]
+        if np.array_equal(new, label):
+            return label
+        label = new
+
+
 def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return unit normals, (n, 3): the mean of the faces around each vertex, weighted by area; zero where none are."""
     corners = positions[faces]

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from ..checks import integer
 from ..errors import InputError
+from ._crease import SIMPLIFIED_CREASE, smoothed
 from ._mesh import Mesh, without_slivers
+from ._object import Object
 from ._scene import Scene
 
 #: Attempts until one suffices: aggressiveness, and the target as a share of the requested one, because a collapse may
@@ -49,9 +51,18 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     return Mesh(positions, faces, colors)
 
 
-def simplify_scene(scene: Scene, max_triangles: int) -> Scene:
-    """Return the scene with every mesh of more triangles simplified to `max_triangles`."""
-    return evolve(scene, objects=[evolve(o, mesh=simplify(o.mesh, max_triangles)) for o in scene.objects])
+def simplify_scene(scene: Scene, max_triangles: int, crease: float = SIMPLIFIED_CREASE) -> Scene:
+    """Return the scene with every mesh of more triangles simplified to `max_triangles`.
+
+    Meshes with normals get new ones, smooth across edges of up to `crease` degrees.
+    """
+    return evolve(scene, objects=[_simplified_object(o, max_triangles, crease) for o in scene.objects])
+
+
+def _simplified_object(o: Object, max_triangles: int, crease: float) -> Object:
+    simpler = evolve(o, mesh=simplify(o.mesh, max_triangles))
+    had_normals = o.material.shading == "smooth" and o.mesh.normals is not None
+    return smoothed(simpler, crease) if had_normals and simpler.mesh is not o.mesh else simpler
 
 
 _Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from .. import checks
-from ..checks import Floats, number
+from ..checks import Color, Floats, number
 from ..errors import InputError
 from ..values import checked, with_names
 from ._arithmetic import cosine, dot, length, sine
 from ._background import Background
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection
-from ._light import Light
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._light import WHITE, Light
+from ._material import Material
 from ._mesh import Mesh
 from ._object import Object
 from ._rotation import rotate
-from ._scene import Scene
+from ._scene import DEFAULT_SIDE, Scene
 
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 
@@ -54,7 +58,64 @@ class Viewpoint:
     aspect: float = 1.0
 
 
-def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, width: int, height: int) -> Scene:
+@frozen
+class Staging:
+    """How a mesh without a scene is shown.
+
+    side: of the picture in pixels, where none is given.
+    view: of meshes at least half as high as wide; the flatter a mesh, the higher the viewer, up to `flat_elevation`.
+    lights: directions, right, up and toward the viewer, and colours.
+    material: of the mesh. Its shading is replaced if `by_normals`: by that of the mesh's normals, or of computed ones.
+    fields: of the Scene, by their names.
+    """
+
+    side: int
+    view: Viewpoint
+    flat_elevation: float
+    lights: tuple[tuple[tuple[float, float, float], Color], ...]
+    material: Material
+    by_normals: bool
+    fields: Mapping[str, Any]
+
+    def view_of(self, points: Floats) -> Viewpoint:
+        """Return the view of points, (n, 3)."""
+        with np.errstate(over="ignore"):
+            x, y, z = np.ptp(points, axis=0).tolist()
+        width = max(x, z)
+        flatness = 1 - 2 * y / width if 2 * y < width < np.inf else 0.0
+        lowest = self.view.elevation
+        return evolve(self.view, elevation=lowest + flatness * (self.flat_elevation - lowest))
+
+
+#: Of the pieces of datasets: cheap to draw.
+PLAIN = Staging(
+    side=DEFAULT_SIDE,
+    view=Viewpoint(),
+    flat_elevation=ELEVATION,
+    lights=((KEY_LIGHT, WHITE),),
+    material=Material(),
+    by_normals=False,
+    fields={"background": BACKGROUND},
+)
+#: Of mesh files: as a product is photographed, with a warm key light from the upper left, a weak cool one that fills
+#: the shadows from the right, and one from above and behind that draws the rim, through a lens of a narrow angle.
+STUDIO = Staging(
+    side=256,
+    view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
+    flat_elevation=40.0,
+    # one: smooth surfaces in the light of several take three times the gas
+    lights=(((-0.6, 0.7, 0.9), (255, 243, 226)),),
+    material=Material("smooth", ambient=0.32, diffuse=0.8, specular=0.4, shininess=28),
+    by_normals=True,
+    fields={
+        "antialias": True,
+        "background": Background((36, 41, 53), (108, 117, 134)),
+        "ambient_light": (232, 240, 255),
+    },
+)
+
+
+def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, staging: Staging, width: int, height: int) -> Scene:
     """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
 
     The mesh keeps its coordinates; position and scale of the object do the rest.
@@ -68,12 +129,12 @@ def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, width: int, height: in
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
     turned = rotate(rotation, (positions - center) * scale)
     return Scene(
-        [Object(mesh, -rotate(rotation, center * scale), rotation, scale, cull=is_closed(mesh))],
+        [Object(mesh, -rotate(rotation, center * scale), rotation, scale, staging.material, cull=is_closed(mesh))],
         frame(turned, view),
-        key_light(view),
-        BACKGROUND,
+        [_light(direction, color, view) for direction, color in staging.lights],
         width=width,
         height=height,
+        **staging.fields,
     )
 
 
@@ -126,7 +187,12 @@ def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
 
 def key_light(view: Viewpoint) -> Light:
     """Return a light that stays where it is for the viewer, wherever the viewer stands."""
-    return Light("directional", dot(np.array(KEY_LIGHT), np.stack(view_axes(view.azimuth, view.elevation), axis=1)))
+    return _light(KEY_LIGHT, WHITE, view)
+
+
+def _light(direction: tuple[float, float, float], color: Color, view: Viewpoint) -> Light:
+    axes = np.stack(view_axes(view.azimuth, view.elevation), axis=1)
+    return Light("directional", dot(np.array(direction), axes), color)
 
 
 def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:

@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from PIL import Image
 
+from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, TEXTURED, Mesh, read_mesh
+from shackled.scene import DEFAULT_COLOR, STUDIO, TEXTURED, Mesh, read_mesh, read_model
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -101,6 +103,50 @@ def test_glb_without_material(tmp_path: Path) -> None:
     assert corner_positions(mesh) == [[list(p) for p in POINTS]]
     assert corner_colors(mesh) == [[list(DEFAULT_COLOR)] * 3]
     assert mesh.normals is None
+
+
+def test_what_a_material_says_of_its_surface(tmp_path: Path) -> None:
+    def surface(**values: Any) -> dict[str, Any]:
+        model = Gltf()
+        model.material(**values)
+        return read_model(model.glb(tmp_path / "model.glb"))[1]
+
+    assert read_model(Gltf().glb(tmp_path / "model.glb"))[1] == surface() == surface(metallicFactor=0) == {}
+    rough, glossy = surface(roughnessFactor=1, metallicFactor=0), surface(roughnessFactor=0.2, metallicFactor=0)
+    assert rough["specular"] == 0
+    assert rough["specular"] < glossy["specular"] < surface(roughnessFactor=0.2)["specular"]
+    assert rough["shininess"] < glossy["shininess"] <= 128
+    assert surface(roughnessFactor=0.2, metallicRoughnessTexture={"index": 0}) == {}
+    scene = load(tmp_path / "model.glb", shininess=7)
+    assert scene.objects[0].material == evolve(STUDIO.material, shading="flat", shininess=7)
+
+
+def test_an_unlit_material_is_unlit(tmp_path: Path) -> None:
+    model = Gltf()
+    model.material()
+    model.document["materials"][0]["extensions"] = {"KHR_materials_unlit": {}}
+    path = model.glb(tmp_path / "model.glb")
+    assert load(path).objects[0].material.shading == "unlit"
+    assert load(path, shading="flat").objects[0].material.shading == "flat"
+
+
+def test_normals_of_the_file_make_it_smooth(tmp_path: Path) -> None:
+    model = Gltf()
+    normals = np.array([[0, 0, 1], [0.6, 0, 0.8], [0, 0.6, 0.8]])
+    model.attribute("NORMAL", normals.astype(np.float32))
+    thing = load(model.glb(tmp_path / "model.glb")).objects[0]
+    assert thing.material.shading == "smooth"
+    assert thing.mesh.normals is not None
+    np.testing.assert_allclose(thing.mesh.normals[thing.mesh.faces[0]], normals, atol=1e-6)
+    assert load(tmp_path / "model.glb", shading="flat").objects[0].material.shading == "flat"
+
+
+def test_normals_of_the_faces_themselves_leave_it_flat(tmp_path: Path) -> None:
+    model = Gltf()
+    a, b, c = np.array(POINTS)
+    model.attribute("NORMAL", np.array([np.cross(b - a, c - a)] * 3, dtype=np.float32))
+    thing = load(model.glb(tmp_path / "model.glb")).objects[0]
+    assert (thing.material.shading, thing.mesh.normals) == ("flat", None)
 
 
 def test_gltf_with_its_data_inside_and_beside(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from shackled import load
+from shackled import Material, load
 from shackled.errors import InputError
 from shackled.scene import MAX_BYTES
 
@@ -24,8 +24,16 @@ def refusal(path: Path | str) -> str:
 def test_a_mesh_is_staged(tmp_path: Path) -> None:
     (tmp_path / "a.OBJ").write_text(TRIANGLE)
     scene = load(tmp_path / "a.OBJ", (30, 20))
-    assert (scene.width, scene.height, len(scene.lights)) == (30, 20, 1)
-    assert load(str(tmp_path / "a.OBJ")).width == 128
+    assert (scene.width, scene.height, scene.lights) == (30, 20, load(tmp_path / "a.OBJ").lights)
+    assert (load(str(tmp_path / "a.OBJ")).width, len(scene.lights)) == (256, 3)
+
+
+def test_a_scene_file_stays_small_and_plain(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_text(TRIANGLE)
+    (tmp_path / "a.toml").write_text('[[objects]]\nmesh = "a.obj"\n')
+    scene = load(tmp_path / "a.toml")
+    assert (scene.width, scene.height, len(scene.lights)) == (128, 128, 1)
+    assert scene.objects[0].material == Material("flat")
 
 
 def test_json_is_the_originals_if_it_has_a_canvas(tmp_path: Path) -> None:

@@ -72,8 +72,26 @@ def test_normals_of_the_file_are_kept(tmp_path: Path) -> None:
     assert np.asarray(mesh.normals).tolist() == [[0, 0, 1], [0, 0, 1], [0, 1, 0]]
 
 
-def test_normals_that_not_every_face_has_are_dropped(tmp_path: Path) -> None:
-    assert read(tmp_path, SQUARE + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 3 4\n").normals is None
+def test_normals_that_not_every_face_has_are_completed(tmp_path: Path) -> None:
+    mesh = read(tmp_path, SQUARE + "v 0 0 1\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\nf 1 3 4\nf 1 4 5\n")
+    assert mesh.normals is not None
+    given, near, across = mesh.normals[mesh.faces]
+    np.testing.assert_array_equal(given, [[0.6, 0, 0.8]] * 3)
+    np.testing.assert_array_equal(near, [[0, 0, 1]] * 3)
+    np.testing.assert_array_equal(across, [[1, 0, 0]] * 3)
+
+
+def test_smoothing_groups_give_normals(tmp_path: Path) -> None:
+    fold = SQUARE + "v 0 0 1\n{}f 1 2 3 4\n{}f 1 4 5\n"
+    assert read(tmp_path, fold.format("s off\n", "")).normals is None
+    smooth = read(tmp_path, fold.format("s 1\n", "")).normals
+    assert smooth is not None
+    assert len(smooth) == 5
+    np.testing.assert_allclose(smooth[1], [0, 0, 1])
+    assert (smooth[0] > 0.1).tolist() == [True, False, True]
+    for other in ("s 2\n", "s off\n"):
+        hard = read(tmp_path, fold.format("s 1\n", other))
+        np.testing.assert_array_equal(hard.normals, [[0, 0, 1]] * 4 + [[1, 0, 0]] * 3)
 
 
 def test_materials_color_their_faces(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-from ._clean import MAX_TRIANGLES, capped, clean, creased, parts, placed, prepare, reduce, without_crumbs
+from ._clean import MAX_TRIANGLES, capped, clean, creased, placed, prepare, reduce, without_crumbs
 from ._cornell_box import EYE, HEIGHT, cornell_box
 from ._fetch import checksum, fetch, take
 from ._models import Model, find, model, models, pieces
@@ -17,7 +17,6 @@ __all__ = [
     "find",
     "model",
     "models",
-    "parts",
     "pieces",
     "placed",
     "prepare",

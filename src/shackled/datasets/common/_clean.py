@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
-from ...scene import FORCEFUL, GENTLE, Mesh, from_euler, is_closed, rotate, simplify, weld, without_slivers
+from ...scene import FORCEFUL, GENTLE, Mesh, components, from_euler, is_closed, rotate, simplify, weld, without_slivers
 
 #: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198
@@ -108,25 +108,11 @@ def capped(mesh: Mesh) -> Mesh:
 def without_crumbs(mesh: Mesh) -> Mesh:
     """Return the mesh without unconnected parts of a few triangles."""
     faces = mesh.faces
-    part = parts(faces, len(mesh.positions))[faces[:, 0]]
+    part = components(faces, len(mesh.positions))[faces[:, 0]]
     count = np.bincount(part)[part]
     least = min(CRUMB, count.max())
     kept = (count >= least) | (_size_of_parts(mesh, part) > CRUMB_SHARE**0.5)
     return _compact(mesh.positions, faces[kept], mesh.colors)
-
-
-def parts(faces: Faces, count: int) -> NDArray[np.int64]:
-    """Return, for each vertex, the least number among those that faces connect it with, (count,)."""
-    label = np.arange(count)
-    while True:
-        least = label[faces].min(axis=1)
-        new = label.copy()
-        for corner in range(3):
-            np.minimum.at(new, faces[:, corner], least)
-        new = new[new]
-        if np.array_equal(new, label):
-            return label
-        label = new
 
 
 def reduce(mesh: Mesh, max_triangles: int) -> Mesh:

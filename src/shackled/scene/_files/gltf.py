@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ...errors import InputError
+from .._crease import filled
+from .._material import EXPONENTS
 from .._mesh import DEFAULT_COLOR, Mesh
 from .._rotation import rotate
 from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
@@ -30,7 +32,7 @@ from .weld import weld
 
 Array = NDArray[np.float64]
 
-#: Positions, faces, colours and normals (of no rows if there are none).
+#: Positions, faces, colours and normals (zeros if there are none).
 _Part = tuple[Array, NDArray[np.int64], Array, Array]
 
 #: How many triangles are read, each mesh as often as it is shown, and how long an accessor without data may be.
@@ -47,32 +49,41 @@ _COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 _KNOWN = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_lights_punctual", "EXT_texture_webp")
 _KNOWN_BEGINNING = "KHR_materials_"
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
+_UNLIT = "KHR_materials_unlit"
+
+#: Roughness and metalness, 0..1, and whether light falls on it; None if the file does not say.
+_Surface = tuple[float, float, bool] | None
+#: The exponent of the widest highlights; even wider ones only fade the colours.
+_WIDEST = 10
 
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @np.errstate(all="ignore")
-def read_gltf(path: Path) -> Mesh:
+def read_gltf(path: Path) -> tuple[Mesh, dict[str, Any]]:
     """Return the mesh of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
 
     The colour of a vertex is the product of the base colour of its material, the base colour texture there, and the
     colour of the vertex, as far as they are given; light grey if none is. Colours are taken as they are written,
     without gamma. Points and lines are left out, and textures that cannot be read, of which an InputWarning tells.
+    Also return what the materials say about a `Material`, by the names of its fields: the mean of all triangles.
     """
     gltf = _Gltf(path)
     parts: list[_Part] = []
+    surfaces: list[_Surface] = []
     triangles = 0
     for node, matrix in _nodes(gltf):
-        for part in _primitives(gltf, gltf.item(node, "mesh", "meshes")) if "mesh" in node else ():
+        for part, surface in _primitives(gltf, gltf.item(node, "mesh", "meshes")) if "mesh" in node else ():
             triangles += len(part[1])
             if triangles > MAX_TRIANGLES:
                 raise InputError(f"it shows more than {MAX_TRIANGLES:,} triangles, the most that are read")
             parts.append(_place(part, matrix))
+            surfaces.append(surface)
     if not parts:
         raise InputError("it has no triangles")
     if gltf.textured:
         warn(f"{path}: {TEXTURED}")
-    return _join(parts)
+    return _join(parts), _material(parts, surfaces)
 
 
 class _Gltf:
@@ -276,8 +287,8 @@ def _matrix(node: Table) -> Array:
     return matrix
 
 
-def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Part]:
-    """Return the parts of a mesh that have triangles."""
+def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[tuple[_Part, _Surface]]:
+    """Return the parts of a mesh that have triangles, each with what its material says."""
     for where, value in mesh.rows("primitives"):
         keys = Table(value, where)
         attributes = keys.table("attributes")
@@ -301,12 +312,14 @@ def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Part]:
         with about(where):
             normals = vertices.values("NORMAL", "VEC3")
             colors = _colors(vertices, keys)
-        yield (
+            surface = _surface(gltf, keys)
+        part = (
             positions[used].astype(np.float64),
             numbers.reshape(-1, 3),
             colors,
-            np.empty((0, 3)) if normals is None else normals.astype(np.float64),
+            np.zeros((len(used), 3)) if normals is None else normals.astype(np.float64),
         )
+        yield part, surface
 
 
 def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:
@@ -341,6 +354,44 @@ class _Vertices:
         if len(values) != self.count:
             raise InputError(f"{name} has {len(values)} values, but POSITION {self.count}")
         return np.asarray(values[self.used])
+
+
+def _surface(gltf: _Gltf, primitive: Table) -> _Surface:
+    """Return roughness and metalness, 0..1, and whether light falls on it; None if the file does not say.
+
+    A roughness by texture is not read, and one that is left out, of 1 by the specification, is often not meant.
+    """
+    if "material" not in primitive:
+        return None
+    material = gltf.item(primitive, "material", "materials")
+    extensions, keys = material.table("extensions"), material.table("pbrMetallicRoughness")
+    if _UNLIT in extensions:
+        return 1.0, 0.0, False
+    if _GLOSSINESS in extensions:
+        older = extensions.table(_GLOSSINESS)
+        return None if "specularGlossinessTexture" in older else (1 - older.number("glossinessFactor", 1), 0.0, True)
+    if "roughnessFactor" not in keys or "metallicRoughnessTexture" in keys:
+        return None
+    return keys.number("roughnessFactor"), keys.number("metallicFactor", 1), True
+
+
+def _material(parts: list[_Part], surfaces: list[_Surface]) -> dict[str, Any]:
+    """Return the fields of a Material: the mean of all parts that have a surface, by area."""
+    known = [(part, surface) for part, surface in zip(parts, surfaces, strict=True) if surface is not None]
+    if len(known) == len(parts) and not any(lit for _, (_, _, lit) in known):
+        return {"shading": "unlit"}
+    areas = []
+    for (positions, faces, _, _), _ in known:
+        a, b, c = positions[faces].transpose(1, 0, 2)
+        areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
+    if not 0 < sum(areas) < math.inf:
+        return {}
+    roughness, metalness = np.clip(np.average([surface[:2] for _, surface in known], 0, areas), 0, 1).tolist()
+    # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
+    return {
+        "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
+        "shininess": min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1]),
+    }
 
 
 def _colors(vertices: _Vertices, primitive: Table) -> Array:
@@ -398,9 +449,10 @@ def _place(part: _Part, matrix: Array) -> _Part:
 
 
 def _join(parts: list[_Part]) -> Mesh:
-    has_normals = all(len(normals) == len(positions) for positions, _, _, normals in parts)
     starts = np.cumsum([0, *(len(part[0]) for part in parts)])
     corners = np.concatenate([part[1] + start for part, start in zip(parts, starts, strict=False)])
     colors = np.concatenate([part[2] for part in parts])
-    normals = np.concatenate([part[3] for part in parts])[corners] if has_normals else None
-    return weld(np.concatenate([part[0] for part in parts]), corners, colors[corners], normals)
+    positions, normals = (np.concatenate([part[column] for part in parts]) for column in (0, 3))
+    return weld(
+        positions, corners, colors[corners], filled(positions, corners, normals[corners]) if normals.any() else None
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ...errors import InputError, InputWarning
 from .._mesh import Mesh
@@ -14,21 +15,34 @@ from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
 
-READERS: dict[str, Callable[[Path], Mesh]] = {
-    ".obj": read_obj,
-    ".ply": read_ply,
-    ".stl": read_stl,
+#: A mesh, and fields of a `Material` that the file gives, by their names.
+_Model = tuple[Mesh, dict[str, Any]]
+
+
+def _without_material(read: Callable[[Path], Mesh]) -> Callable[[Path], _Model]:
+    return lambda path: (read(path), {})
+
+
+READERS: dict[str, Callable[[Path], _Model]] = {
+    ".obj": _without_material(read_obj),
+    ".ply": _without_material(read_ply),
+    ".stl": _without_material(read_stl),
     ".glb": read_gltf,
     ".gltf": read_gltf,
-    ".off": read_off,
+    ".off": _without_material(read_off),
 }
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Return the mesh of a file, by its extension. Vertices that are equal in position, colour and normal are one.
+    """Return the mesh of a file; see `read_model`."""
+    return read_model(path)[0]
 
-    An InputWarning tells what of the file is left out. InputError, one line that begins with the path, for anything
-    that is wrong with the file.
+
+def read_model(path: str | os.PathLike[str]) -> _Model:
+    """Return the mesh of a file, by its extension, and fields of a `Material` that the file gives, by their names.
+
+    Vertices that are equal in position, colour and normal are one. An InputWarning tells what of the file is left out.
+    InputError, one line that begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)
     extension = path.suffix.lower()

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ...errors import InputError
+from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
 from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
 from .content import read_text, warn
@@ -30,21 +31,24 @@ def read_obj(path: Path) -> Mesh:
     """Return the mesh of an OBJ file, all its groups and objects in one.
 
     The colour of a corner is that of its vertex (`v x y z r g b`), else the texture (`map_Kd`), else the diffuse colour
-    (`Kd`) of its material, else light grey. Materials and textures that cannot be read are left out, of which an
-    InputWarning tells.
+    (`Kd`) of its material, else light grey. Its normal is that of the file (`vn`), else that of its smoothing group
+    (`s`), if the file has any. Materials and textures that cannot be read are left out, of which an InputWarning tells.
     """
     obj = _parse(path)
     vertex, texcoord, normal = (np.array(column, dtype=np.int64) for column in (obj.vertex, obj.texcoord, obj.normal))
     positions, normals = _table(obj.positions, 3), _table(obj.normals, 3)
     triangles = cut(positions, obj.sizes, vertex)
     corners, face = triangles[:, :3], triangles[:, 3]
-    has_normals = bool((normal != ABSENT).all())
-    return weld(
-        positions,
-        vertex[corners],
-        _colors(obj, vertex, texcoord, corners, np.array(obj.face_materials, dtype=np.int64)[face]),
-        normals[normal[corners]] if has_normals else None,
-    )
+    faces = vertex[corners]
+    material, group = (np.array(column, dtype=np.int64)[face] for column in (obj.face_materials, obj.face_groups))
+    corner_colors = _colors(obj, vertex, texcoord, corners, material)
+    found = None
+    if (normal != ABSENT).any():
+        given = normal[corners]
+        found = filled(positions, faces, np.where((given == ABSENT)[:, :, None], 0, normals[given]))
+    elif group.any():
+        found = corner_normals(positions, faces, groups=group)
+    return weld(positions, faces, corner_colors, found)
 
 
 def write_obj(mesh: Mesh, path: str | Path) -> None:
@@ -86,6 +90,7 @@ class _Obj:
         self.sizes = array("q")
         self.face_lines = array("q")
         self.face_materials = array("q")
+        self.face_groups = array("q")
         self.material_numbers: dict[str, int] = {"": 0}
         self.materials: dict[str, _Material] = {}
 
@@ -96,7 +101,7 @@ def _table(values: array[float], width: int) -> NDArray[np.float64]:
 
 def _parse(path: Path) -> _Obj:
     obj = _Obj(path)
-    material = 0
+    material, group = 0, 0
     text = read_text(path).replace("\\\n", " ")
     for number, line in enumerate(io.StringIO(text), 1):
         words = line.partition("#")[0].split()
@@ -118,8 +123,11 @@ def _parse(path: Path) -> _Obj:
                 _add_face(obj, words[1:])
                 obj.face_lines.append(number)
                 obj.face_materials.append(material)
+                obj.face_groups.append(group)
             elif keyword == "usemtl":
                 material = obj.material_numbers.setdefault(" ".join(words[1:]), len(obj.material_numbers))
+            elif keyword == "s":
+                group = int(words[1]) if words[1:] and words[1].isdecimal() else 0
             elif keyword == "mtllib":
                 obj.materials.update(_read_materials(path, line.split(None, 1)[1].strip()))
         except (ValueError, IndexError):

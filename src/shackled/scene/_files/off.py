@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
+from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh
 from .colors import to_bytes
 from .content import read_text
@@ -51,7 +52,9 @@ def read_off(path: Path) -> Mesh:
     numbers = np.fromiter(chain.from_iterable(polygons), dtype=np.int64)
     triangles = cut(positions, [len(polygon) for polygon in polygons], numbers)
     corners = numbers[triangles[:, :3]]
-    normals = np.array([vertex[3:6] for vertex in vertices])[corners] if header["normal"] else None
+    normals = None
+    if header["normal"]:
+        normals = filled(np.array(positions), corners, np.array([vertex[3:6] for vertex in vertices])[corners])
     behind = [vertex[6 if header["normal"] else 3 :] for vertex in vertices]
     if header["texture"]:
         behind = [values[:-2] for values in behind]

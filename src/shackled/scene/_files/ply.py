@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import InputError
+from .._crease import filled
 from .._mesh import Mesh
 from .colors import to_bytes
 from .content import read_bytes, unix_lines, warn
@@ -63,7 +64,7 @@ def read_ply(path: Path) -> Mesh:
     if header.textures:
         warn(f"{path}: its texture {', '.join(header.textures)} is left out; of PLY files only colours are read")
     normals = vertex.table("nx", "ny", "nz")
-    return weld(positions, corners, colors, None if normals is None else normals[corners])
+    return weld(positions, corners, colors, None if normals is None else filled(positions, corners, normals[corners]))
 
 
 @dataclass

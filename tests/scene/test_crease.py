@@ -1,0 +1,146 @@
+"""Normals that are smooth except across creases."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.typing import NDArray
+
+from shackled import Material, Mesh, Object, Scene, load
+from shackled.datasets.common import shapes
+from shackled.scene import MAX_VERTICES, creased, simplify_scene
+
+
+def made(mesh: trimesh.Trimesh) -> Mesh:
+    return Mesh(mesh.vertices, mesh.faces)
+
+
+def corners(mesh: Mesh) -> NDArray[np.float64]:
+    assert mesh.normals is not None
+    return mesh.normals[mesh.faces]
+
+
+def zigzag(ridges: int) -> Mesh:
+    """A strip of quads, each at a right angle to the next."""
+    steps = np.arange(ridges + 1)
+    line = np.stack([(steps + 1) // 2, steps // 2, 0 * steps], axis=1)
+    quads = steps[:-1, None] + np.array([0, 1, ridges + 2, ridges + 1])
+    return Mesh(np.concatenate([line, line + np.array([0, 0, 1])]), np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]]))
+
+
+CUBE = made(trimesh.creation.box())
+CYLINDER = made(trimesh.creation.cylinder(1, 2, sections=32))
+
+
+def test_the_side_of_a_cylinder_is_smooth_and_its_caps_are_hard() -> None:
+    mesh = creased(CYLINDER)
+    assert len(mesh.positions) == len(CYLINDER.positions) + 2 * 32
+    assert mesh.triangles == CYLINDER.triangles
+    for points, normals in zip(mesh.positions[mesh.faces], corners(mesh), strict=True):
+        if np.ptp(points[:, 2]) == 0:
+            np.testing.assert_array_equal(normals, [[0, 0, np.sign(points[0, 2])]] * 3)
+        else:
+            np.testing.assert_allclose(normals, points * (1, 1, 0), atol=1e-6)
+
+
+@pytest.mark.parametrize(("sections", "is_round"), [(8, False), (9, True), (10, True)])
+def test_the_angle_decides(sections: int, is_round: bool) -> None:
+    prism = creased(made(trimesh.creation.cylinder(1, 2, sections=sections)))
+    assert (prism.normals is not None) == is_round
+
+
+def test_an_edge_of_the_crease_angle_itself_is_smooth() -> None:
+    prism = made(trimesh.creation.cylinder(1, 2, sections=8))
+    assert creased(prism, 44.9).normals is None
+    assert creased(prism, 45).normals is not None
+
+
+def test_a_mesh_of_hard_edges_stays_as_it_is() -> None:
+    assert creased(CUBE) is CUBE
+    split = Mesh(CUBE.positions[CUBE.faces].reshape(-1, 3), np.arange(36).reshape(-1, 3), normals=np.ones((36, 3)))
+    flat = creased(split)
+    assert (flat.normals, len(flat.positions), flat.triangles) == (None, 8, 12)
+
+
+def test_a_round_mesh_has_no_splits() -> None:
+    ball = made(trimesh.creation.icosphere(subdivisions=3))
+    mesh = creased(ball)
+    assert len(mesh.positions) == len(ball.positions)
+    np.testing.assert_allclose(corners(mesh), mesh.positions[mesh.faces], atol=0.01)
+
+
+def test_every_edge_is_smooth_at_180_degrees_and_none_at_0() -> None:
+    cube = creased(CUBE, 180)
+    assert len(cube.positions) == 8
+    np.testing.assert_allclose(corners(cube), cube.positions[cube.faces] / np.sqrt(0.75), atol=1e-6)
+    assert creased(made(trimesh.creation.icosphere(subdivisions=2)), 0).normals is None
+
+
+def test_colors_do_not_break_the_surface() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    split = Mesh(ball.vertices[ball.faces].reshape(-1, 3), np.arange(3 * len(ball.faces)).reshape(-1, 3))
+    spotted = Mesh(split.positions, split.faces, np.repeat(np.arange(len(ball.faces)) % 2 * 255, 9).reshape(-1, 3))
+    np.testing.assert_array_equal(corners(creased(spotted)), corners(creased(made(ball))))
+    assert len(creased(split).positions) == len(ball.vertices)
+    assert (creased(spotted).colors[creased(spotted).faces] == spotted.colors[spotted.faces]).all()
+
+
+def test_a_crease_that_ends_within_a_surface_is_smoothed_unless_it_is_sharp() -> None:
+    def tent(height: float) -> Mesh:
+        """A sheet with a short ridge that begins at its border."""
+        x, y = np.meshgrid(np.arange(5), np.arange(5), indexing="ij")
+        z = np.where((x == 2) & (y <= 1), height, 0)
+        grid = np.arange(25).reshape(5, 5)
+        a, b, c, d = (part.ravel() for part in (grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]))
+        faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+        return Mesh(np.stack([x, y, z], axis=2).reshape(-1, 3), faces)
+
+    smooth = creased(tent(0.45))
+    assert smooth.normals is not None
+    assert len(smooth.positions) == 25
+    assert creased(tent(2.0)).normals is None
+
+
+def test_triangles_without_an_area_do_not_matter() -> None:
+    extra = Mesh(CYLINDER.positions, [*CYLINDER.faces.tolist(), [0, 0, 1], [2, 2, 2]])
+    assert len(creased(extra).positions) == len(creased(CYLINDER).positions)
+    flat = creased(Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]))
+    assert flat.normals is None
+
+
+def test_flat_shading_where_the_splits_are_too_many() -> None:
+    strip = zigzag(20_000)
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    both = Mesh(
+        np.concatenate([strip.positions, ball.vertices]),
+        np.concatenate([strip.faces, ball.faces + len(strip.positions)]),
+    )
+    assert len(both.positions) < MAX_VERTICES
+    assert creased(both) is both
+    assert creased(Mesh(both.positions, both.faces[-10_000:])).normals is not None
+
+
+def test_a_simplified_mesh_keeps_its_creases() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    dome = creased(Mesh(np.maximum(ball.vertices, (-2, -2, 0)), ball.faces))
+    (simple,) = simplify_scene(Scene([Object(dome, material=Material("smooth"))]), 400).objects
+    assert simple.mesh.triangles <= 400
+    below = (simple.mesh.positions[simple.mesh.faces][:, :, 2] == 0).all(axis=1)
+    # without creases, the normals at the rim would lean outward
+    assert (corners(simple.mesh)[below][:, :, 2] < -0.99).mean() > 0.95
+
+
+def test_the_look_of_a_mesh() -> None:
+    assert load(CUBE).objects[0].material.shading == "flat"
+    round_one = load(CYLINDER).objects[0]
+    assert round_one.material.shading == "smooth"
+    assert round_one.mesh == creased(CYLINDER)
+    ball = shapes.sphere()
+    assert load(ball).objects[0].mesh is ball
+    assert load(ball, crease=30).objects[0].mesh == creased(ball, 30)
+    assert load(CYLINDER, shading="flat").objects[0].mesh is CYLINDER
+    assert load(CYLINDER, smooth=True).objects[0].mesh is CYLINDER
+    assert load(Scene([Object(CYLINDER)]), crease=40).objects[0] == Object(
+        creased(CYLINDER), material=Material("smooth")
+    )
