@@ -40,8 +40,8 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     thing: the path of a mesh or scene file, or of a PNG file that carries a scene; the name of a piece, such as
     "teapot" or "genesis/12" (a file wins over a piece of the same name); a Mesh; an Object, or a list of these;
     (vertices, faces) or (vertices, faces, colors), (n, 3) and (m, 3); a trimesh.Trimesh or trimesh.Scene; or a Scene.
-    A mesh is staged: it fills the picture, under three lights, in smooth shading except across creases. A scene keeps
-    its look except for the given settings.
+    A mesh is staged: it fills the picture, antialiased, in smooth shading except across creases. A scene keeps its look
+    except for the given settings.
     size: side of a square picture, or (width, height), in pixels; None for the scene's, or 256 for a mesh.
     look: settings by the keywords of `LookOptions`, such as color="tomato", smooth=True, rotate=(0, 30, 0),
     background="white", fov=40.

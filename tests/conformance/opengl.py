@@ -163,8 +163,10 @@ def _canvas(width: int, height: int) -> moderngl.Framebuffer:
     return context().framebuffer(context().renderbuffer((width, height), 4, dtype="f4"), depth)
 
 
-def draw(world: World, threshold: float = 0.0) -> Drawing:
-    """The picture of a world. threshold: N.L above which a light reaches a surface."""
+def draw(world: World, threshold: float = 0.0, place: tuple[float, float] = (0.0, 0.0)) -> Drawing:
+    """The picture of a world. threshold: N.L above which a light reaches a surface. place: the column and the row from
+    the centre of each pixel at which it is sampled, in pixels.
+    """
     gl, program = context(), _program()
     program["threshold"] = threshold
     canvas = _canvas(world.width, world.height)
@@ -172,7 +174,7 @@ def draw(world: World, threshold: float = 0.0) -> Drawing:
     canvas.clear(0.0, 0.0, 0.0, 0.0, depth=0.0)
     gl.enable_only(moderngl.DEPTH_TEST)
     gl.depth_func = ">"
-    for solid, vertices in zip(world.solids, _vertices(world), strict=True):
+    for solid, vertices in zip(world.solids, _vertices(world, place), strict=True):
         gl.enable_only(moderngl.DEPTH_TEST | (moderngl.CULL_FACE if solid.cull else 0))
         _set_uniforms(program, world, solid)
         buffer = gl.buffer(vertices.tobytes())
@@ -187,11 +189,12 @@ def draw(world: World, threshold: float = 0.0) -> Drawing:
     return Drawing(code // 16 - 1, pixels[..., :3], code % 16)
 
 
-def _vertices(world: World) -> list[NDArray[np.float32]]:
+def _vertices(world: World, place: tuple[float, float]) -> list[NDArray[np.float32]]:
     """For each solid three rows for each triangle."""
     distances = -world.corners[..., 2]
     low, span = (distances.min(), np.ptp(distances) or 1.0) if distances.size else (0.0, 1.0)
     across = np.array([world.width / world.height, 1.0]) * world.half_height
+    shift = np.array([-2 * place[0] / world.width, 2 * place[1] / world.height])
     found = []
     for solid in world.solids:
         points = solid.corners.reshape(-1, 3)
@@ -200,7 +203,7 @@ def _vertices(world: World) -> list[NDArray[np.float32]]:
         lights = [lamp.vector - points * lamp.is_point for lamp in world.lamps]
         unused = [np.zeros_like(points)] * (4 - len(lights))
         columns = [
-            np.hstack([points[:, :2] / across, 0 * w, w]),
+            np.hstack([points[:, :2] / across + shift * w, 0 * w, w]),
             distance - world.near if np.isfinite(world.near) else np.ones_like(w),
             0.25 + 0.5 * (low + span - distance) / span,
             solid.colors.reshape(-1, 3),

@@ -157,7 +157,9 @@ def test_a_chain_without_the_proxy(book: AddressBook, wanted: list[Deployment]) 
         deployer.execute(plan, transactor)
         assert before - transactor.balance() <= plan.cost
         assert code(node, PROXY) == PROXY_CODE
-        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
+        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
+            each.code for each in wanted[: len(RENDERER)]
+        ]
         assert book.entries(4321).keys() == set(RENDERER)
 
 
@@ -276,7 +278,9 @@ def test_hosts_whose_nodes_are_not_in_step(book: AddressBook, wanted: list[Deplo
             connection = Connection(url)
             deployer, transactor = Deployer(connection, book), Transactor(connection, Account.from_key(KEY))
             deployer.execute(deployer.plan(wanted[: len(RENDERER)]), transactor)
-        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
+        assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
+            each.code for each in wanted[: len(RENDERER)]
+        ]
 
 
 @needs_anvil
@@ -315,7 +319,9 @@ def test_a_node_that_estimates_only_what_can_be_done_now(
         assert renderer.estimate is None
         assert 5 * renderer.call.gas <= renderer.gas <= 6 * renderer.call.gas
         deployer.execute(deployer.plan(wanted[: len(RENDERER)]), Transactor(Connection(url), Account.from_key(KEY)))
-    assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [each.code for each in wanted[: len(RENDERER)]]
+    assert [code(node, each.address) for each in wanted[: len(RENDERER)]] == [
+        each.code for each in wanted[: len(RENDERER)]
+    ]
 
 
 @needs_anvil

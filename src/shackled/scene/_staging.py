@@ -97,8 +97,8 @@ PLAIN = Staging(
     by_normals=False,
     fields={"background": BACKGROUND},
 )
-#: Of mesh files: as a product is photographed, with a warm key light from the upper left, a weak cool one that fills
-#: the shadows from the right, and one from above and behind that draws the rim, through a lens of a narrow angle.
+#: Of mesh files: as a product is photographed, with a warm key light from the upper left, through a lens of a narrow
+#: angle.
 STUDIO = Staging(
     side=256,
     view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
