@@ -99,7 +99,9 @@ def _near_edges(triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
     """(H, W): where a pixel around shows another triangle."""
     wide = np.pad(triangles, 1, constant_values=-2)
     rows, columns = triangles.shape
-    return np.any([wide[i : i + rows, j : j + columns] != triangles for i in range(3) for j in range(3)], axis=0)
+    return np.asarray(
+        np.any([wide[i : i + rows, j : j + columns] != triangles for i in range(3) for j in range(3)], axis=0)
+    )
 
 
 def _faults(

@@ -48,15 +48,38 @@ def trace(contract: str, data: bytes) -> tuple[CallFrame, CallResult]:
     result, names, table = RevmChain().profile(contract, data, _places)
     count = int(table[0])
     functions = table[1 : 1 + _FUNCTION * count].reshape(-1, _FUNCTION).tolist()
-    frames = [CallFrame(names[number], entry) for _, number, entry in functions]
-    for frame, (parent, _, _) in zip(frames, functions, strict=True):
-        if parent < count:
-            frames[parent].calls.append(frame)
+    frames = _frames([(parent, names[number], entry) for parent, number, entry in functions])
     for number, stage, at, times, low, high in table[1 + _FUNCTION * count :].reshape(-1, _POSITION).tolist():
-        frames[number].costs[STAGES[stage - 1] if stage else REST][at] = low | high << 32
+        costs = frames[number].costs[STAGES[stage - 1] if stage else REST]
+        costs[at] = costs.get(at, 0) + (low | high << 32)
         frames[number].counts[at] += times
-    assert sum(frame.gas() for frame in frames) == result.gas
+    assert sum(frame.gas() for frame in frames[0].frames()) == result.gas
     return frames[0], result
+
+
+def _frames(functions: list[tuple[int, str, int]]) -> list[CallFrame]:
+    """Return the frame of each function: the number of its caller, which comes before it, its contract and its entry.
+
+    No function of the contracts calls itself. Where one is entered below itself, the compiler has joined the ends of
+    several functions, so that its end was not seen: it is the frame that is open.
+    """
+    frames: list[CallFrame] = []
+    callers: dict[CallFrame, CallFrame | None] = {}
+    for parent, contract, entry in functions:
+        caller = frames[parent] if parent < len(frames) else None
+        open_frame = caller
+        while open_frame is not None and (open_frame.contract, open_frame.entry) != (contract, entry):
+            open_frame = callers[open_frame]
+        siblings = caller.calls if caller else []
+        known = (each for each in siblings if (each.contract, each.entry) == (contract, entry))
+        frame = open_frame or next(known, None)
+        if frame is None:
+            frame = CallFrame(contract, entry)
+            callers[frame] = caller
+            if caller:
+                caller.calls.append(frame)
+        frames.append(frame)
+    return frames
 
 
 @cache

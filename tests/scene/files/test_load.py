@@ -25,7 +25,7 @@ def test_a_mesh_is_staged(tmp_path: Path) -> None:
     (tmp_path / "a.OBJ").write_text(TRIANGLE)
     scene = load(tmp_path / "a.OBJ", (30, 20))
     assert (scene.width, scene.height, scene.lights) == (30, 20, load(tmp_path / "a.OBJ").lights)
-    assert (load(str(tmp_path / "a.OBJ")).width, len(scene.lights)) == (256, 3)
+    assert (load(str(tmp_path / "a.OBJ")).width, len(scene.lights)) == (256, 1)
 
 
 def test_a_scene_file_stays_small_and_plain(tmp_path: Path) -> None:
