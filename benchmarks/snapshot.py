@@ -78,6 +78,8 @@ def own_figures() -> Figures:
         for shading in ("flat", "smooth", "unlit"):
             scenes[f"teapot, {shading}, {size}"] = staged_teapot(shading, size)
         scenes[f"teapot, wireframe, {size}"] = staged_teapot("unlit", size, wireframe=True)
+    for name in ("cubes that meet", "teapot, flat", "teapot, smooth", "teapot, unlit", "teapot, wireframe"):
+        scenes[f"{name}, antialiased, 128"] = evolve(scenes[f"{name}, 128"], antialias=True)
     figures = {name: gas(scene) for name, scene in scenes.items()}
 
     teapot = staged_teapot("flat", 128)

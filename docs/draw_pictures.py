@@ -70,6 +70,12 @@ def still_life() -> Image:
         return render(load(scene), size=(640, 480))
 
 
+def smoothed() -> PillowImage.Image:
+    """A crown without and with anti-aliasing, each pixel a square of 4."""
+    pair = [render("icons/crown", size=96, antialias=flag).pixels for flag in (False, True)]
+    return PillowImage.fromarray(np.hstack(pair)).resize((8 * 96, 4 * 96), PillowImage.Resampling.NEAREST)
+
+
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     flat = evolve(GLAZED, shading="flat")
@@ -133,6 +139,7 @@ def main() -> None:
         image.save(IMAGES / f"{name}.png", scene=True)
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
     stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
+    smoothed().save(IMAGES / "antialiasing.png", optimize=True)
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}

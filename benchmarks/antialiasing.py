@@ -1,0 +1,79 @@
+"""Measure what anti-aliasing costs, group by group.
+
+    python -m benchmarks.antialiasing
+
+measures pictures with and without it, rewrites the table of docs/antialiasing.md, and prints it.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from statistics import fmean
+
+from attrs import evolve
+from tools.pages import ROOT, update
+
+from shackled import Scene, load, render
+from shackled.datasets import pieces
+
+from . import shared
+
+PAGE = ROOT / "docs" / "antialiasing.md"
+
+#: Limit of a transaction (EIP-7825).
+TRANSACTION = 1 << 24
+
+
+def groups() -> dict[str, list[Scene]]:
+    """Return the scenes of each group, 128 x 128 pixels each; those of the cost table if they are there."""
+    found = {
+        "28 icons": [load(piece.name) for piece in pieces("icons")],
+        "Genesis 0 to 23": [load(f"genesis/{number}") for number in range(24)],
+    }
+    if shared.is_there():
+        found["15 objects of the cost table, flat"] = [shared.scene(name) for name in shared.objects()]
+        found["the same, smooth"] = [shared.smooth(shared.scene(name)) for name in shared.objects()]
+        found["the same, unlit"] = [shared.unlit(shared.scene(name)) for name in shared.objects()]
+    return found
+
+
+def table(scenes: dict[str, list[Scene]]) -> str:
+    """Return the gas of each group as a table in Markdown."""
+    lines = [
+        "| pictures | plain, mean gas | antialiased | ratio of the means | least | most | below 2^24 | twice the size |",
+        "|---|" + 7 * "---:|",
+    ]
+    for name, each in scenes.items():
+        plain, smoothed = (list(gas_of(each, flag)) for flag in (False, True))
+        doubled = list(gas_of([evolve(scene, width=2 * scene.width, height=2 * scene.height) for scene in each], False))
+        ratios = [after / before for before, after in zip(plain, smoothed, strict=True)]
+        lines.append(
+            f"| {name} | {fmean(plain) / 1e6:.2f}M | {fmean(smoothed) / 1e6:.2f}M | {sum(smoothed) / sum(plain):.2f} | "
+            f"{min(ratios):.2f} | {max(ratios):.2f} | {sum(gas < TRANSACTION for gas in smoothed)} of {len(each)} | "
+            f"{sum(doubled) / sum(plain):.2f} |"
+        )
+    return "\n".join(lines)
+
+
+def gas_of(scenes: Iterable[Scene], antialias: bool) -> Iterable[int]:
+    """Yield the gas of each picture."""
+    for scene in scenes:
+        gas = render(evolve(scene, antialias=antialias)).gas
+        assert gas is not None
+        yield gas
+
+
+def main() -> int:
+    """Measure, print and write the table."""
+    scenes = groups()
+    found = table(scenes)
+    print(found)
+    if not shared.is_there():
+        print(shared.SKIPPED)
+        return 0
+    return update({PAGE: lambda _: found}, "python -m benchmarks.antialiasing")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
