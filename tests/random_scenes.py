@@ -45,6 +45,8 @@ class Case:
 #: How often a scene is taken as it comes, whether or not anything is seen; and how many are tried otherwise.
 AS_IT_COMES = 0.02
 TRIALS = 60
+#: How often a scene is antialiased.
+ANTIALIASED = 0.3
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -56,7 +58,9 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     scene = next((each for each in scenes if is_anything_seen(each)), None) or _scene(rng, kind)
     x, y = int(rng.integers(scene.width)), int(rng.integers(scene.height))
     tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
-    return Case(scene, tile)
+    # from numbers of its own, so that the scenes of the seeds stay what they are
+    antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
+    return Case(evolve(scene, antialias=antialias), tile)
 
 
 def _scene(rng: Rng, kind: Kind) -> Scene:

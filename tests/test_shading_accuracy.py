@@ -68,7 +68,7 @@ def test_random_scenes_together(kind: Kind, seeds: range) -> None:
     errors = [np.empty((0, 3))]
     for seed in seeds:
         scene = random_case(seed, (kind,)).scene
-        scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects])
+        scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects], antialias=False)
         try:
             pixels = draw(scene)
         except ChainError:

@@ -22,8 +22,9 @@ SAMPLES = np.array([(-1, -3), (3, -1), (-3, 1), (1, 3)]) / 8
 MOVES = np.array([(0, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)]) / 24
 #: A mean of four colours is rounded to the nearest level.
 ROUNDING = 0.51
-#: Levels by which the light of a pixel that shows one triangle may differ from that of the plain picture.
-MOST = 4.0
+#: Levels by which the light of a pixel that shows one triangle may differ from that of the plain picture: twice what
+#: each may be off.
+MOST = 16.0
 
 
 @dataclass(frozen=True)

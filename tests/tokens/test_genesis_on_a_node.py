@@ -118,7 +118,7 @@ def test_the_whole_way_of_tokens(
     # everything is what it should be
     said = shackled("token", "verify")
     assert "WRONG" not in said.out
-    assert said.out.count("ok ") == 7 + 10
+    assert said.out.count("ok ") == 9 + 10
 
     # a token changes hands and keeps its picture
     shackled("token", "transfer", 4, node.accounts[BOB], "--yes", user=CAROL)

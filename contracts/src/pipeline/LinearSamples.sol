@@ -61,7 +61,7 @@ library LinearSamples {
                             let seen := mul(p, ADDRESS_64)
                             seen := and(and(add(left, seen), sub(right, seen)), TOPS_64)
                             if seen {
-                                let z := add(mul(shr(ACCUMULATOR_DEPTH_AT, attribute), ONES_64), mload(DEPTH_OFFSETS))
+                                let z := add(mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE)), mload(DEPTH_OFFSETS))
                                 z := and(z, SAMPLE_DEPTHS)
                                 let old := mload(p)
                                 // nearer by one at least, whatever the colour below the old depth is

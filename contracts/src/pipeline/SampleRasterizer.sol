@@ -88,7 +88,7 @@ abstract contract SampleRasterizer is Rasterizer {
             mstore(DY, dy)
             mstore(
                 DEPTH_OFFSETS,
-                add(mul(sar(DEPTH_8_AT, dx), SAMPLE_X_8), mul(sar(DEPTH_8_AT, dy), SAMPLE_Y_8))
+                shl(mload(SAMPLE_SHIFT), add(mul(sar(DEPTH_8_AT, dx), SAMPLE_X_8), mul(sar(DEPTH_8_AT, dy), SAMPLE_Y_8)))
             )
         }
     }

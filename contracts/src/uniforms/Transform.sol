@@ -44,8 +44,8 @@ library Transform {
         }
     }
 
-    /// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it; with four
-    /// samples the outermost of them, and for a line, which is a pixel wide, those half a pixel farther.
+    /// @dev Which rows and columns a vertex touches: for a face the pixel centres from it on, for a line the pixels nearest to it; with
+    /// four samples the outermost of them, and for a line, which is a pixel wide, those half a pixel farther.
     function setRounding(Rectangle memory tile, bool wireframe) internal pure {
         unchecked {
             uint256 wider = wireframe ? 0 : 127;

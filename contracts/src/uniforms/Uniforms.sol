@@ -10,6 +10,7 @@ import {Materials} from "./Materials.sol";
 import {MeshSpace} from "./MeshSpace.sol";
 import {Runs} from "./Runs.sol";
 import {TileCulling} from "./TileCulling.sol";
+import {SampleDepths} from "./SampleDepths.sol";
 import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
 import "../pipeline/Registers.sol";
@@ -40,6 +41,7 @@ library Uniforms {
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             uint256 extension = setFrame(view_, scene, tile);
             store(COUNT_PIXELS, countPixels ? 1 : 0);
+            int256[2] memory range = [type(int256).max, type(int256).min];
             data = freeMemory() + room;
             uint256 size;
             uint256 moved;
@@ -61,13 +63,14 @@ library Uniforms {
                 // what is allocated for an object is given up with it
                 setFreeMemory(end);
                 extension = setOpacity(scene, i, extension);
-                if (!setObject(view_, scene, i, tile, moved, culls ? data + moved : 0)) continue;
+                if (!setObject(view_, scene, i, tile, moved, culls ? data + moved : 0, range)) continue;
                 ++count;
                 assembly ("memory-safe") {
                     mcopy(end, OBJECT_BYTES, mload(OBJECT_BYTES))
                     end := add(end, mload(OBJECT_BYTES))
                 }
             }
+            if (load(FRAME_IS_ANTIALIASED) != 0) SampleDepths.set(data + 4, range);
             Runs.setCount(data, count);
             setFreeMemory(data - room);
         }
@@ -126,18 +129,24 @@ library Uniforms {
 
     /// @param moved How much farther the scene stands in the engine's calldata; may be negative.
     /// @param copied If not 0, only what may touch the tile is to be left of the mesh; the scene in memory is so much farther.
+    /// @param range The distances of all vertices, if the scene is antialiased: see SampleDepths.
     /// @return Whether there is something to draw.
-    function setObject(View memory view_, Scene calldata scene, uint256 number, Rectangle memory tile, uint256 moved, uint256 copied)
-        private
-        pure
-        returns (bool)
-    {
+    function setObject(
+        View memory view_,
+        Scene calldata scene,
+        uint256 number,
+        Rectangle memory tile,
+        uint256 moved,
+        uint256 copied,
+        int256[2] memory range
+    ) private pure returns (bool) {
         unchecked {
             Object calldata object = scene.objects[number];
             Matrix memory rotation = object.rotation.toMatrix();
             Transform.setMatrix(view_, object, rotation);
             Transform.setRounding(tile, object.flags & WIREFRAME != 0);
             Mesh memory mesh = openMesh(object.mesh);
+            if (load(FRAME_IS_ANTIALIASED) != 0) SampleDepths.widen(mesh, range);
             if (copied != 0) {
                 TileCulling.run(mesh, copied, number);
                 if (mesh.faceCount == 0) return false;

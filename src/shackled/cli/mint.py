@@ -37,6 +37,7 @@ def mint(
     from ..datasets import Piece
     from ..deploy import current_fees
     from ..image import check_output
+    from ..scene import READERS
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store
 
     path = None if output is None else check_output(output)
@@ -44,7 +45,9 @@ def mint(
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
-    scene = load(source, pixels, max_triangles=max_triangles)
+    # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
+    is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
+    scene = load(source, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))

@@ -97,13 +97,18 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
     view = uniforms.set_frame(scene, registers)
     drawn = 0
     geometry = []
+    distances: list[int] = []
     for index, obj in enumerate(scene.objects):
         mesh = open_mesh(obj.mesh)
         uniforms.set_object(view, scene, index, registers)
         vertices = vertex_shader.run(mesh, registers)
+        if registers.antialiased:
+            distances += vertex_shader.distances(mesh, registers)
         cull = bool(obj.flags & CULL_BACKFACES)
         triangles, count = primitive_assembly.run(mesh, vertices, cull, index, registers)
         # invisible objects are only checked
         drawn += count if registers.opacity else 0
         geometry.append(Geometry(obj, mesh, vertices, triangles))
+    if registers.antialiased:
+        samples.set_depths(distances, registers)
     return registers, view, geometry, drawn

@@ -66,6 +66,9 @@ class Registers:
     antialiased: bool
     sample_depths: NDArray[np.uint64]
     sample_colors: NDArray[np.uint8]
+    #: what depths of samples are less than those of accumulators, and by how many bits they are shifted
+    sample_base: int = 0
+    sample_shift: int = 0
 
     # frame
     frame_is_orthographic: bool = False

@@ -21,12 +21,14 @@ from .quadratic import Differences
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
 from .vertex_shader import Vertex
-from .words import MASK, divide_signed, signed
+from .words import MASK, divide, divide_signed, signed
 
 #: Where the samples are from the centre of the pixel, in eighths of it.
 OFFSETS = ((-1, -3), (3, -1), (-3, 1), (1, 3))
 #: The bits of a sample that are its depth, and the two of objects that are not opaque: found, drawn.
 DEPTH, FOUND, DRAWN = 0x7FFFFFFFF8000000, 1 << 24, 1 << 25
+#: By what depths may leave the range of those of the vertices.
+SLACK = 1 << 20
 #: A barycentric coordinate that changes by more than 16 from pixel to pixel, Q29.
 STEEP = 16 << 29
 
@@ -65,11 +67,12 @@ class Gradients(NamedTuple):
         deep = (x * self.deep_dx + y * self.deep_dy) >> 3
         return (word + x * self.dx_8 + y * self.dy_8 + (deep << layout.ATTRIBUTE_DEPTH_AT)) & MASK
 
-    def depths(self, word: int) -> list[int]:
+    def depths(self, word: int, r: Registers) -> list[int]:
         """Return the depths of the samples of a pixel with this accumulator at its centre."""
         # an eighth of the changes of the depth, added in lanes that carry into each other
         dx, dy = signed(self.dx) >> 195, signed(self.dy) >> 195
-        lanes = sum(((word >> 192) + x * dx + y * dy) << 64 * i for i, (x, y) in enumerate(OFFSETS)) & MASK
+        z = (word >> 192) - r.sample_base
+        lanes = sum((z + x * dx + y * dy) << (64 * i + r.sample_shift) for i, (x, y) in enumerate(OFFSETS)) & MASK
         return [(lanes >> 64 * i) & DEPTH for i in range(4)]
 
 
@@ -87,6 +90,24 @@ def run(triangles: list[Triangle], mesh: Mesh, wireframe: bool, r: Registers) ->
             # the brightest saturate anyway
             r.mode &= ~layout.IS_LINEAR
             draw(triangle.a, triangle.b, triangle.c, (r.attribute_0, r.attribute_1, r.attribute_2), r)
+
+
+def set_depths(distances: list[int], r: Registers) -> None:
+    """Set how depths are told, from the distances of all vertices, Q32.
+
+    The nearest needs the highest bit or the one below; depths of an orthographic camera begin at the farthest.
+    """
+    nearest = max(min(distances, default=r.near), r.near)
+    base = 0
+    if r.frame_is_orthographic:
+        farthest = max(max(distances, default=nearest), nearest)
+        base = ((r.depth_scale - (farthest >> 8)) << 8) - SLACK
+        most = ((farthest >> 8) - (nearest >> 8)) << 8
+    else:
+        most = divide(r.depth_scale, nearest) << 8
+    r.sample_shift = max(0, 62 - (most + 2 * SLACK).bit_length())
+    # what is seen has the lowest bit, however far away it is
+    r.sample_base = base - (1 << 27 >> r.sample_shift)
 
 
 def resolve(r: Registers) -> None:
@@ -179,7 +200,7 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: R
     for column, row, samples in covered(a, b, c, r):
         word = g.at(column, row)
         place = row - r.band_top, column - r.column_begin
-        depths = g.depths(word)
+        depths = g.depths(word, r)
         old = r.sample_depths[place]
         if r.mode & IS_IN_PASSES:
             blend(word, depths, samples, place, g, r)

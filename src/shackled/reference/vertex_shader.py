@@ -121,6 +121,11 @@ def clip_coordinates(mesh: Mesh, number: int, registers: Registers) -> tuple[int
     return x, y, signed(clip) >> layout.CLIP_W_AT, (red << 122) | (green << 66) | (blue << 10)
 
 
+def distances(mesh: Mesh, registers: Registers) -> list[int]:
+    """Return how far each vertex is before the camera, Q32."""
+    return [signed(clip_of(position, registers)) >> layout.CLIP_W_AT for position in mesh.positions]
+
+
 def clip_of(position: list[int], registers: Registers) -> int:
     """Return the clip coordinates of a vertex, Q32: x * distance and y * distance (96 bits each, biased), distance."""
     x, y, z = position

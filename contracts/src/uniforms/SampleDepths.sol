@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Mesh} from "../scene/Mesh.sol";
+import "../pipeline/Registers.sol";
+
+// A sample has 36 bits for its depth. They are spent on the depths that the scene has: these are shifted so that the nearest vertex needs the
+// highest bit or the one below; those of an orthographic camera, which are differences, are told from the farthest vertex on. They depend
+// on all vertices of the scene, so that tiles equal the whole.
+
+/// @dev By what depths may leave the range of those of the vertices, which is more than rounding does.
+uint256 constant SLACK = 1 << 20;
+/// @dev The bits of a lane that a depth may have.
+uint256 constant SAMPLE_DEPTH_BITS = 62;
+/// @dev The lowest bit of a lane that is kept: what is seen has it, however far away it is.
+uint256 constant LOWEST_SAMPLE_DEPTH = 1 << 27;
+
+library SampleDepths {
+    /// @notice Widens a range of distances, Q32, by those of the vertices of a mesh. The registers have the matrix of the object.
+    function widen(Mesh memory mesh, int256[2] memory range) internal pure {
+        unchecked {
+            (uint256 bits, uint256 stride, uint256 vertex) = (mesh.bits, mesh.stride, mesh.vertices);
+            uint256 end = vertex + mesh.vertexCount * stride;
+            (int256 least, int256 most) = (range[0], range[1]);
+            assembly ("memory-safe") {
+                let rest := sub(256, bits)
+                for {} lt(vertex, end) { vertex := add(vertex, stride) } {
+                    // as in VertexShader
+                    let data := calldataload(vertex)
+                    let clip := add(mul(sar(rest, data), mload(MATRIX_X)), mload(MATRIX_T))
+                    data := shl(bits, data)
+                    clip := add(clip, mul(sar(rest, data), mload(MATRIX_Y)))
+                    clip := add(clip, mul(sar(rest, shl(bits, data)), mload(MATRIX_Z)))
+                    clip := sar(CLIP_W_AT, add(clip, CLIP_BIAS))
+                    if slt(clip, least) { least := clip }
+                    if sgt(clip, most) { most := clip }
+                }
+            }
+            (range[0], range[1]) = (least, most);
+        }
+    }
+
+    /// @notice Sets what depths of samples are told from, and their scale, in a call of an engine.
+    /// @param frame Where the registers of the frame stand there.
+    /// @param range The least and the greatest distance of a vertex.
+    function set(uint256 frame, int256[2] memory range) internal pure {
+        unchecked {
+            int256 nearest = range[0] > loadSigned(NEAR) ? range[0] : loadSigned(NEAR);
+            uint256 base;
+            uint256 most;
+            if (load(FRAME_IS_ORTHOGRAPHIC) == 0) {
+                most = load(DEPTH_SCALE) / uint256(nearest) << DEPTH_FRACTION;
+            } else {
+                int256 farthest = range[1] > nearest ? range[1] : nearest;
+                base = ((load(DEPTH_SCALE) - uint256(farthest >> 8)) << DEPTH_FRACTION) - SLACK;
+                most = uint256((farthest >> 8) - (nearest >> 8)) << DEPTH_FRACTION;
+            }
+            most += 2 * SLACK;
+            uint256 shift = SAMPLE_DEPTH_BITS;
+            while (shift != 0 && most >> (SAMPLE_DEPTH_BITS - shift) != 0) --shift;
+            base -= LOWEST_SAMPLE_DEPTH >> shift;
+            store(frame + SAMPLE_BASE - FRAME_BEGIN, base);
+            store(frame + SAMPLE_SHIFT - FRAME_BEGIN, shift);
+            store(frame + SAMPLE_SCALE - FRAME_BEGIN, ONES_64 << shift);
+        }
+    }
+}
