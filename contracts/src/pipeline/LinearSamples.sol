@@ -61,8 +61,8 @@ library LinearSamples {
                             let seen := mul(p, ADDRESS_64)
                             seen := and(and(add(left, seen), sub(right, seen)), TOPS_64)
                             if seen {
-                                let z := add(mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE)), mload(DEPTH_OFFSETS))
-                                z := and(z, SAMPLE_DEPTHS)
+                                let z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+                                z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                                 let old := mload(p)
                                 // nearer by one at least, whatever the colour below the old depth is
                                 seen := and(seen, sub(add(z, BELOW_TOPS_64), old))

@@ -30,7 +30,8 @@ library Samples {
             g := add(g, mul(column, mload(QUADRATIC_DXX)))
             column := mul(shl(COLUMN_FRACTION, column), ONES_64)
             for {} 1 {} {
-                let z := and(add(mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE)), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+                let z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+                z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                 let old := mload(p)
                 let seen := and(and(add(left, column), sub(right, column)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
                 if seen {
@@ -114,7 +115,8 @@ library Samples {
     /// @dev The depths of the four samples.
     function depthsOf(uint256 attribute) internal pure returns (uint256 z) {
         assembly ("memory-safe") {
-            z := and(add(mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE)), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+            z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+            z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
         }
     }
 

@@ -76,7 +76,8 @@ library SmoothSamples {
             mstore(QUADRATIC_DOWN, add(mload(QUADRATIC_DY), mul(row, mload(QUADRATIC_DYY))))
             column := mul(shl(COLUMN_FRACTION, column), ONES_64)
             for {} 1 {} {
-                let z := and(add(mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE)), mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
+                let z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+                z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                 let old := mload(p)
                 let covered := and(add(left, column), sub(right, column))
                 let seen := and(and(covered, sub(add(z, BELOW_TOPS_64), old)), TOPS_64)

@@ -4,9 +4,9 @@ pragma solidity 0.8.37;
 import {Mesh} from "../scene/Mesh.sol";
 import "../pipeline/Registers.sol";
 
-// A sample has 36 bits for its depth. They are spent on the depths that the scene has: these are shifted so that the nearest vertex needs the
-// highest bit or the one below; those of an orthographic camera, which are differences, are told from the farthest vertex on. They depend
-// on all vertices of the scene, so that tiles equal the whole.
+// A sample has 36 bits for its depth. They are spent on the depths that the scene has: these are shifted so that the nearest vertex needs
+// the highest bit or the one below; those of an orthographic camera, which are differences, are told from the farthest vertex on. They
+// depend on all vertices of the scene, so that tiles equal the whole.
 
 /// @dev By what depths may leave the range of those of the vertices, which is more than rounding does.
 uint256 constant SLACK = 1 << 20;
