@@ -41,7 +41,7 @@ def groups() -> dict[str, list[Scene]]:
 def table(scenes: dict[str, list[Scene]]) -> str:
     """Return the gas of each group as a table in Markdown."""
     lines = [
-        "| pictures | plain, mean gas | antialiased | ratio of the means | least | most | below 2^24 | twice the size |",
+        "| pictures | plain, mean gas | antialiased | ratio of means | least | most | below 2^24 | twice the size |",
         "|---|" + 7 * "---:|",
     ]
     for name, each in scenes.items():
