@@ -14,6 +14,7 @@ from shackled import Background, Mesh, Object, Scene
 from shackled.scene import fit
 
 from . import opengl
+from .neighbours import around
 from .world import World, before_camera
 
 #: Columns and rows of the samples, in pixels from the centre.
@@ -73,7 +74,10 @@ def compare_samples(name: str, scene: Scene) -> Coverage:
     smoothed, plain = (draw(evolve(scene, antialias=flag)).astype(float) for flag in (True, False))
     center = opengl.draw(world).triangle
     inner = sure & (seen[:, 0] == center).all(axis=0) & ~_near_edges(center)
-    difference = np.abs(smoothed - plain).max(axis=2) * inner
+    # highlights end where their light does, between two pixels
+    near = around(plain)
+    beyond = np.maximum(smoothed - near.max(axis=0), near.min(axis=0) - smoothed)
+    difference = np.maximum(beyond, 0).max(axis=2) * inner
     faults += _faults(name, "the light is not that of the plain picture", difference > MOST, smoothed, plain)
     return Coverage(
         int(shows.sum()), int((sure & shows).sum()), int(inner.sum()), float(difference.max(initial=0.0)), faults
