@@ -12,10 +12,10 @@ from attrs import evolve
 from .datasets import Piece, find, require
 from .errors import InputError
 from .scene import (
+    MESH_STAGING,
     PICTURE,
     READERS,
     SCENES,
-    STUDIO,
     LookOptions,
     Mesh,
     Object,
@@ -56,7 +56,7 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
         else:
             thing = read_scene(found)
         with about(str(found)):
-            return look_at(thing, chosen, evolve(STUDIO, material=evolve(STUDIO.material, **material)))
+            return look_at(thing, chosen, evolve(MESH_STAGING, material=evolve(MESH_STAGING.material, **material)))
     return look_at(_made(found, chosen), chosen)
 
 

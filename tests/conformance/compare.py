@@ -85,7 +85,7 @@ def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
     expected = 255 - theirs.color if scene.invert else theirs.color
     error = np.abs(ours.pixels - expected)
     step = ~uniform(theirs.shining)
-    error[step] = _beyond(ours.pixels, expected)[step]
+    error[step] = beyond(ours.pixels, expected)[step]
     inner = interior(theirs.triangle) & (ours.triangle == theirs.triangle)
     if (error[inner] > MANY).any():
         both = np.stack([opengl.draw(world, threshold).color for threshold in (-GRAZING, GRAZING)])
@@ -139,7 +139,7 @@ def _wrong(judge: Judge, ours: Triangles, theirs: Triangles, places: Triangles) 
     return found
 
 
-def _beyond(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
+def beyond(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
     """(H, W, 3): how far a channel is outside of what it and its neighbours should be.
 
     A highlight ends where its light does, not gradually: N.L decides, and is zero in the line between two pixels.

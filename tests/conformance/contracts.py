@@ -29,22 +29,24 @@ def picture(scene: Scene) -> Drawing:
     """The picture of a scene without wires."""
     # the same numbers for both
     scene = fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
-    numbered = evolve(
-        scene, objects=list(_numbered(scene.objects)), lights=[], background=Background((0, 0, 0)), invert=False
-    )
-    channels = draw(numbered).astype(np.int64)
+    numbers = 1 + np.arange(sum(len(o.mesh.faces) for o in scene.objects))
+    channels = draw(painted(scene, numbers[:, None] >> [16, 8, 0] & 255)).astype(np.int64)
     return Drawing(draw(scene), (channels << [16, 8, 0]).sum(axis=2) - 1)
 
 
-def _numbered(objects: Iterable[Object]) -> Iterator[Object]:
-    """The objects with triangles whose colour is their number, counted from 1."""
+def painted(scene: Scene, colors: NDArray[np.int64]) -> Scene:
+    """The scene on black, each triangle in one colour of (n, 3), without light."""
+    objects = list(_painted(scene.objects, colors))
+    return evolve(scene, objects=objects, lights=[], background=Background((0, 0, 0)), invert=False)
+
+
+def _painted(objects: Iterable[Object], colors: NDArray[np.int64]) -> Iterator[Object]:
     count = 0
     for o in objects:
         positions, faces = o.mesh.positions, o.mesh.faces
         for first in range(0, len(faces), MAX_TRIANGLES):
             part = faces[first : first + MAX_TRIANGLES]
-            numbers = 1 + count + np.arange(len(part))
-            colors = np.repeat(numbers[:, None] >> [16, 8, 0] & 255, 3, axis=0)
-            mesh = Mesh(positions[part].reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3), colors)
+            own = np.repeat(colors[count : count + len(part)], 3, axis=0)
+            mesh = Mesh(positions[part].reshape(-1, 3), np.arange(3 * len(part)).reshape(-1, 3), own)
             yield evolve(o, mesh=mesh, material=UNLIT)
             count += len(part)

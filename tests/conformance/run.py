@@ -7,6 +7,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 
+from .antialiasing import compare_samples
 from .compare import Result, compare
 from .scenes import SIZES, built_in, built_in_scene, random_scene
 
@@ -14,12 +15,13 @@ from .scenes import SIZES, built_in, built_in_scene, random_scene
 @dataclass(frozen=True)
 class Task:
     """One comparison. row: of the table. piece: the name of a built-in piece, or "" for a random scene.
-    number: the size of its canvas in pixels, or the seed.
+    number: the size of its canvas in pixels, or the seed. samples: whether the picture is antialiased.
     """
 
     row: str
     piece: str
     number: int
+    samples: bool = False
 
     def run(self) -> Result:
         """Compares the pictures of the scene."""
@@ -28,7 +30,11 @@ class Task:
             # OpenGL draws no wires
             if all(o.wireframe for o in scene.objects):
                 return Result()
+            if self.samples:
+                return compare_samples(f"{self.piece} at {self.number}, antialiased", scene)
             return compare(f"{self.piece} at {self.number}", scene, is_piece=True)
+        if self.samples:
+            return compare_samples(f"random scene {self.number}, antialiased", random_scene(self.number))
         return compare(f"random scene {self.number}", random_scene(self.number))
 
 
@@ -36,9 +42,12 @@ def tasks(count: int, seed: int, only: str | None = None) -> Iterator[Task]:
     """Random scenes, then the pieces; `only` is the name of a dataset or of a piece, or "random"."""
     if only in (None, "random"):
         yield from (Task("random", "", number) for number in range(seed, seed + count))
+        yield from (Task("random, antialiased", "", number, True) for number in range(seed, seed + count))
     for piece in built_in() if only != "random" else ():
         if only in (None, piece.dataset, piece.name):
             yield from (Task(f"{piece.dataset}, {size}", piece.name, size) for size in SIZES)
+            if piece.dataset != "genesis":
+                yield Task(f"{piece.dataset}, {SIZES[0]}, antialiased", piece.name, SIZES[0], True)
 
 
 def run(listed: list[Task], jobs: int) -> Iterator[tuple[Task, Result]]:

@@ -767,6 +767,8 @@ def test_the_page_outlives_its_server(browser: Any) -> None:
         shown = after(page, press(page, "i"))
     page.wait_for_selector("body.offline")
     with creator("icons/heart", port=started.address.rsplit(":", 1)[1].strip("/")):
+        # the page finds the server again, and then loads itself once more
+        page.wait_for_event("load")
         page.wait_for_selector("body:not(.offline) [data-text=title] >> text=Die")
         page.wait_for_selector("#picture[data-draft=false]")
         assert pixels(page) == shown

@@ -40,7 +40,7 @@ from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, STUDIO, is_closed, painted, signed_volume, view_axes
+from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, signed_volume, view_axes
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
@@ -64,6 +64,7 @@ __all__ = [
     "MAX_LIGHTS",
     "MAX_SIDE",
     "MAX_VERTICES",
+    "MESH_STAGING",
     "NORMALS",
     "NORMAL_UNIT",
     "ONE",
@@ -77,7 +78,6 @@ __all__ = [
     "SHADINGS",
     "SIMPLIFIED_CREASE",
     "SPOT",
-    "STUDIO",
     "TEXTURED",
     "WHITE",
     "WIDE",

@@ -22,7 +22,7 @@ from ._mesh import Mesh
 from ._object import OPACITIES, Object
 from ._rotation import IDENTITY, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
-from ._staging import ELEVATIONS, MARGINS, PLAIN, STUDIO, Staging, Viewpoint, frame, painted, placed
+from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted, placed
 from ._turning import middle, turn
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made.
@@ -91,7 +91,7 @@ _WORDS: dict[Kind, str] = {
 }
 
 #: The material of mesh files.
-_SURFACE = STUDIO.material
+_SURFACE = MESH_STAGING.material
 
 #: All settings, in the order in which they are shown.
 SETTINGS = (
@@ -104,7 +104,7 @@ SETTINGS = (
         1,
         MAX_SIDE,
         "pixels",
-        f"the scene's, or {STUDIO.side} for mesh files",
+        f"the scene's, or {MESH_STAGING.side} for mesh files",
     ),
     Setting("max_triangles", "whole", None, "Canvas", "Number of triangles to which larger meshes are simplified.", 1),
     Setting("background", "background", "scene", "Canvas", "Colour of the background, or those of its top and bottom."),
@@ -135,7 +135,7 @@ SETTINGS = (
         "Camera",
         "Angle at which the camera stands to the right of the front.",
         unit="degrees",
-        default=f"{STUDIO.view.azimuth:g} for mesh files",
+        default=f"{MESH_STAGING.view.azimuth:g} for mesh files",
     ),
     Setting(
         "elevation",
@@ -145,7 +145,7 @@ SETTINGS = (
         "Angle at which the camera stands above the horizon.",
         *ELEVATIONS,
         "degrees",
-        f"{STUDIO.view.elevation:g} for mesh files, up to {STUDIO.flat_elevation:g} for flat ones",
+        f"{MESH_STAGING.view.elevation:g} for mesh files, up to {MESH_STAGING.flat_elevation:g} for flat ones",
     ),
     Setting(
         "margin",
@@ -154,7 +154,7 @@ SETTINGS = (
         "Camera",
         "Part of half the picture that stays free around the objects.",
         *MARGINS,
-        default=f"{STUDIO.view.margin:g} for mesh files",
+        default=f"{MESH_STAGING.view.margin:g} for mesh files",
     ),
     Setting(
         "fov",
@@ -349,7 +349,7 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = STUDIO) -> Scene:
+def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
     """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture."""
     if isinstance(thing, Scene) and not look:
         return thing

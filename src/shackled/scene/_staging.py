@@ -99,7 +99,7 @@ PLAIN = Staging(
 )
 #: Of mesh files: as a product is photographed, with a warm key light from the upper left, through a lens of a narrow
 #: angle.
-STUDIO = Staging(
+MESH_STAGING = Staging(
     side=256,
     view=Viewpoint(azimuth=35.0, elevation=20.0, margin=0.15, half_height=half_height_of(30.0)),
     flat_elevation=40.0,
