@@ -13,7 +13,7 @@ library ExactSamples {
         unchecked {
             uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
             for (; column != end; ++column) {
-                uint256 covered = Samples.coverage(left, right, column);
+                uint256 covered = Samples.coverage(left, right, Samples.place(row, column));
                 if (covered != 0) fragment(attribute, covered, column, row);
                 attribute += load(DX);
             }

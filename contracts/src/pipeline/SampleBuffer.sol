@@ -26,7 +26,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         unchecked {
             uint256 borders = (image + 3 * tile.width * tile.height + OVERHANG + 31) & ~uint256(31);
             uint256 before = load(DRAWN_BEFORE);
-            setReach(tile, lists);
+            setBorders(tile, lists);
             if (before == 0) {
                 Compositor.background(image, tile);
             } else {
@@ -45,6 +45,8 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             store(DEPTHS, borders + BORDERS_SIZE);
             uint256 stride = (load(SAMPLE_END) - load(SAMPLE_BEGIN)) << SAMPLE_SIZE_BITS;
             store(SAMPLE_STRIDE, stride);
+            store(STRIDE_37, stride << ADDRESS_FRACTION);
+            store(DEPTH_BASE, load(SAMPLE_BASE) * load(SAMPLE_SCALE));
             store(ROW_IMAGE_STEP, 3 * tile.width - 3 * (stride >> SAMPLE_SIZE_BITS));
             if (load(RETURNS_DEPTHS) == 0) return 3 * tile.width * tile.height;
             return borders + BORDERS_SIZE + stride * (load(SAMPLE_BOTTOM) - load(SAMPLE_TOP)) - image;
@@ -121,7 +123,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     /// @dev The columns and rows of the tile that the vertices reach; all, if any is clipped.
-    function setReach(Rectangle memory tile, uint256[3][] memory lists) private pure {
+    function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
         unchecked {
             uint256 least = type(uint256).max;
             uint256 most;
@@ -185,12 +187,12 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
                 p := shr(MIXED_AT, p)
                 let samples := mload(p)
-                mstore(p, and(samples, not(IS_LISTED)))
+                if mload(RETURNS_DEPTHS) { mstore(p, and(samples, not(IS_LISTED))) }
                 samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
                 samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
-                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
-                mstore(0, shl(PIXEL_AT, samples))
-                mcopy(pixel, 0, 3)
+                mstore8(pixel, shr(BLUE_OF_MEAN_AT, samples))
+                mstore8(add(pixel, 1), shr(GREEN_OF_MEAN_AT, samples))
+                mstore8(add(pixel, 2), shr(RED_OF_MEAN_AT, samples))
             }
         }
     }
