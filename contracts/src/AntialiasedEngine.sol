@@ -18,7 +18,11 @@ contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
         if (load(PATCH_SIZE) != 1) drawQuadratic(left, right, column, end, row);
-        else ExactSamples.draw(left, right, column, end, row);
+        else drawEach(left, right, column, end, row);
+    }
+
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
+        ExactSamples.fragment(attribute, covered, column, row);
     }
 
     /// @dev Wires are drawn by the AntialiasedFragmentEngine.

@@ -187,12 +187,12 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
                 let pixel := and(shr(MIXED_PIXEL_AT, p), MIXED_PIXEL_MASK)
                 p := shr(MIXED_AT, p)
                 let samples := mload(p)
-                if mload(RETURNS_DEPTHS) { mstore(p, and(samples, not(IS_LISTED))) }
+                mstore(p, and(samples, not(IS_LISTED)))
                 samples := mul(or(and(samples, RED_BLUE_64), shl(GREEN_OF_SUM, and(samples, GREEN_64))), ONES_64)
                 samples := add(shr(UPPER_LANE_64_AT, samples), ROUND_SUM)
-                mstore8(pixel, shr(BLUE_OF_MEAN_AT, samples))
-                mstore8(add(pixel, 1), shr(GREEN_OF_MEAN_AT, samples))
-                mstore8(add(pixel, 2), shr(RED_OF_MEAN_AT, samples))
+                samples := or(and(shr(2, samples), RED_BLUE), and(shr(MEAN_OF_GREEN_AT, samples), GREEN))
+                mstore(0, shl(PIXEL_AT, samples))
+                mcopy(pixel, 0, 3)
             }
         }
     }

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Rasterizer} from "./Rasterizer.sol";
+import {Samples} from "./Samples.sol";
 import "./Registers.sol";
 
 // From triangles to fragments with four samples for each pixel (multisampling). A fragment is a pixel of which a triangle covers a sample.
@@ -23,6 +24,11 @@ import "./Registers.sol";
 abstract contract SampleRasterizer is Rasterizer {
     /// @notice Draws the fragments of a row from `column` to before `end`.
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
+
+    /// @notice Draws a fragment of which each is shaded for itself.
+    /// @param attribute The accumulator at the centre of its pixel.
+    /// @param covered The highest bit of each sample that the triangle covers: one at least.
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure virtual;
 
     /// @notice Draws the rows from `row` to before `last` of the triangle that was set up, as its mode says.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
@@ -78,15 +84,19 @@ abstract contract SampleRasterizer is Rasterizer {
             start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
             b := sub(mul(toC, b), mul(toB, c))
             c := sub(mul(toB, xc), mul(toC, xb))
-            mstore(DX_8, b)
-            mstore(DY_8, c)
-            b := shl(3, b)
-            c := shl(3, c)
-            if and(mload(MODE), IS_DEEP) {
-                start := add(start, mload(DEEP_START))
-                b := add(b, mload(DEEP_DX))
-                c := add(c, mload(DEEP_DY))
+            x := 0
+            y := 0
+            if and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC)) {
+                mstore(DX_8, b)
+                mstore(DY_8, c)
+                if and(mload(MODE), IS_DEEP) {
+                    start := add(start, mload(DEEP_START))
+                    x := mload(DEEP_DX)
+                    y := mload(DEEP_DY)
+                }
             }
+            b := add(shl(3, b), x)
+            c := add(shl(3, c), y)
             mstore(START, start)
             mstore(DX, b)
             mstore(DY, c)
@@ -244,6 +254,18 @@ abstract contract SampleRasterizer is Rasterizer {
                     right += load(ROW_RIGHT_STEP);
                     store(ROW_BOUNDS, load(ROW_BOUNDS) + load(ROW_BOUND_STEPS));
                 }
+            }
+        }
+    }
+
+    /// @dev Draws the fragments of a row one by one.
+    function drawEach(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
+        unchecked {
+            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            for (; column != end; ++column) {
+                uint256 covered = Samples.coverage(left, right, Samples.place(row, column));
+                if (covered != 0) drawFragment(attribute, covered, column, row);
+                attribute += load(DX);
             }
         }
     }

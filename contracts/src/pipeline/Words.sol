@@ -173,7 +173,6 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
-uint256 constant LANE_64 = 0xffffffffffffffff;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev Where an entry of that list has the address of the samples; that of the colour, and its bits; the bytes of an entry.
@@ -229,11 +228,11 @@ uint256 constant CENTROIDS = 0x1ff00ff02010002010000010300ff0000fefffd0101fe03ff
 uint256 constant GREEN_OF_SUM = 24;
 /// @dev A colour at the top of a word.
 uint256 constant PIXEL_AT = 232;
-/// @dev Half a level of the sums of four colours: red lowest, blue at bit 16, green at bit 32; where the means have their bytes.
+/// @dev Red and blue of a colour; where the mean of four has green.
+uint256 constant RED_BLUE = 0xff00ff;
+uint256 constant MEAN_OF_GREEN_AT = 26;
+/// @dev Half a level of the sums of four colours: red lowest, blue at bit 16, green at bit 32; where those have their bytes.
 uint256 constant ROUND_SUM = 0x200020002;
-uint256 constant BLUE_OF_MEAN_AT = 18;
-uint256 constant GREEN_OF_MEAN_AT = 34;
-uint256 constant RED_OF_MEAN_AT = 2;
 
 // ------------------------------------------------------------------------------------------------------------------------ parts of pixels
 
@@ -496,8 +495,7 @@ uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffff
 /// edge come out as being to the right of it. Edges are off by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from
 /// it at least.
 uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
-/// @dev A column, Q42; a byte of samples, of which a column has 32: Q37.
-uint256 constant COLUMN_64 = 0x40000000000000004000000000000000400000000000000040000000000;
+/// @dev A byte of samples, Q37, of which a column has 32.
 uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
 /// @dev Red and blue, green.
 uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;
