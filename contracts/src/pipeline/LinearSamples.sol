@@ -4,8 +4,8 @@ pragma solidity 0.8.37;
 import {ABOVE_BYTES, BYTES_OF_LANES, LANES_TO_BYTES, NEXT_LANES, NEXT_LANE_TO_BYTE} from "./LinearSpans.sol";
 import "./Registers.sol";
 
-// Triangles of which the accumulator holds the colour, with four samples for each pixel: see Samples. Most triangles of models are small and
-// linear, so that what a row takes counts as much as what its pixels do.
+// Triangles of which the accumulator holds the colour, with four samples for each pixel: see Samples. Most triangles of models are small
+// and linear, so that what a row takes counts as much as what its pixels do.
 
 /// @dev The highest bit of each colour in an accumulator, which is its sign where the centre of a pixel lies outside the triangle; and from
 /// there to the lowest bit of the byte.

@@ -9,8 +9,8 @@ import "./Registers.sol";
 // Its colour is computed once; its depth for each sample.
 //
 // A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: where the edge crosses the height of the sample,
-// less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are columns
-// in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are kept so
+// less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are
+// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are kept so
 // that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
 //
 //   left = 2^63 - side                  left + p  >= 2^63 where p >= side
@@ -19,8 +19,8 @@ import "./Registers.sol";
 // Edges are told by their upper vertex, whichever triangle they belong to, so that triangles leave no gap between them and do not overlap.
 // Above the upper vertex of two edges, and below the lower one, the sides have changed places, and nothing is between them.
 //
-// With x and y for the places of the samples in eighths of a pixel, a side is that of the centre of the pixel, at column c and with the slope
-// s, and s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
+// With x and y for the places of the samples in eighths of a pixel, a side is that of the centre of the pixel, at column c and with the
+// slope s, and s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
 abstract contract SampleRasterizer is Rasterizer {
     /// @notice Draws the fragments of a row from `column` to before `end`.
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
@@ -108,8 +108,9 @@ abstract contract SampleRasterizer is Rasterizer {
     /// @dev The sides and bounds at the first row that is drawn, and where one of them continues with another edge.
     function setSides(uint256 a, uint256 b, uint256 c, uint256 row) private pure {
         assembly ("memory-safe") {
-            // An edge that goes on by dx while rows go down by dy, so many sub-pixels below the vertex, which is at an address: a left side,
-            // of which the complement is a right one; its change per row; where it is, rounded up; how far its outermost samples are away
+            // An edge that goes on by dx while rows go down by dy, so many sub-pixels below the vertex, which is at an address: a left
+            // side, of which the complement is a right one; its change per row; where it is, rounded up; how far its outermost samples
+            // are away
             function edge(dx, dy, at, below) -> side, step, line, reach {
                 step := sdiv(shl(COLUMN_FRACTION, dx), dy)
                 mstore(IS_CLAMPED, or(mload(IS_CLAMPED), add(step, STEEPEST_42)))
