@@ -107,6 +107,11 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
     )
 
 
+def plain(scene: Scene) -> Scene:
+    """The scene without anti-aliasing and effects."""
+    return evolve(scene, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
+
+
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.
 PLACES = ((1, 1, 1), (8, 1, 1), (1, 8, 1), (1, 1, 8), (8, 8, 1), (8, 1, 8), (1, 8, 8))
 
