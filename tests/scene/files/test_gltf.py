@@ -12,7 +12,7 @@ from PIL import Image
 
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, STUDIO, TEXTURED, Mesh, read_mesh, read_model
+from shackled.scene import DEFAULT_COLOR, MESH_STAGING, TEXTURED, Mesh, read_mesh, read_model
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -118,7 +118,7 @@ def test_what_a_material_says_of_its_surface(tmp_path: Path) -> None:
     assert rough["shininess"] < glossy["shininess"] <= 128
     assert surface(roughnessFactor=0.2, metallicRoughnessTexture={"index": 0}) == {}
     scene = load(tmp_path / "model.glb", shininess=7)
-    assert scene.objects[0].material == evolve(STUDIO.material, shading="flat", shininess=7)
+    assert scene.objects[0].material == evolve(MESH_STAGING.material, shading="flat", shininess=7)
 
 
 def test_an_unlit_material_is_unlit(tmp_path: Path) -> None:
