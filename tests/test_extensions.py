@@ -198,6 +198,16 @@ def with_records(scene: Scene, data: bytes) -> bytes:
     return artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + struct
 
 
+def fog(near: int, far: int) -> bytes:
+    """The content of a record of white fog."""
+    return b"\xff" * 3 + b"".join(distance.to_bytes(8, "big", signed=True) for distance in (near, far))
+
+
+def tone(exposure: int, flags: int) -> bytes:
+    """The content of a record of a tone."""
+    return exposure.to_bytes(4, "big") + bytes([flags])
+
+
 DOWN = cone(0, -ONE, 0, ONE, 0)
 HALF = (1 << 23).to_bytes(4, "big")
 FAR = 1 << 58
@@ -265,6 +275,23 @@ def test_records_are_what_the_file_says() -> None:
         (record(1, 1, cone(1, 0, 0, 5, 6)), "SpotAngles(light=1, cosInner=5, cosOuter=6)"),
         (record(2, 0, (1 << 24).to_bytes(4, "big")), f"OpacityOutOfRange(object=0, opacity={1 << 24})"),
         (record(2, 0, b"\xff" * 4), f"OpacityOutOfRange(object=0, opacity={2**32 - 1})"),
+        (record(4, 0, bytes(5)), "ExtensionSize(kind=4, index=0, expected=6, actual=5)"),
+        (record(5, 0, bytes(5)), "ExtensionSize(kind=5, index=0, expected=4, actual=5)"),
+        (record(6, 0, b""), "ExtensionSize(kind=6, index=0, expected=19, actual=0)"),
+        (record(7, 0, bytes(4)), "ExtensionSize(kind=7, index=0, expected=5, actual=4)"),
+        (record(4, 1, bytes(6)), "ExtensionIndex(kind=4, index=1, count=1)"),
+        (record(7, 65535, bytes(5)), "ExtensionIndex(kind=7, index=65535, count=1)"),
+        (record(5, 0, bytes(4)) + record(4, 0, bytes(6)), "ExtensionOrder(kind=4, index=0)"),
+        (record(5, 0, bytes(4)), "RimPowerOutOfRange(power=0)"),
+        (record(5, 0, b"\0\0\0\x11"), "RimPowerOutOfRange(power=17)"),
+        (record(6, 0, fog(0, 0)), "FogOutOfRange(near=0, far=0)"),
+        (record(6, 0, fog(2, 1)), "FogOutOfRange(near=2, far=1)"),
+        (record(6, 0, fog(-1, 1)), "FogOutOfRange(near=-1, far=1)"),
+        (record(6, 0, fog(0, FAR + 1)), f"FogOutOfRange(near=0, far={FAR + 1})"),
+        (record(7, 0, bytes(5)), "ExposureOutOfRange(exposure=0)"),
+        (record(7, 0, tone((64 << 16) + 1, 0)), f"ExposureOutOfRange(exposure={(64 << 16) + 1})"),
+        (record(7, 0, tone(1, 4)), "UnknownToneFlags(flags=4)"),
+        (record(7, 0, tone(1, 255)), "UnknownToneFlags(flags=255)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:
@@ -288,6 +315,9 @@ def test_wrong_records_are_refused(data: bytes, error: str) -> None:
         record(1, 1, cone(0, 0, -1, ONE, ONE)),
         record(3, 0, b""),
         record(1, 1, DOWN) + record(2, 2, HALF) + record(3, 0, b""),
+        record(4, 0, bytes(6)) + record(5, 0, b"\0\0\0\1") + record(6, 0, fog(0, 1)) + record(7, 0, tone(1, 0)),
+        record(2, 2, HALF) + record(4, 0, b"\xff" * 6) + record(5, 0, b"\xff\xff\xff\x10"),
+        record(6, 0, fog(FAR - 1, FAR)) + record(7, 0, tone(64 << 16, 3)),
     ],
 )
 def test_values_at_their_bounds(data: bytes) -> None:
