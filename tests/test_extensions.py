@@ -15,7 +15,7 @@ from pictures import Pixels, chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.reference import draw_call, is_antialiased
+from shackled.reference import draw_call, engines
 from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
@@ -238,13 +238,26 @@ def test_records_are_what_the_file_says() -> None:
         (record(1, 1, DOWN) + b"\2\0\1\0", "ExtensionCutOff(position=45)"),
         (record(2, 1, HALF) + bytes([2, 0, 2, 255, 255]), "ExtensionCutOff(position=9)"),
         (record(0, 0, b""), "UnknownExtension(kind=0, index=0)"),
-        (b"\xc8\0\7\0\1what is to come, in 32-byte word", "UnknownExtension(kind=200, index=7)"),
+        # sizes of kinds from 8 on are told in words
+        (b"\xc8\0\7\0\1" + bytes(32), "UnknownExtension(kind=200, index=7)"),
+        (b"\xc8\0\7\0\1" + bytes(31), "ExtensionCutOff(position=0)"),
         (record(255, 65535, b""), "UnknownExtension(kind=255, index=65535)"),
         (record(2, 1, HALF) + record(1, 1, DOWN), "ExtensionOrder(kind=1, index=1)"),
         (record(2, 1, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
         (record(2, 2, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
         (record(3, 0, b"") + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
         (record(3, 0, b"") + record(3, 0, b""), "ExtensionOrder(kind=3, index=0)"),
+        (record(4, 0, bytes(5)), "ExtensionSize(kind=4, index=0, expected=6, actual=5)"),
+        (record(4, 1, bytes(6)), "ExtensionIndex(kind=4, index=1, count=1)"),
+        (record(5, 0, bytes(4)), "RimPowerOutOfRange(power=0)"),
+        (record(5, 0, bytes(3) + b"\x11"), "RimPowerOutOfRange(power=17)"),
+        (record(6, 0, bytes(3) + cone(-1, 5)), "FogOutOfRange(near=-1, far=5)"),
+        (record(6, 0, bytes(3) + cone(5, 5)), "FogOutOfRange(near=5, far=5)"),
+        (record(6, 0, bytes(3) + cone(0, 2**58 + 1)), f"FogOutOfRange(near=0, far={2**58 + 1})"),
+        (record(7, 0, bytes(5)), "ExposureOutOfRange(exposure=0)"),
+        (record(7, 0, b"\0\x40\0\1\0"), "ExposureOutOfRange(exposure=4194305)"),
+        (record(7, 0, b"\0\1\0\0\4"), "UnknownToneFlags(flags=4)"),
+        (record(5, 0, bytes(3) + b"\1") + record(4, 0, bytes(6)), "ExtensionOrder(kind=4, index=0)"),
         (record(1, 1, DOWN + b"\0"), "ExtensionSize(kind=1, index=1, expected=40, actual=41)"),
         (record(2, 1, HALF[:3]), "ExtensionSize(kind=2, index=1, expected=4, actual=3)"),
         (record(2, 1, b""), "ExtensionSize(kind=2, index=1, expected=4, actual=0)"),
@@ -314,16 +327,21 @@ def test_values_at_their_bounds(data: bytes) -> None:
     assert (decode_bmp(dynamic(output), 48, 48) == picture).all()
 
 
-def test_whether_a_call_asks_for_antialiasing() -> None:
+PLAIN = ["Engine", "FragmentEngine"]
+FOUR_SAMPLES = ["AntialiasedEngine", "AntialiasedFragmentEngine"]
+
+
+def test_engines_of_a_call() -> None:
     spots, opacity, antialias = record(1, 1, DOWN), record(2, 2, HALF), record(3, 0, b"")
-    assert is_antialiased(with_records(mixed(), spots + opacity + antialias))
+    assert engines(with_records(mixed(), spots + opacity + antialias)) == FOUR_SAMPLES
+    assert engines(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == ["EffectsEngine"]
     for data in (b"", spots + opacity, record(2, 2, antialias[:4])):
-        assert not is_antialiased(with_records(mixed(), data))
+        assert engines(with_records(mixed(), data)) == PLAIN
     # other functions of the Renderer, and data that are no call at all
     tile = encode(artifact("Renderer").selectors["renderTile"], evolve(mixed(), antialias=True), Rectangle(0, 0, 8, 8))
-    assert is_antialiased(tile)
+    assert engines(tile) == FOUR_SAMPLES
     for data in (b"", tile[:4], tile[:100], artifact("Renderer").selectors["engineCall"]):
-        assert not is_antialiased(data)
+        assert engines(data) == PLAIN
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:
