@@ -23,7 +23,7 @@ from rich.progress import (
 )
 
 from ..checks import choice
-from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
 
 CONSOLE = Console(stderr=True)
@@ -156,6 +156,22 @@ def _download_bar(name: str) -> Iterator[Any]:
     with Progress(*columns, console=CONSOLE, transient=True, disable=not CONSOLE.is_terminal) as bar:
         task = bar.add_task(name, total=None, visible=False)
         yield lambda here, whole: bar.update(task, completed=here, total=whole, visible=True)
+
+
+@datasets.command()
+def showcase(
+    output: Annotated[Path, typer.Option("-o", "--output", help="Output folder.", metavar="DIR")] = Path("showcase"),
+) -> None:
+    """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
+    from ..datasets.showcase import draw_showcase
+    from ..datasets.showcase import pieces as scenes
+    from ..whole_file import make_output_folder
+
+    make_output_folder(output)
+    width = max(len(piece.name) for piece in scenes())
+    for drawing in draw_showcase(output):
+        print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
+    print(f"{output / 'index.html'}: {len(scenes()):,} scenes")
 
 
 @datasets.command()

@@ -33,7 +33,7 @@ from ..common import shapes
 Array = NDArray[np.float64]
 
 #: Of every scene.
-SIZE = (360, 270)
+SIZE = (320, 240)
 UNLIT = Material("unlit")
 
 
@@ -168,8 +168,8 @@ def forest() -> Scene:
     """Return firs on both sides of a valley, paler and paler in the haze of a morning."""
     rng = np.random.default_rng(12)
     matt = Material("flat", ambient=0.45, diffuse=0.75, specular=0, shininess=1)
-    depths = np.concatenate([-34 + 38 * np.linspace(0, 1, 90) ** 1.1, [4.4, 5.2]])
-    sides = [float(rng.choice([-1, 1]) * (0.9 + rng.exponential(0.16 * (12 - z)))) for z in depths[:-2]] + [-3.6, 3.9]
+    depths = np.concatenate([np.linspace(-34, 3.5, 96), [4.6, 5.4]])
+    sides = [float(rng.choice([-1, 1]) * (1.6 + rng.exponential(0.17 * (12 - z)))) for z in depths[:-2]] + [-3.3, 3.4]
     trees = [_fir(rng, x, float(_hill(x, z)), z) for x, z in zip(sides, depths.tolist(), strict=True)]
     xs, zs = np.linspace(-32, 32, 25), np.linspace(-46, 9, 25)
     z, x = np.meshgrid(zs, xs, indexing="ij")
@@ -177,11 +177,11 @@ def forest() -> Scene:
     return _scene(
         [_put(shapes.joined(*trees), matt), _put(land, matt, "#80874c")],
         Camera.perspective((0, 2.2, 11), (0, 2.6, 0), fov=38),
-        [Light.directional((-0.9, 0.5, -0.25), "#ffc98a")],
+        [Light.directional((-0.9, 0.55, 0.15), "#ffcf94")],
         Background("#6f9cc4", "#ffe2c0"),
         ambient_light="#6c7890",
         hemisphere=Hemisphere("#5a7898", "#181c14"),
-        fog=Fog("#e6d6c6", 8, 42),
+        fog=Fog("#ecdccb", 7, 36),
     )
 
 
@@ -250,7 +250,7 @@ def genesis() -> Scene:
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
     look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.1}
-    return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3), width=180, height=135)
+    return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3), width=160, height=120)
 
 
 # ---- tone ----
@@ -282,7 +282,7 @@ def plaster() -> Scene:
     color = "#f6f3ee"
     return _scene(
         [
-            _floor("#e8b983"),
+            _floor("#ecc79a"),
             _put(shapes.torus(), chalk, color, (-2.15, 1.0, -0.2), (90, 0, 0)),
             _put(shapes.dodecahedron(), facets, color, (0.1, 0.98, -0.9), (10, 20, 0), 1.2),
             _put(shapes.cone(60), chalk, color, (2.35, 0.9, -0.3)),
@@ -295,7 +295,7 @@ def plaster() -> Scene:
         ambient_light="#181818",
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
         fog=Fog("#bcd6ee", 10, 30),
-        tone=Tone(1.25, gamma=True),
+        tone=Tone(1.15, gamma=True),
     )
 
 
