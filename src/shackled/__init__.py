@@ -10,7 +10,7 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, euler
+from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, euler
 from .web import export, view
 
 try:
@@ -36,6 +36,7 @@ __all__ = [
     "RenderError",
     "Scene",
     "ShackledError",
+    "Texture",
     "__version__",
     "euler",
     "export",

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev Where registers begin: what the compiler keeps in memory must end before.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x33a0;
+uint256 constant REGISTERS_END = 0x36a0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -119,233 +119,248 @@ uint256 constant MESH_FACES = 0x1440;
 uint256 constant MESH_FACE_COUNT = 0x1460;
 uint256 constant MESH_BITS = 0x1480;
 uint256 constant MESH_STRIDE = 0x14a0;
+/// @dev Where in the engine's calldata the texture of the object is, 0 without one; and the coordinates of its vertices.
+uint256 constant TEXTURE = 0x14c0;
+uint256 constant TEXTURE_UVS = 0x14e0;
 /// @dev What follows is for objects that are lit.
-uint256 constant OBJECT_LIT = 0x14c0;
+uint256 constant OBJECT_LIT = 0x1500;
 /// @dev Columns of the matrix that turns normals into camera space, three lanes each. Of a flat object: of the one that turns rays into the
 /// space of the mesh, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant NORMAL_X = 0x14c0;
-uint256 constant NORMAL_Y = 0x14e0;
-uint256 constant NORMAL_Z = 0x1500;
+uint256 constant NORMAL_X = 0x1500;
+uint256 constant NORMAL_Y = 0x1520;
+uint256 constant NORMAL_Z = 0x1540;
 /// @dev The eye in the space of the mesh, Q32; the line of sight there, Q24, for an orthographic camera.
-uint256 constant EYE_X = 0x1520;
-uint256 constant EYE_Y = 0x1540;
-uint256 constant EYE_Z = 0x1560;
+uint256 constant EYE_X = 0x1560;
+uint256 constant EYE_Y = 0x1580;
+uint256 constant EYE_Z = 0x15a0;
 /// @dev Scale of the mesh, Q32, and scale / near, Q64.
-uint256 constant SCALE = 0x1580;
-uint256 constant SCALE_PER_NEAR = 0x15a0;
+uint256 constant SCALE = 0x15c0;
+uint256 constant SCALE_PER_NEAR = 0x15e0;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
-uint256 constant AMBIENT = 0x15c0;
+uint256 constant AMBIENT = 0x1600;
 /// @dev The square of the distance, in sub-pixels, over which light is as good as linear.
-uint256 constant REACH = 0x15e0;
+uint256 constant REACH = 0x1620;
 /// @dev Up to which sum of the squares of two edges the light of smooth triangles is bounded; and the square of how much unit half vectors
 /// may differ, Q40.
-uint256 constant SMOOTH_REACH = 0x1600;
-uint256 constant HALF_REACH = 0x1620;
+uint256 constant SMOOTH_REACH = 0x1640;
+uint256 constant HALF_REACH = 0x1660;
 /// @dev Light of a smooth object that does not depend on the fragment, lanes of Q40.
-uint256 constant FACE_LIGHT_40 = 0x1640;
+uint256 constant FACE_LIGHT_40 = 0x1680;
 /// @dev The square and the length of the normal of a fragment, Q48 and Q24: one, unless normals are interpolated.
-uint256 constant FRAGMENT_SQUARE = 0x1660;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x1680;
+uint256 constant FRAGMENT_SQUARE = 0x16a0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16c0;
 /// @dev Where the table of the highlight begins, cos^2 in Q24, and its entries per unit of it, Q16; their product, Q24.
-uint256 constant SPECULAR_BEGIN = 0x16a0;
-uint256 constant SPECULAR_SCALE = 0x16c0;
-uint256 constant SPECULAR_OFFSET = 0x16e0;
+uint256 constant SPECULAR_BEGIN = 0x16e0;
+uint256 constant SPECULAR_SCALE = 0x1700;
+uint256 constant SPECULAR_OFFSET = 0x1720;
 /// @dev The specular coefficient, Q16, if the shininess is 1, else 0.
-uint256 constant SPECULAR_ROOT = 0x1700;
+uint256 constant SPECULAR_ROOT = 0x1740;
 /// @dev The other halves of the records at LIGHTS.
-uint256 constant OBJECT_LIGHTS = 0x1720;
+uint256 constant OBJECT_LIGHTS = 0x1760;
 /// @dev 65 entries: value of the highlight in the upper half, increase to the next entry in the lower, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1ca0;
-uint256 constant SPECULAR_TABLE_END = 0x24c0;
+uint256 constant SPECULAR_TABLE = 0x1ce0;
+uint256 constant SPECULAR_TABLE_END = 0x2500;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev How fragments are shaded: see the mode.
-uint256 constant MODE = 0x24c0;
+uint256 constant MODE = 0x2500;
 /// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the attribute words of the others to that
 /// of the first.
-uint256 constant ATTRIBUTE_0 = 0x24e0;
-uint256 constant DELTA_1 = 0x2500;
-uint256 constant DELTA_2 = 0x2520;
+uint256 constant ATTRIBUTE_0 = 0x2520;
+uint256 constant DELTA_1 = 0x2540;
+uint256 constant DELTA_2 = 0x2560;
 /// @dev Where the face is in calldata.
-uint256 constant FACE = 0x2540;
+uint256 constant FACE = 0x2580;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x2560;
-uint256 constant DX = 0x2580;
-uint256 constant DY = 0x25a0;
+uint256 constant START = 0x25a0;
+uint256 constant DX = 0x25c0;
+uint256 constant DY = 0x25e0;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x25c0;
-uint256 constant COLOR_1 = 0x25e0;
-uint256 constant COLOR_2 = 0x2600;
+uint256 constant COLOR_0 = 0x2600;
+uint256 constant COLOR_1 = 0x2620;
+uint256 constant COLOR_2 = 0x2640;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x2620;
-uint256 constant DEPTH_2 = 0x2640;
+uint256 constant DEPTH_1 = 0x2660;
+uint256 constant DEPTH_2 = 0x2680;
 /// @dev Pixels along a side of the cells over which colours are quadratic; 0 if they are over the whole triangle, 1 if each is exact.
-uint256 constant PATCH_SIZE = 0x2660;
+uint256 constant PATCH_SIZE = 0x26a0;
 /// @dev Normal of a flat face, twice its area long, in units of the mesh: signed lanes of 86 bits.
-uint256 constant FACE_NORMAL = 0x2680;
+uint256 constant FACE_NORMAL = 0x26c0;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x26a0;
-uint256 constant FACE_LENGTH = 0x26c0;
+uint256 constant FACE_SQUARE = 0x26e0;
+uint256 constant FACE_LENGTH = 0x2700;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x26e0;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2700;
+uint256 constant FACE_N_DOT_RAY = 0x2720;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2740;
 /// @dev Normals of a smooth triangle of which each fragment is lit for itself: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x2720;
-uint256 constant NORMALS_1 = 0x2740;
-uint256 constant NORMALS_2 = 0x2760;
+uint256 constant NORMALS_0 = 0x2760;
+uint256 constant NORMALS_1 = 0x2780;
+uint256 constant NORMALS_2 = 0x27a0;
+
+// ------------------------------------------------------------------------------------------------------------------ texture of a triangle
+// See Texture.
+
+/// @dev Texture coordinates at the first vertex, Q40, and their differences to the others, Q16: two lanes of 128 bits, u below.
+uint256 constant UV_0 = 0x27c0;
+uint256 constant UV_1 = 0x27e0;
+uint256 constant UV_2 = 0x2800;
+/// @dev The three corners of a face that was clipped, with coordinates in place of colours.
+uint256 constant TEXTURE_CORNERS = 0x2820;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x2780;
-uint256 constant FRAGMENT_PLACE_Y = 0x27a0;
+uint256 constant FRAGMENT_PLACE_X = 0x2a60;
+uint256 constant FRAGMENT_PLACE_Y = 0x2a80;
 /// @dev Its normal, Q24, and the product of that with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x27c0;
-uint256 constant FRAGMENT_NORMAL_Y = 0x27e0;
-uint256 constant FRAGMENT_NORMAL_Z = 0x2800;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x2820;
+uint256 constant FRAGMENT_NORMAL_X = 0x2aa0;
+uint256 constant FRAGMENT_NORMAL_Y = 0x2ac0;
+uint256 constant FRAGMENT_NORMAL_Z = 0x2ae0;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x2b00;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x2840;
-uint256 constant FACE_HINT = 0x2860;
+uint256 constant NORMAL_HINT = 0x2b20;
+uint256 constant FACE_HINT = 0x2b40;
 /// @dev What of a light's strength reaches it through its cone, Q16.
-uint256 constant FRAGMENT_CONE = 0x2880;
+uint256 constant FRAGMENT_CONE = 0x2b60;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x28a0;
+uint256 constant FRAGMENT_LIGHT = 0x2b80;
 /// @dev If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
-uint256 constant PATCH_WEIGHT = 0x28c0;
+uint256 constant PATCH_WEIGHT = 0x2ba0;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x28e0;
-uint256 constant PATCH_END = 0x2900;
+uint256 constant PATCH_BEGIN = 0x2bc0;
+uint256 constant PATCH_END = 0x2be0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x2920;
+uint256 constant HAS_CLIPPED = 0x2c00;
 /// @dev DEPTH_STRIDE in both lanes of edges: see Rasterizer.
-uint256 constant STRIDE_LANES = 0x2940;
+uint256 constant STRIDE_LANES = 0x2c20;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by addresses.
-uint256 constant DX_8 = 0x2960;
-uint256 constant ROW_STEP = 0x2980;
+uint256 constant DX_8 = 0x2c40;
+uint256 constant ROW_STEP = 0x2c60;
 /// @dev The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has ended: the
 /// number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per row.
-uint256 constant LOWER_ROWS = 0x29a0;
-uint256 constant LOWER_KEPT = 0x29c0;
-uint256 constant LOWER_EDGE = 0x29e0;
-uint256 constant LOWER_SLOPES = 0x2a00;
+uint256 constant LOWER_ROWS = 0x2c80;
+uint256 constant LOWER_KEPT = 0x2ca0;
+uint256 constant LOWER_EDGE = 0x2cc0;
+uint256 constant LOWER_SLOPES = 0x2ce0;
 /// @dev Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
-uint256 constant DEEP_START = 0x2a20;
-uint256 constant DEEP_DX = 0x2a40;
-uint256 constant DEEP_DY = 0x2a60;
+uint256 constant DEEP_START = 0x2d00;
+uint256 constant DEEP_DX = 0x2d20;
+uint256 constant DEEP_DY = 0x2d40;
+/// @dev Where the vertex records of the object that is drawn begin.
+uint256 constant RECORDS = 0x2d60;
 /// @dev Where the next triangle is listed; 0 if faces are drawn at once.
-uint256 constant LIST = 0x2a80;
+uint256 constant LIST = 0x2d80;
 /// @dev How many faces of the object were drawn or listed.
-uint256 constant DRAWN = 0x2aa0;
+uint256 constant DRAWN = 0x2da0;
 /// @dev Faces of which twice the area, Q192, is not above this are not drawn: they face away.
-uint256 constant LEAST_AREA = 0x2ac0;
+uint256 constant LEAST_AREA = 0x2dc0;
 /// @dev What edges change per row.
-uint256 constant SLOPES = 0x2ae0;
+uint256 constant SLOPES = 0x2de0;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x2b00;
+uint256 constant FACES_END = 0x2e00;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x2b20;
-uint256 constant QUADRATIC_S = 0x2b40;
-uint256 constant QUADRATIC_T = 0x2b60;
-uint256 constant QUADRATIC_SS = 0x2b80;
-uint256 constant QUADRATIC_ST = 0x2ba0;
-uint256 constant QUADRATIC_TT = 0x2bc0;
+uint256 constant QUADRATIC_1 = 0x2e20;
+uint256 constant QUADRATIC_S = 0x2e40;
+uint256 constant QUADRATIC_T = 0x2e60;
+uint256 constant QUADRATIC_SS = 0x2e80;
+uint256 constant QUADRATIC_ST = 0x2ea0;
+uint256 constant QUADRATIC_TT = 0x2ec0;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x2be0;
-uint256 constant QUADRATIC_DX = 0x2c00;
-uint256 constant QUADRATIC_DY = 0x2c20;
-uint256 constant QUADRATIC_DXX = 0x2c40;
-uint256 constant QUADRATIC_DXY = 0x2c60;
-uint256 constant QUADRATIC_DYY = 0x2c80;
+uint256 constant QUADRATIC_START = 0x2ee0;
+uint256 constant QUADRATIC_DX = 0x2f00;
+uint256 constant QUADRATIC_DY = 0x2f20;
+uint256 constant QUADRATIC_DXX = 0x2f40;
+uint256 constant QUADRATIC_DXY = 0x2f60;
+uint256 constant QUADRATIC_DYY = 0x2f80;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x2ca0;
-uint256 constant BEND_GREEN = 0x2cc0;
-uint256 constant BEND_RED = 0x2ce0;
+uint256 constant BEND_BLUE = 0x2fa0;
+uint256 constant BEND_GREEN = 0x2fc0;
+uint256 constant BEND_RED = 0x2fe0;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
-uint256 constant NORMAL_0 = 0x2d00;
-uint256 constant NORMAL_1 = 0x2d40;
-uint256 constant NORMAL_2 = 0x2d80;
+uint256 constant NORMAL_0 = 0x3000;
+uint256 constant NORMAL_1 = 0x3040;
+uint256 constant NORMAL_2 = 0x3080;
 /// @dev The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x2dc0;
+uint256 constant HALF_CHANGE = 0x30c0;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x2de0;
-uint256 constant HALF_HINT = 0x2e00;
+uint256 constant RAY_HINT = 0x30e0;
+uint256 constant HALF_HINT = 0x3100;
 /// @dev The record of a vertex in the middle of an edge.
-uint256 constant MIDDLE = 0x2e20;
+uint256 constant MIDDLE = 0x3120;
 /// @dev 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
-uint256 constant DEPTHS_DIFFER = 0x2f20;
+uint256 constant DEPTHS_DIFFER = 0x3220;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x2f40;
+uint256 constant QUADRATIC_HALF_DXX = 0x3240;
 /// @dev The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
-uint256 constant NEAREST = 0x2f60;
+uint256 constant NEAREST = 0x3260;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // Of the engines that take four samples of each pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x2f80;
-uint256 constant SAMPLE_END = 0x2fa0;
-uint256 constant SAMPLE_TOP = 0x2fc0;
-uint256 constant SAMPLE_BOTTOM = 0x2fe0;
+uint256 constant SAMPLE_BEGIN = 0x3280;
+uint256 constant SAMPLE_END = 0x32a0;
+uint256 constant SAMPLE_TOP = 0x32c0;
+uint256 constant SAMPLE_BOTTOM = 0x32e0;
 /// @dev Bytes of a row of samples; the address that those of row 0, column 0 would have, which may be below 0. Rows go down in memory, as
 /// they do in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x3000;
-uint256 constant SAMPLE_ORIGIN = 0x3020;
+uint256 constant SAMPLE_STRIDE = 0x3300;
+uint256 constant SAMPLE_ORIGIN = 0x3320;
 /// @dev The address that the colour of row 0, column 0 would have; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x3040;
+uint256 constant SAMPLE_IMAGE = 0x3340;
 /// @dev A pixel of the row that is drawn, with its samples at p, has its colour at ROW_IMAGE + 3 * (p / 32); what that is less in the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3060;
-uint256 constant ROW_IMAGE_STEP = 0x3080;
+uint256 constant ROW_IMAGE = 0x3360;
+uint256 constant ROW_IMAGE_STEP = 0x3380;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x30a0;
-uint256 constant MIXED_END = 0x30c0;
+uint256 constant MIXED = 0x33a0;
+uint256 constant MIXED_END = 0x33c0;
 /// @dev The row for which START is told; an eighth of DY.
-uint256 constant START_ROW = 0x30e0;
-uint256 constant DY_8 = 0x3100;
+uint256 constant START_ROW = 0x33e0;
+uint256 constant DY_8 = 0x3400;
 /// @dev What the depths of the samples are above that of the centre of their pixel, signed lanes.
-uint256 constant DEPTH_OFFSETS = 0x3120;
+uint256 constant DEPTH_OFFSETS = 0x3420;
 /// @dev The row for which the sides are told: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3140;
+uint256 constant SIDE_ROW = 0x3440;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and what they change per row.
-uint256 constant SIDE_LEFT = 0x3160;
-uint256 constant SIDE_RIGHT = 0x3180;
-uint256 constant SIDE_LEFT_STEP = 0x31a0;
-uint256 constant SIDE_RIGHT_STEP = 0x31c0;
+uint256 constant SIDE_LEFT = 0x3460;
+uint256 constant SIDE_RIGHT = 0x3480;
+uint256 constant SIDE_LEFT_STEP = 0x34a0;
+uint256 constant SIDE_RIGHT_STEP = 0x34c0;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; which: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x31e0;
-uint256 constant KINK_SIDE = 0x3200;
+uint256 constant KINK_ROW = 0x34e0;
+uint256 constant KINK_SIDE = 0x3500;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3220;
-uint256 constant KINK_EDGE = 0x3240;
-uint256 constant KINK_STEP = 0x3260;
+uint256 constant KINK_MASK = 0x3520;
+uint256 constant KINK_EDGE = 0x3540;
+uint256 constant KINK_STEP = 0x3560;
 /// @dev The columns that the vertex there may touch: the first, and the one after the last.
-uint256 constant KINK_BEGIN = 0x3280;
-uint256 constant KINK_END = 0x32a0;
+uint256 constant KINK_BEGIN = 0x3580;
+uint256 constant KINK_END = 0x35a0;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x32c0;
-uint256 constant SPAN_END = 0x32e0;
+uint256 constant SPAN_BEGIN = 0x35c0;
+uint256 constant SPAN_END = 0x35e0;
 /// @dev Those of triangle and tile as bytes of samples.
-uint256 constant SPAN_BEGIN_BYTES = 0x3300;
-uint256 constant SPAN_END_BYTES = 0x3320;
+uint256 constant SPAN_BEGIN_BYTES = 0x3600;
+uint256 constant SPAN_END_BYTES = 0x3620;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3340;
+uint256 constant QUADRATIC_DOWN = 0x3640;
 /// @dev The row for which the quadratic functions are told.
-uint256 constant QUADRATIC_ROW = 0x3360;
+uint256 constant QUADRATIC_ROW = 0x3660;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3380;
+uint256 constant FARTHEST = 0x3680;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // What a light is to the frame, at LIGHTS.
@@ -373,13 +388,13 @@ uint256 constant LIGHT_SIZE = 0x160;
 // What it is to the object, at OBJECT_LIGHTS, in records of the same size: offsets from the record at LIGHTS.
 
 /// @dev The position in the space of the mesh, Q32; or the direction in MESH_X, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant LIGHT_MESH_X = 0xb00;
-uint256 constant LIGHT_MESH_Y = 0xb20;
-uint256 constant LIGHT_MESH_Z = 0xb40;
+uint256 constant LIGHT_MESH_X = 0xb40;
+uint256 constant LIGHT_MESH_Y = 0xb60;
+uint256 constant LIGHT_MESH_Z = 0xb80;
 /// @dev Colour times the diffuse coefficient, lanes of Q16.
-uint256 constant LIGHT_DIFFUSE = 0xb60;
+uint256 constant LIGHT_DIFFUSE = 0xba0;
 /// @dev Normal of the face times the vector to the light: Q24 for a direction, Q16 for a position.
-uint256 constant LIGHT_N_DOT_L = 0xb80;
+uint256 constant LIGHT_N_DOT_L = 0xbc0;
 
 // --------------------------------------------------------------------------------------------------------------------------------- vertex
 // What every vertex record begins with; the rest is told in VertexShader and SmoothLight.

@@ -10,6 +10,7 @@ from ._codec import (
     PROJECTIONS,
     SHADINGS,
     SPOT,
+    TEXTURE,
     WIREFRAME,
     Rectangle,
     encode,
@@ -37,10 +38,12 @@ from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
+from ._packed_texture import pack_texture, unpack_texture
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
 from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, signed_volume, view_axes
+from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
@@ -53,6 +56,7 @@ __all__ = [
     "DEFAULT_HALF_HEIGHT",
     "EXACT_SIZES",
     "FILLED",
+    "FILTERS",
     "FORCEFUL",
     "GENTLE",
     "INNER_ANGLE",
@@ -63,6 +67,7 @@ __all__ = [
     "MAX_COORDINATE",
     "MAX_LIGHTS",
     "MAX_SIDE",
+    "MAX_TEXTURE_SIDE",
     "MAX_VERTICES",
     "MESH_STAGING",
     "NORMALS",
@@ -78,10 +83,12 @@ __all__ = [
     "SHADINGS",
     "SIMPLIFIED_CREASE",
     "SPOT",
+    "TEXTURE",
     "TEXTURED",
     "WHITE",
     "WIDE",
     "WIREFRAME",
+    "WRAPS",
     "Background",
     "Camera",
     "Kind",
@@ -97,6 +104,7 @@ __all__ = [
     "SceneChunk",
     "Setting",
     "Shading",
+    "Texture",
     "about",
     "checked_look",
     "components",
@@ -126,6 +134,7 @@ __all__ = [
     "objects_of",
     "original_scene",
     "pack",
+    "pack_texture",
     "painted",
     "read_mesh",
     "read_model",
@@ -144,6 +153,7 @@ __all__ = [
     "tangent",
     "turn",
     "unpack",
+    "unpack_texture",
     "vertex_normals",
     "view_axes",
     "weld",
