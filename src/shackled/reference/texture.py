@@ -101,7 +101,8 @@ def along(x: int, size: int, flags: int) -> tuple[int, int, int]:
 def set_triangle(triangle: Triangle, mesh: Mesh, texture: Texture, registers: Registers) -> None:
     """Set the texture coordinates of the vertices of a triangle, Q16."""
     registers.uvs = [
-        coordinates_of(vertex, triangle.face, mesh, texture, registers) for vertex in (triangle.a, triangle.b, triangle.c)
+        coordinates_of(vertex, triangle.face, mesh, texture, registers)
+        for vertex in (triangle.a, triangle.b, triangle.c)
     ]
 
 
@@ -132,9 +133,7 @@ def coordinates_of(vertex: Vertex, face: int, mesh: Mesh, texture: Texture, regi
     if total == 0:
         return 0, 0
     places = [texture.uv(each) for each in mesh.faces[face]]
-    u, v = (
-        divide_signed(sum(w * place[i] for w, place in zip(weights, places, strict=True)), total) for i in range(2)
-    )
+    u, v = (divide_signed(sum(w * place[i] for w, place in zip(weights, places, strict=True)), total) for i in range(2))
     return u, v
 
 

@@ -20,9 +20,10 @@ from ._codec import (
 )
 from ._crease import CREASE, SIMPLIFIED_CREASE, creased
 from ._decode import decode
-from ._files.colors import TEXTURED, sample
+from ._files.colors import sample
 from ._files.content import MAX_BYTES
 from ._files.mesh_file import READERS, read_mesh, read_model
+from ._files.model import TEXTURED, MeshPart
 from ._files.obj import write_obj
 from ._files.original import original_scene
 from ._files.picture import CHUNK, LONGEST_TEXT, PICTURE, SceneChunk, scene_chunk
@@ -31,7 +32,7 @@ from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scen
 from ._files.table import about
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
-from ._from_trimesh import is_trimesh, mesh_of, objects_of
+from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
@@ -42,7 +43,7 @@ from ._packed_texture import pack_texture, unpack_texture
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, signed_volume, view_axes
+from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, painted_object, signed_volume, view_axes
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
 
@@ -97,6 +98,7 @@ __all__ = [
     "LookOptions",
     "Material",
     "Mesh",
+    "MeshPart",
     "Object",
     "Projection",
     "Rectangle",
@@ -136,6 +138,8 @@ __all__ = [
     "pack",
     "pack_texture",
     "painted",
+    "painted_object",
+    "part_of",
     "read_mesh",
     "read_model",
     "read_scene",

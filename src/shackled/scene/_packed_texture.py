@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InputError
 from ..checks import Floats
+from ..errors import InputError
 from ._texture import Texture
 
 BILINEAR = 1
@@ -83,7 +83,7 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
         colors = data[begin : begin + texels]
     octets = np.zeros((2 * vertices, 4), np.uint8)
     octets[:, :UV_SIZE] = data[begin + texels :][: 2 * UV_SIZE * vertices].reshape(-1, UV_SIZE)
-    uvs = (octets.view(">i4")[:, 0] >> 8).reshape(-1, 2) * UV_STEP
+    uvs = (octets.view(">i4")[:, 0] >> 8).astype(np.float64).reshape(-1, 2) * UV_STEP
     flags = packed[0]
     texture = Texture(
         colors.reshape(height, width, 3),
@@ -91,5 +91,7 @@ def unpack_texture(packed: bytes, vertices: int) -> tuple[Texture, Floats]:
         "clamp" if flags & CLAMP else "repeat",
     )
     if pack_texture(texture, uvs) != packed:
-        raise InputError("a packed texture must have the palette and the bits that its colours need, in ascending order")
+        raise InputError(
+            "a packed texture must have the palette and the bits that its colours need, in ascending order"
+        )
     return texture, uvs

@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 import warnings
 from pathlib import Path
-from typing import IO, Literal, cast
+from typing import IO, TYPE_CHECKING, Literal, cast
 
 import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
-from PIL import Image
 
 from ..checks import choice, fixed
 from ..errors import InputError
 from ..values import Value, array_key, with_names
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 Filter = Literal["nearest", "bilinear"]
 FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
@@ -79,7 +81,7 @@ class Texture(Value):
 
         InputError if the file does not exist or is not an image.
         """
-        if not isinstance(image, Image.Image):
+        if isinstance(image, str | os.PathLike):
             image = open_image(Path(image), str(image))
         return cls(np.asarray(reduced(image.convert("RGB"), side)), filter, wrap)
 
@@ -100,6 +102,8 @@ class Texture(Value):
 
 def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
     """Return the image, as RGB. InputError, with its name, if there is none, or it is too large."""
+    from PIL import Image
+
     try:
         with (
             warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
@@ -122,4 +126,6 @@ def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
     if largest <= side:
         return image
     width, height = (max(1, round(length * side / largest)) for length in image.size)
-    return image.resize((width, height), Image.Resampling.BOX if largest > 8 * side else Image.Resampling.LANCZOS)
+    from PIL.Image import Resampling
+
+    return image.resize((width, height), Resampling.LANCZOS)

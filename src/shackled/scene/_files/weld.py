@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .._mesh import Mesh
 
@@ -28,7 +28,10 @@ def weld(
     """
     checked = Mesh(positions, faces)
     points, corners = checked.positions, checked.faces
-    parts = [points[corners], *(np.asarray(each, dtype=np.float64) for each in (colors, normals, uvs) if each is not None)]
+    parts = [
+        points[corners],
+        *(np.asarray(each, dtype=np.float64) for each in (colors, normals, uvs) if each is not None),
+    ]
     # + 0.0: no -0.0
     rows = np.ascontiguousarray(np.concatenate(parts, axis=2).reshape(3 * len(corners), -1) + 0.0)
     keys = rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel()
