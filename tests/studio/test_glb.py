@@ -259,7 +259,6 @@ def test_readers_see_the_scene(tmp_path: Path) -> None:
     file = tmp_path / "scene.glb"
     file.write_bytes(call(evolve(SCENE, objects=[evolve(SCENE.objects[1], opacity=1.0)])))
     (loaded,) = load(file).objects
-    # which takes linear colours as they are
     assert np.array_equal(loaded.mesh.colors, TENT.colors)
 
 
