@@ -127,7 +127,7 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @dev Reads the uniforms of an object into their registers.
     /// @return next Where those of the next begin.
-    function readObject(uint256 position) internal pure returns (uint256 next) {
+    function readObject(uint256 position) internal pure virtual returns (uint256 next) {
         unchecked {
             uint256 size;
             assembly ("memory-safe") {
@@ -146,7 +146,6 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @return drawn How many faces were drawn that were not listed before.
     function drawObject(Mesh memory mesh, uint256[3] memory list, bool atOnce, uint256 shift) private pure returns (uint256 drawn) {
-        store(RECORDS, list[0]);
         if (load(OBJECT_FLAGS) & WIREFRAME == 0) {
             if (atOnce) (, drawn) = assemble(mesh, list[0], shift, 0, load(OBJECT_FLAGS) & CULL_BACKFACES != 0);
             drawList(list[1], list[2]);

@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {Mesh} from "../scene/Mesh.sol";
+import {SCENE_OBJECTS} from "../scene/Scene.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";
 
-// The colour of a texture at a fragment: see TEXTURE in Extensions.sol for its bytes.
+// The colour of a texture at a fragment. The content of a record TEXTURE of an object, in words of 32 bytes, is
+//
+//   flags         1 byte    sum of TEXTURE_BILINEAR and TEXTURE_CLAMP
+//   sides         2 bytes   width - 1 and height - 1
+//   bits          1 byte    of a texel: 1, 2, 4, 8, or 24
+//   palette                 2^bits colours of 3 bytes, red, green, blue; none for texels of 24 bits, which are colours themselves
+//   texels                  rows from the top, one after the other; zeros up to a whole byte
+//   coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the image,
+//                           (1, 1) the lower right one
+//   zeros up to a whole word
 //
 // Texture coordinates are interpolated correctly in perspective, two lanes of 128 bits: u below, v above. Texels are found as in OpenGL:
 // with the coordinate x = u * width, the nearest texel is floor(x); between texels, whose centres lie at i + 0.5, colours are linear.
@@ -18,9 +30,61 @@ uint256 constant TEXTURE_CLAMP = 2;
 uint256 constant TEXTURE_HEADER = 4;
 uint256 constant TEXTURE_COLOR_BITS = 24;
 uint256 constant UV_SIZE = 6;
+/// @dev 2^bits of each number of bits that a texel may have.
+uint256 constant BITS_ALLOWED = 0x1000116;
 uint256 constant ONE_12 = 0x1000;
 
+/// @dev The kind of the record.
+uint256 constant TEXTURE_OF = 8;
+
 library Texture {
+    /// @notice Checks a record.
+    function check(uint256 record, uint256 object) internal pure {
+        unchecked {
+            uint256 scene = 4 + FRAME_SIZE;
+            uint256 objects = scene + Extensions.word(scene + 32 * SCENE_OBJECTS);
+            uint256 count = Extensions.word(objects);
+            if (object >= count) revert SceneErrors.ExtensionIndex(TEXTURE_OF, object, count);
+            uint256 size = Extensions.sizeOf(record);
+            if (size == 0) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, 32, 0);
+            uint256 header = Extensions.word(record + RECORD_HEADER) >> 224;
+            (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
+            if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
+                revert SceneErrors.TextureFormat(object, flags, bits);
+            }
+            // the number of vertices stands behind the length and the format of the mesh
+            uint256 place = objects + 32 + Extensions.word(objects + 32 + 32 * object);
+            uint256 vertices = (Extensions.word(place + Extensions.word(place) + 32) >> 232) & 0xffff;
+            uint256 expected = (uvsOf(record + RECORD_HEADER) - record - RECORD_HEADER + UV_SIZE * vertices + 31) & ~uint256(31);
+            if (size != expected) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, expected, size);
+        }
+    }
+
+    /// @notice The registers of an object whose uniforms were read.
+    /// @param object Its number in the scene.
+    function setObject(uint256 object) internal pure {
+        unchecked {
+            store(TEXTURE, 0);
+            uint256 end = load(EFFECTS_END);
+            uint256 key = (TEXTURE_OF << 16) | object;
+            for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
+                if (Extensions.keyOf(record) != key) continue;
+                store(TEXTURE, record + RECORD_HEADER);
+                store(TEXTURE_UVS, uvsOf(record + RECORD_HEADER));
+            }
+        }
+    }
+
+    /// @dev Where the coordinates of vertices are.
+    function uvsOf(uint256 texture) private pure returns (uint256) {
+        unchecked {
+            uint256 header = Extensions.word(texture) >> 224;
+            uint256 bits = header & 0xff;
+            uint256 texels = (((header >> 16) & 0xff) + 1) * (((header >> 8) & 0xff) + 1);
+            return texture + TEXTURE_HEADER + (bits == TEXTURE_COLOR_BITS ? 0 : 3 << bits) + (texels * bits + 7) / 8;
+        }
+    }
+
     /// @notice The coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
     /// @param a, b, c The screen words of its vertices, which records of 2^shift bytes have.
     function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {

@@ -8,9 +8,14 @@ from . import layout
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import Registers
+from .scene_errors import Reverted
+from .structs import Scene
 from .vertex_shader import Vertex, clip_coordinates
 from .words import divide_signed
 
+#: The kind of the record.
+TEXTURE = 8
+#: Flags.
 BILINEAR, CLAMP = 1, 2
 #: Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates.
 HEADER, COLOR_BITS, UV_SIZE = 4, 24, 6
@@ -83,6 +88,22 @@ class Texture:
         return red, green, blue
 
 
+def check_texture(content: bytes, index: int, scene: Scene) -> None:
+    """Check the content of a record TEXTURE of an object."""
+    if index >= len(scene.objects):
+        raise Reverted("ExtensionIndex", kind=TEXTURE, index=index, count=len(scene.objects))
+    if not content:
+        raise Reverted("ExtensionSize", kind=TEXTURE, index=index, expected=32, actual=0)
+    flags, bits = content[0], content[3]
+    if flags > BILINEAR | CLAMP or bits not in (1, 2, 4, 8, COLOR_BITS):
+        raise Reverted("TextureFormat", object=index, flags=flags, bits=bits)
+    vertices = int.from_bytes(scene.objects[index].mesh[1:3], "big")
+    expected = Texture(content).coordinates + UV_SIZE * vertices
+    expected += -expected % 32
+    if len(content) != expected:
+        raise Reverted("ExtensionSize", kind=TEXTURE, index=index, expected=expected, actual=len(content))
+
+
 def along(x: int, size: int, flags: int) -> tuple[int, int, int]:
     """Return the texel at or before a coordinate (Q24) along a side, that after it, and the part from one to the
     other, Q12.
@@ -98,20 +119,21 @@ def along(x: int, size: int, flags: int) -> tuple[int, int, int]:
     return first % size, (first + 1) % size, part
 
 
-def set_triangle(triangle: Triangle, mesh: Mesh, texture: Texture, registers: Registers) -> None:
+def set_triangle(triangle: Triangle, mesh: Mesh, r: Registers) -> None:
     """Set the texture coordinates of the vertices of a triangle, Q16."""
-    registers.uvs = [
-        coordinates_of(vertex, triangle.face, mesh, texture, registers)
-        for vertex in (triangle.a, triangle.b, triangle.c)
-    ]
+    if r.texture is not None:
+        texture = Texture(r.texture)
+        corners = (triangle.a, triangle.b, triangle.c)
+        r.uvs = [coordinates_of(vertex, triangle.face, mesh, texture, r) for vertex in corners]
 
 
-def color_at(s: int, t: int, texture: Texture, registers: Registers) -> tuple[int, int, int]:
+def color_at(s: int, t: int, r: Registers) -> tuple[int, int, int]:
     """Return the colour at barycentric coordinates, Q24, that are correct in perspective: see `Texture.sample`."""
-    (u0, v0), (u1, v1), (u2, v2) = registers.uvs
+    assert r.texture is not None
+    (u0, v0), (u1, v1), (u2, v2) = r.uvs
     u = (u0 << 24) + (u1 - u0) * s + (u2 - u0) * t
     v = (v0 << 24) + (v1 - v0) * s + (v2 - v0) * t
-    return texture.sample(u >> 16, v >> 16)
+    return Texture(r.texture).sample(u >> 16, v >> 16)
 
 
 def coordinates_of(vertex: Vertex, face: int, mesh: Mesh, texture: Texture, registers: Registers) -> Pair:
