@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from conformance.coverage import project
 from conformance.world import before_camera
 from shackled.scene import (
+    FILTERS,
+    WRAPS,
     Background,
     Camera,
     Light,
@@ -21,6 +23,7 @@ from shackled.scene import (
     Rectangle,
     Scene,
     Shading,
+    Texture,
     rotate,
     vertex_normals,
 )
@@ -47,6 +50,8 @@ AS_IT_COMES = 0.02
 TRIALS = 60
 #: How often a scene is antialiased.
 ANTIALIASED = 0.3
+#: How often a scene has textures.
+TEXTURED = 0.2
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -60,7 +65,32 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
-    return Case(evolve(scene, antialias=antialias), tile)
+    scene = evolve(scene, antialias=antialias)
+    return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
+
+
+def _textured(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with textures on some of its objects."""
+    if rng.random() >= TEXTURED:
+        return scene
+    objects = [_with_texture(rng, o) if rng.random() < 0.8 else o for o in scene.objects]
+    return evolve(scene, objects=objects)
+
+
+def _with_texture(rng: Rng, o: Object) -> Object:
+    """The object with a texture of any format, on coordinates of any size."""
+    height, width = rng.integers(1, 20, 2).tolist()
+    colors = int(rng.choice([1, 2, 3, 5, 16, 17, 400]))
+    palette = rng.integers(0, 256, (colors, 3), dtype=np.uint8)
+    texture = Texture(
+        palette[rng.integers(0, colors, (height, width))],
+        FILTERS[rng.integers(len(FILTERS))],
+        WRAPS[rng.integers(len(WRAPS))],
+    )
+    uvs = rng.uniform(-1, 1, (len(o.mesh.positions), 2)) * rng.choice([0.3, 1, 3, 127])
+    if rng.random() < 0.3:
+        uvs = np.rint(uvs)
+    return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
 def _scene(rng: Rng, kind: Kind) -> Scene:

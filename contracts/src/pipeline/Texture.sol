@@ -2,7 +2,6 @@
 pragma solidity 0.8.37;
 
 import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
-import {Mesh} from "../scene/Mesh.sol";
 import {SCENE_OBJECTS} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Triangles} from "./Triangles.sol";
@@ -198,15 +197,11 @@ library Texture {
     /// e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
     function cutCoordinates(uint256 screen) private pure returns (uint256 uv) {
         unchecked {
-            Mesh memory mesh;
-            assembly ("memory-safe") {
-                mesh := MESH_VERTICES
-            }
             uint256 indices = Triangles.readIndices(load(FACE));
             for (uint256 i; i != 3; ++i) {
                 uint256 corner = TEXTURE_CORNERS + CORNER_SIZE * i;
                 uint256 index = (indices >> (FACE_FIRST_AT - FACE_SECOND_AT * i)) & FACE_INDEX_MASK;
-                VertexShader.clipCoordinates(mesh, index, corner);
+                VertexShader.clipCoordinates(index, corner);
                 if (load(FRAME_IS_ORTHOGRAPHIC) != 0) store(corner + CORNER_W, ONE_32);
                 store(corner + CORNER_COLOR, readCoordinates(index));
             }
