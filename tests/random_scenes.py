@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from conformance.coverage import project
 from conformance.world import before_camera
 from shackled.scene import (
+    FILTERS,
+    WRAPS,
     Background,
     Camera,
     Fog,
@@ -24,6 +26,7 @@ from shackled.scene import (
     Rim,
     Scene,
     Shading,
+    Texture,
     Tone,
     rotate,
     vertex_normals,
@@ -53,6 +56,8 @@ TRIALS = 60
 ANTIALIASED = 0.3
 #: How often a scene has effects, and how often it then has each of them.
 EFFECTS, EACH_EFFECT = 0.25, 0.5
+#: How often a scene has textures.
+TEXTURED = 0.2
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -66,7 +71,8 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
-    return Case(evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene)), tile)
+    scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
+    return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
 
 
 def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
@@ -90,6 +96,30 @@ def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
         ),
     }
     return {name: effect for name, effect in effects.items() if rng.random() < EACH_EFFECT}
+
+
+def _textured(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with textures on some of its objects."""
+    if rng.random() >= TEXTURED:
+        return scene
+    objects = [_with_texture(rng, o) if rng.random() < 0.8 else o for o in scene.objects]
+    return evolve(scene, objects=objects)
+
+
+def _with_texture(rng: Rng, o: Object) -> Object:
+    """The object with a texture of any format, on coordinates of any size."""
+    height, width = rng.integers(1, 20, 2).tolist()
+    colors = int(rng.choice([1, 2, 3, 5, 16, 17, 400]))
+    palette = rng.integers(0, 256, (colors, 3), dtype=np.uint8)
+    texture = Texture(
+        palette[rng.integers(0, colors, (height, width))],
+        FILTERS[rng.integers(len(FILTERS))],
+        WRAPS[rng.integers(len(WRAPS))],
+    )
+    uvs = rng.uniform(-1, 1, (len(o.mesh.positions), 2)) * rng.choice([0.3, 1, 3, 127])
+    if rng.random() < 0.3:
+        uvs = np.rint(uvs)
+    return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
 def _scene(rng: Rng, kind: Kind) -> Scene:

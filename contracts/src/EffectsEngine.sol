@@ -8,6 +8,7 @@ import {Pipeline} from "./pipeline/Pipeline.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import {SampleWires} from "./pipeline/SampleWires.sol";
 import {Rasterizer} from "./pipeline/Rasterizer.sol";
+import {Texture} from "./pipeline/Texture.sol";
 import {Shading} from "./pipeline/Shading.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
 import {WEIGHTED_BIAS} from "./pipeline/FragmentLight.sol";
@@ -15,8 +16,8 @@ import {Rectangle} from "./scene/Scene.sol";
 import "./pipeline/Registers.sol";
 
 /// @title EffectsEngine: from vertices to pixels, for scenes with effects.
-/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog or a tone, with
-/// four samples for each pixel, and lights every fragment for itself.
+/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone or
+/// a texture, with four samples for each pixel, and lights every fragment for itself.
 contract EffectsEngine is SampleBuffer, SampleWires {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
@@ -25,11 +26,17 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         returns (uint256)
     {
         Effects.setFrame();
+        assembly ("memory-safe") {
+            mstore(LISTS, lists)
+        }
         Effects.setObject();
         return super.openPicture(tile, image, bandRows, lists);
     }
 
     function readObject(uint256 position) internal pure override returns (uint256 next) {
+        unchecked {
+            store(OBJECT_INDEX, position == load(OBJECTS) ? 0 : load(OBJECT_INDEX) + 1);
+        }
         next = super.readObject(position);
         Effects.setObject();
     }
@@ -58,6 +65,7 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             store(COLOR_0, WEIGHTED_BIAS);
             store(COLOR_1, 0);
             store(COLOR_2, 0);
+            if (load(TEXTURE) != 0 && mode & IS_DEPTH_PASS == 0) Texture.setTriangle(a, b, c, recordShift(mode));
         }
     }
 

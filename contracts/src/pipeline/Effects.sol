@@ -4,9 +4,10 @@ pragma solidity 0.8.37;
 import {Gamma} from "../math/Gamma.sol";
 import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {TEXTURE_OF, Texture} from "./Texture.sol";
 import "./Registers.sol";
 
-// The records of effects: see Extensions. All are of the scene, with index 0; colours are three bytes, red, green, blue:
+// The records of effects: see Extensions. These are of the scene, with index 0; colours are three bytes, red, green, blue:
 //
 //   HEMISPHERE   the colours of the light from above, y up, and of that from below
 //   RIM          the colour of the light at silhouettes, and the power by which it falls off, 1 byte, 1..16
@@ -14,7 +15,7 @@ import "./Registers.sol";
 //                Q32, 0 to 2^58, the second above the first
 //   TONE         what light is multiplied by in the end, 4 bytes, Q16, above 0, up to 64; and 1 byte of flags: see TONE_FILMIC
 //
-// What they do is told in SurfaceLight.
+// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture.
 
 uint256 constant HEMISPHERE = 4;
 uint256 constant RIM = 5;
@@ -44,6 +45,10 @@ library Effects {
             for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind == TEXTURE_OF) {
+                    Texture.check(record, index);
+                    continue;
+                }
                 if (kind > TONE) revert SceneErrors.UnknownExtension(kind, index);
                 uint256 expected = sizeOf(kind);
                 uint256 size = Extensions.sizeOf(record);
@@ -122,6 +127,12 @@ library Effects {
     /// @notice What the light of the frame is to the object whose uniforms were read.
     function setObject() internal pure {
         unchecked {
+            uint256 index = load(OBJECT_INDEX);
+            if (load(LISTS) != 0) {
+                // an array of pointers to the lists of objects, which begin with the place of the records
+                store(RECORDS, load(load(load(LISTS) + 32 + 32 * index)));
+                Texture.setObject(load(OBJECT_FIRST) + index);
+            }
             uint256 k = load(AMBIENT_COEFFICIENT);
             store(HEMISPHERE_SKY, scaled(load(SKY_COLOR), k));
             store(HEMISPHERE_GROUND, scaled(load(GROUND_COLOR), k));

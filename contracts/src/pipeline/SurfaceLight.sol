@@ -5,6 +5,7 @@ import {Gamma} from "../math/Gamma.sol";
 import {sqrt} from "../math/Roots.sol";
 import {TONE_FILMIC, TONE_GAMMA} from "./Effects.sol";
 import {FragmentLight} from "./FragmentLight.sol";
+import {Texture} from "./Texture.sol";
 import "./Registers.sol";
 
 // The fragment shader of scenes with effects. With albedo, light and highlights of FragmentLight:
@@ -95,7 +96,18 @@ library SurfaceLight {
                 albedo := inside
             }
         }
+        if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
         if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+    }
+
+    /// @dev Lanes of Q10 times those of a texture, Q16.
+    function textured(uint256 color, uint256 texture) private pure returns (uint256 product) {
+        assembly ("memory-safe") {
+            product := shr(16, mul(and(color, LANE_32), and(texture, LANE_24)))
+            let channel := shr(16, mul(and(shr(MIDDLE_AT, color), LANE_32), and(shr(MIDDLE_AT, texture), LANE_24)))
+            product := or(product, shl(MIDDLE_AT, channel))
+            product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, color), shr(UPPER_AT, texture)))))
+        }
     }
 
     /// @dev Lanes of Q10 as linear levels.

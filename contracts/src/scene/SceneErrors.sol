@@ -62,6 +62,8 @@ interface SceneErrors {
     error ExposureOutOfRange(uint256 exposure);
     /// @notice The flags of a tone are 1 and 2.
     error UnknownToneFlags(uint256 flags);
+    /// @notice The flags of a texture are 0 to 3, and its texels have 1, 2, 4, 8 or 24 bits.
+    error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();
