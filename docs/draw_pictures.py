@@ -19,12 +19,13 @@ from attrs import evolve
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from shackled import Animation, Background, Image, Light, Material, Scene, load, render, turntable
+from shackled import Animation, Background, Camera, Image, Light, Material, Object, Scene, load, render, turntable
 from shackled.datasets import Piece, teapot
-from shackled.datasets.common import builtin
+from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.scene import LookOptions, resize, stage
+from shackled.datasets.showcase import draw_showcase
+from shackled.scene import LookOptions, painted, resize, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 from shackled.studio import make_apng
@@ -101,6 +102,42 @@ def strip() -> list[Image]:
     return images
 
 
+def effects() -> dict[str, list[Image]]:
+    """The options of docs/light.md: rows of pictures, 192 x 192 pixels each, of which the first is without."""
+    chalk = Material("smooth", ambient=0.6, diffuse=0.5, specular=0.1, shininess=20)
+    pale = pot(6, 192, chalk, color="#f0ece4", lights=KEY, ambient_light="#a0a0a0", background="#c4d8ec")
+    dark = pot(6, 192, evolve(GLAZED, ambient=0.12), color=CLAY, lights=KEY, background=NIGHT)
+    spheres = [Object(shapes.icosphere(3), (-1.5 + 1.25 * k, 0, 2 - 2.5 * k), material=GLAZED) for k in range(6)]
+    row = Scene(
+        [evolve(each, mesh=painted(each.mesh, CLAY)) for each in spheres],
+        Camera.perspective((0, 2.2, 9.0), (0.1, -0.1, 0), fov=42),
+        KEY,
+        "#dfe6ea",
+        width=192,
+        height=192,
+    )
+    lamps = [Light.directional((-1, 0.3, 0.5), "#ff5a3c"), Light.directional((1, 0.3, 0.5), "#3c7bff")]
+    lit = pot(
+        6,
+        192,
+        evolve(GLAZED, ambient=0.05, diffuse=0.7),
+        color="#d8d0c8",
+        lights=[evolve(KEY, color="#ffd9a8"), *lamps],
+        background=NIGHT,
+    )
+    looks: dict[str, tuple[Scene, list[LookOptions]]] = {
+        "hemisphere": (pale, [{}, {"ambient_light": "#181818", "hemisphere": ("#a8ccff", "#c07838")}]),
+        "rim": (dark, [{}, {"rim": ("#7ab8ff", 2)}, {"rim": ("#7ab8ff", 5)}]),
+        "fog": (row, [{}, {"fog": "#dfe6ea"}, {"fog": ("#dfe6ea", 8, 14)}]),
+        "tone": (lit, [{}, {"filmic": True}, {"gamma": True}, {"gamma": True, "filmic": True}]),
+    }
+    rendered: dict[str, list[Image]] = {}
+    for name, (scene, rows) in looks.items():
+        smoothed: list[LookOptions] = [{"antialias": True, **look} for look in rows]
+        rendered[name] = [render(scene, **look) for look in smoothed]
+    return rendered
+
+
 def spin() -> Animation:
     """A turntable, small enough for a page."""
     pose = pot(6, 160, GLAZED, color=CLAY, lights=KEY, background=CREAM, cull=True)
@@ -146,6 +183,13 @@ def main() -> None:
     film = make_apng(load("icons/rocket", 64), frames=12, duration=100, scale=4)
     film.save(IMAGES / "motion.png")
     figures["motion"] = {"frames": 12, "gas": film.gas}
+    for name, row in effects().items():
+        PillowImage.fromarray(np.hstack([each.pixels for each in row])).save(IMAGES / f"{name}.png", optimize=True)
+        figures[name] = {"gas": [each.gas for each in row]}
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = list(draw_showcase(Path(folder)))
+        (IMAGES / "showcase.png").write_bytes(Path(folder, "sheet.png").read_bytes())
+    figures["showcase"] = {each.name: each.gas for each in drawn}
     images = strip()
     PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
     figures["strip"] = {"gas": [image.gas for image in images]}

@@ -25,6 +25,7 @@ from rich.progress import (
 from ..checks import choice
 from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
+from ..values import plural
 
 CONSOLE = Console(stderr=True)
 
@@ -160,6 +161,10 @@ def _download_bar(name: str) -> Iterator[Any]:
 
 @datasets.command()
 def showcase(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(help="Scenes, such as glass; all by default.", metavar="[NAME]...", show_default=False),
+    ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="Output folder.", metavar="DIR")] = Path("showcase"),
 ) -> None:
     """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
@@ -167,11 +172,15 @@ def showcase(
     from ..datasets.showcase import pieces as scenes
     from ..whole_file import make_output_folder
 
+    known = {piece.name.removeprefix("showcase/"): piece for piece in scenes()}
+    chosen = [
+        known[choice(name.removeprefix("showcase/"), "a scene of the showcase", known)] for name in names or known
+    ]
     make_output_folder(output)
-    width = max(len(piece.name) for piece in scenes())
-    for drawing in draw_showcase(output):
+    width = max(len(piece.name) for piece in chosen)
+    for drawing in draw_showcase(output, chosen):
         print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
-    print(f"{output / 'index.html'}: {len(scenes()):,} scenes")
+    print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
 
 
 @datasets.command()

@@ -12,6 +12,7 @@ from . import _scenes as scenes
 _SCENES: tuple[tuple[str, str, Callable[[], Scene]], ...] = (
     ("still-life", "Still life, antialiased", scenes.still_life),
     ("glass", "Glass: opacity and a rim", scenes.glass),
+    ("vase", "A texture", scenes.vase),
     ("forest", "Fog and light from the sky", scenes.forest),
     ("skull", "An icon with a rim", scenes.skull),
     ("knot", "Linear light and a filmic curve", scenes.knot),

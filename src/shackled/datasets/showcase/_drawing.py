@@ -18,18 +18,18 @@ TURNED, FRAMES, DURATION = "showcase/rocket", 16, 90
 COLUMNS = 4
 
 
-def draw_showcase(folder: Path) -> Iterator[Thumbnail]:
-    """Draw all scenes into a folder, which must exist, and yield each when it is done; then index.html and sheet.png.
+def draw_showcase(folder: Path, chosen: Sequence[Piece] = ()) -> Iterator[Thumbnail]:
+    """Draw scenes into a folder, which must exist, and yield each when it is done; then index.html and sheet.png.
 
-    OutputError where the disk is full or fails.
+    chosen: the scenes; all if it is empty. OutputError where the disk is full or fails.
     """
-    listed, drawings = pieces(), {}
+    listed, drawings = chosen or pieces(), {}
     for piece in listed:
         drawing = drawings[piece.name] = _draw(piece)
         write_output(folder / _file(piece), drawing.png)
         yield drawing
     write_output(folder / "index.html", _page(listed, list(drawings.values())).encode())
-    write_output(folder / "sheet.png", sheet(listed, drawings, SIZE, COLUMNS))
+    write_output(folder / "sheet.png", sheet(listed, drawings, SIZE, min(COLUMNS, len(listed))))
 
 
 def _draw(piece: Piece) -> Thumbnail:

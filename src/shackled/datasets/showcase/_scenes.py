@@ -20,6 +20,7 @@ from ...scene import (
     Object,
     Rim,
     Scene,
+    Texture,
     Tone,
     from_euler,
     look_at,
@@ -68,10 +69,14 @@ def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
     """Return a surface over a grid, seen from above."""
     z, x = np.meshgrid(zs, xs, indexing="ij")
     points = np.stack([x, np.broadcast_to(height, x.shape), z], axis=-1).reshape(-1, 3)
-    number = np.arange(len(points)).reshape(x.shape)
+    return Mesh(points, _cells(*x.shape))
+
+
+def _cells(rows: int, columns: int) -> NDArray[np.int64]:
+    """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
+    number = np.arange(rows * columns).reshape(rows, columns)
     a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    faces = np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-    return Mesh(points, faces)
+    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
 
 
 # ---- still life ----
@@ -159,6 +164,66 @@ def glass() -> Scene:
         fog=Fog("#e9dccb", 9, 24),
         rim=Rim("#5c5c64", 2),
     )
+
+
+# ---- texture ----
+
+
+def vase() -> Scene:
+    """Return an amphora, painted by a texture."""
+    corners = np.array(
+        [
+            (0.0, 2.56), (0.3, 2.56), (0.36, 2.62), (0.43, 2.6), (0.42, 2.5), (0.31, 2.4), (0.26, 2.2), (0.28, 2.0),
+            (0.5, 1.84), (0.78, 1.62), (0.93, 1.32), (0.92, 1.0), (0.76, 0.66), (0.5, 0.36), (0.31, 0.2), (0.3, 0.14),
+            (0.46, 0.08), (0.47, 0.0), (0.0, 0.0),
+        ]
+    )  # fmt: skip
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
+    steps = np.linspace(0, along[-1], 65)
+    radius, height = (np.interp(steps, along, corners[:, axis]) for axis in (0, 1))
+    outward = np.stack([-np.gradient(height), np.gradient(radius)])
+    u = np.linspace(0, 1, 57)[:, None]
+    ring = np.stack([np.cos(2 * np.pi * u), 0 * u, -np.sin(2 * np.pi * u)], axis=-1)
+    up = np.array([0.0, 1.0, 0.0])
+    points = radius[:, None] * ring + height[:, None] * up
+    normals = outward[0][:, None] * ring + outward[1][:, None] * up
+    uvs = np.stack(np.broadcast_arrays(2 * u, 1 - height / 2.62), axis=-1)
+    faces = _cells(len(u), len(height))[:, ::-1]
+    mesh = Mesh(points.reshape(-1, 3), faces, "#ffffff", normals.reshape(-1, 3), uvs.reshape(-1, 2))
+    clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
+    return _scene(
+        [_floor("#d8c8b0"), _put(mesh, clay, turn=(0, 20, 0))],
+        Camera.perspective((0, 2.0, 6.6), (0, 1.3, 0), fov=25),
+        [Light.directional((-0.6, 0.6, 0.7), "#fff2dc")],
+        Background("#efe6d6"),
+        ambient_light="#e8e4f0",
+        fog=Fog("#efe6d6", 7.2, 18),
+    )
+
+
+def _bands() -> Array:
+    """Return half of the painting around the amphora, (256, 256, 3): glaze, meanders, rays and waves."""
+    clay, glaze = np.array([206, 108, 58]), np.array([38, 30, 30])
+    row, column = np.mgrid[:256, :256] / 256
+    black = (row < 0.29) | (row > 0.93)
+    # tongues on the shoulder
+    black |= (row > 0.3) & (row < 0.36) & (np.abs(column * 32 % 1 - 0.5) < 0.34 - 2 * np.maximum(row - 0.33, 0))
+    # lines between the bands
+    for line in (0.375, 0.5, 0.62, 0.75):
+        black |= np.abs(row - line) < 0.009
+    # a meander: 8 by 7 cells, of which there are 8 around
+    key = ["########", "#......#", "#.####.#", "#.#..#.#", "#.##.#.#", "#....#.#", "######.#"]
+    cells = np.array([[cell == "#" for cell in line] for line in key])
+    inside = (row > 0.395) & (row < 0.48)
+    down = np.clip(((row - 0.395) / 0.085 * 7).astype(int), 0, 6)
+    black |= inside & cells[down, (column * 64).astype(int) % 8]
+    # waves
+    phase = 2 * np.pi * 8 * column
+    black |= (row > 0.52) & (row < 0.605) & (row > 0.5625 + 0.03 * np.sin(phase + 1.1 * np.sin(phase)))
+    black |= (row > 0.64) & (row < 0.73)
+    # rays at the foot
+    black |= (row > 0.76) & (row < 0.93) & (np.abs(column * 12 % 1 - 0.5) < 0.5 * (row - 0.76) / 0.17)
+    return np.where(black[..., None], glaze, clay)
 
 
 # ---- fog ----
@@ -250,7 +315,7 @@ def genesis() -> Scene:
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
     look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.1}
-    return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3), width=160, height=120)
+    return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
 
 
 # ---- tone ----
