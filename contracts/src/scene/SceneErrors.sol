@@ -54,6 +54,10 @@ interface SceneErrors {
     error SpotAngles(uint256 light, int256 cosInner, int256 cosOuter);
     /// @notice Opacities are below 1, 2^24: what is opaque has none.
     error OpacityOutOfRange(uint256 object, uint256 opacity);
+    /// @notice One light casts shadows at most; this is a second one.
+    error SeveralShadows(uint256 light);
+    /// @notice The rule is 1, 2 or 3.
+    error ShadowRuleOutOfRange(uint256 light, uint256 rule);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();

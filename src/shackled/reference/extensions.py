@@ -7,9 +7,12 @@ from .structs import POINT, Scene
 
 #: Kinds of records.
 SPOT, OPACITY, ANTIALIAS = 1, 2, 3
+SHADOW, NO_SHADOW = 10, 11
 #: Bytes of kind, index and size; and of the content, by kind.
 HEADER = 5
-SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
+SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0, SHADOW: 1, NO_SHADOW: 0}
+#: Rules of which faces of culled objects cast shadows, from 1 on: see `shadows`.
+SHADOW_RULES = 3
 #: One, as Q24.
 OPAQUE = 1 << 24
 #: The bounds of coordinates, 2^26 units, and one, Q32.
@@ -22,8 +25,9 @@ Records = dict[tuple[int, int], bytes]
 def check_extensions(scene: Scene) -> None:
     """Check every record."""
     data = scene.extensions
-    counts = {SPOT: len(scene.lights), OPACITY: len(scene.objects), ANTIALIAS: 1}
-    place, least = 0, 0
+    lights, objects = len(scene.lights), len(scene.objects)
+    counts = {SPOT: lights, OPACITY: objects, ANTIALIAS: 1, SHADOW: lights, NO_SHADOW: objects}
+    place, least, shadows = 0, 0, 0
     while place != len(data):
         header, content = data[place : place + HEADER], data[place + HEADER :]
         size = int.from_bytes(header[3:], "big")
@@ -48,6 +52,12 @@ def check_extensions(scene: Scene) -> None:
             opacity = int.from_bytes(content[:size], "big")
             if opacity >= OPAQUE:
                 raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
+        if kind == SHADOW:
+            if shadows:
+                raise Reverted("SeveralShadows", light=index)
+            if not 1 <= content[0] <= SHADOW_RULES:
+                raise Reverted("ShadowRuleOutOfRange", light=index, rule=content[0])
+            shadows += 1
         place += HEADER + size
 
 

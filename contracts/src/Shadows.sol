@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Vector} from "./math/Vector.sol";
+import {Matrix} from "./math/Quaternion.sol";
+import {Extensions, NO_SHADOW, OPACITY_OF, RECORD_HEADER, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./scene/Extensions.sol";
+import {Mesh, openMesh} from "./scene/Mesh.sol";
+import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
+import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
+import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
+import {COVERED, LAST_OF_LIST, MISSED, Receiver, Receivers} from "./shadows/Receivers.sol";
+import {Indices} from "./pipeline/Indices.sol";
+import {Triangles} from "./pipeline/Triangles.sol";
+import {Transform} from "./uniforms/Transform.sol";
+import {View, lookAt} from "./uniforms/View.sol";
+import "./pipeline/Registers.sol";
+
+/// @title Shadows: which parts of which faces one light does not reach.
+/// @notice The work of the Renderer for scenes with a SHADOW. Stateless.
+///
+/// Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what lies behind it.
+/// For each face that the light may reach, those are found that may shade it: see Faces. Most faces are wholly lit or wholly dark; of the
+/// others each half-space becomes a function of the place on the canvas: see Receivers.
+contract Shadows is SceneErrors {
+    /// @dev What is in memory, by addresses.
+    /// @param frame The space of the light.
+    /// @param vertices, faces Of each object, where its vertices and faces begin.
+    /// @param begin, end Of the faces.
+    /// @param casters The addresses of the faces that cast shadows.
+    /// @param sets See Faces; of `words` words each.
+    /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
+    struct State {
+        Frame frame;
+        uint256[] vertices;
+        uint256[] faces;
+        uint256 end;
+        uint256 casters;
+        uint256 casterCount;
+        uint256 sets;
+        uint256 words;
+        int256[3] eye;
+    }
+
+    uint256 private constant LIT = 0;
+    uint256 private constant DARK = 1;
+    uint256 private constant ENTRY_BITS = 32;
+    uint256 private constant ENTRIES = 8;
+
+    /// @notice What the light of the SHADOW, which the scene must have, does not reach. The scene must be checked.
+    /// @return For each face of all objects four bytes: 0 if it is lit, 1 if it is dark, else where from the beginning of the answer on the
+    /// functions stand of what shades parts of it, as words: see Receivers. The entries are filled up to whole words. Without the ABI's
+    /// offset and length.
+    function cast(Scene calldata scene) external pure returns (bytes memory) {
+        unchecked {
+            reserveRegisters(REGISTERS, REGISTERS_END);
+            View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
+            (uint256 record,) = Extensions.findKind(scene, SHADOW);
+            uint256 light = Extensions.keyOf(record) & 0xffff;
+            State memory state;
+            int256[6] memory bounds = readVertices(scene, state);
+            if (bounds[0] <= bounds[3]) {
+                state.frame = LightSpace.frameOf(scene.lights[light], bounds);
+                LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
+                setEye(scene, view_, state);
+                readFaces(scene, state, Extensions.shadowRule(record));
+                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
+            } else {
+                readFaces(scene, state, 0);
+            }
+            answer(state);
+        }
+    }
+
+    /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
+    function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
+        return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.hasOf(scene, OPACITY_OF, index)
+            && !Extensions.hasOf(scene, NO_SHADOW, index);
+    }
+
+    /// @dev Writes all vertices in the world.
+    /// @return bounds Of what casts shadows: the lowest coordinates, then the highest.
+    function readVertices(Scene calldata scene, State memory state) private pure returns (int256[6] memory bounds) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) (bounds[i], bounds[i + 3]) = (type(int256).max, type(int256).min);
+            uint256 count = scene.objects.length;
+            state.vertices = new uint256[](count + 1);
+            state.faces = new uint256[](count + 1);
+            uint256 faces;
+            uint256 end;
+            for (uint256 i; i != count; ++i) {
+                Mesh memory mesh = openMesh(scene.objects[i].mesh);
+                Indices.check(mesh, i);
+                state.vertices[i] = end;
+                state.faces[i] = faces;
+                end += PLACE_SIZE * mesh.vertexCount;
+                faces += FACE_RECORD_SIZE * mesh.faceCount;
+            }
+            (state.vertices[count], state.faces[count]) = (end, faces);
+            // an object is read with memory of its own behind all vertices
+            uint256 begin = freeMemory();
+            setFreeMemory(begin + end);
+            for (uint256 i; i <= count; ++i) {
+                state.vertices[i] += begin;
+                state.faces[i] += begin + end;
+            }
+            for (uint256 i; i != count; ++i) {
+                Object calldata object = scene.objects[i];
+                LightSpace.writeWorld(object, openMesh(object.mesh), object.rotation.toMatrix(), state.vertices[i]);
+                if (casts(scene, i)) LightSpace.widen(bounds, state.vertices[i], state.vertices[i + 1]);
+                setFreeMemory(begin + end);
+            }
+            setFreeMemory(state.faces[count]);
+        }
+    }
+
+    function setEye(Scene calldata scene, View memory view_, State memory state) private pure {
+        unchecked {
+            Vector memory v = view_.orthographic ? view_.forward : scene.camera.eye;
+            (int256 x, int256 y, int256 z) = (v.x.raw(), v.y.raw(), v.z.raw());
+            if (view_.orthographic) {
+                int256 radius = state.frame.radius;
+                (x, y, z) = LightSpace.directionOf(state.frame, (x * radius) >> 32, (y * radius) >> 32, (z * radius) >> 32);
+            } else {
+                (x, y, z) = LightSpace.placeOf(state.frame, x, y, z);
+            }
+            (state.eye[0], state.eye[1], state.eye[2]) = (x, y, z);
+        }
+    }
+
+    /// @dev Writes all faces, and the sets of those that cast shadows.
+    /// @param rule Which faces of culled objects cast shadows; 0 if nothing does, and faces are only counted.
+    function readFaces(Scene calldata scene, State memory state, uint256 rule) private pure {
+        unchecked {
+            state.casters = freeMemory();
+            if (rule == 0) {
+                assembly ("memory-safe") {
+                    let begin := mload(add(mload(add(state, 0x40)), 0x20))
+                    calldatacopy(begin, calldatasize(), sub(mload(0x40), begin))
+                }
+                return;
+            }
+            uint256 end = state.casters;
+            for (uint256 i; i != scene.objects.length; ++i) {
+                setFreeMemory(end + 0x100);
+                Object calldata object = scene.objects[i];
+                Mesh memory mesh = openMesh(object.mesh);
+                end = readObject(
+                    state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0
+                );
+            }
+            uint256 count = (end - state.casters) >> 5;
+            uint256 words = (count + 255) >> 8;
+            (state.casterCount, state.words, state.sets) = (count, words, end);
+            uint256 size = 5 * BUCKETS * words * 32;
+            assembly ("memory-safe") {
+                calldatacopy(end, calldatasize(), size)
+            }
+            setFreeMemory(end + size);
+            for (uint256 i; i != count; ++i) Faces.insert(state.sets, words, i, load(state.casters + 32 * i));
+            Faces.complete(state.sets, words);
+        }
+    }
+
+    /// @param end Where to append the addresses of faces that cast shadows.
+    /// @param rule Which of them do; 0 for none.
+    function readObject(State memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
+        private
+        pure
+        returns (uint256)
+    {
+        unchecked {
+            uint256 face = state.faces[index];
+            uint256 vertices = state.vertices[index];
+            bool isPoint = state.frame.isPoint;
+            uint256 last = state.faces[index + 1];
+            for (uint256 source = mesh.faces; face != last; source += FACE_SIZE) {
+                uint256 numbers = Triangles.readIndices(source);
+                Faces.write(
+                    face,
+                    vertices + PLACE_SIZE * (numbers >> FACE_FIRST_AT),
+                    vertices + PLACE_SIZE * ((numbers >> FACE_SECOND_AT) & FACE_INDEX_MASK),
+                    vertices + PLACE_SIZE * (numbers & FACE_INDEX_MASK),
+                    isPoint
+                );
+                if (rule != 0) {
+                    int256 side = loadSigned(face + FACE_SIDE);
+                    if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_TURNED))) {
+                        store(end, face);
+                        end += 32;
+                    }
+                }
+                face += FACE_RECORD_SIZE;
+            }
+            return end;
+        }
+    }
+
+    /// @dev Sets the entries of the faces of an object.
+    function shadeObject(Scene calldata scene, View memory view_, State memory state, uint256 index) private pure {
+        unchecked {
+            Object calldata object = scene.objects[index];
+            Mesh memory mesh = openMesh(object.mesh);
+            bool isReceiver = object.material.shading != UNLIT && object.flags & WIREFRAME == 0;
+            if (isReceiver) Transform.setMatrix(view_, object, object.rotation.toMatrix());
+            Receiver memory receiver;
+            receiver.planes = freeMemory();
+            setFreeMemory(receiver.planes + 0x200);
+            uint256 source = mesh.faces;
+            bool isFlat = object.material.shading == FLAT;
+            bool isCulled = object.flags & CULL_BACKFACES != 0;
+            uint256 last = state.faces[index + 1];
+            for (uint256 face = state.faces[index]; face != last; face += FACE_RECORD_SIZE) {
+                uint256 entry = LIT;
+                if (isReceiver && receives(face, state.eye, view_.orthographic, isFlat, isCulled)) {
+                    entry = shadeFace(state, receiver, mesh, face, source, scene.canvas.height);
+                }
+                store(face + FACE_ENTRY, entry);
+                source += FACE_SIZE;
+            }
+        }
+    }
+
+    /// @dev Whether a face may be seen on the side that the light reaches.
+    function receives(uint256 face, int256[3] memory eye, bool isOrthographic, bool isFlat, bool isCulled) private pure returns (bool) {
+        unchecked {
+            int256 side = loadSigned(face + FACE_SIDE);
+            if (side == 0) return false;
+            int256 seen;
+            int256 slack;
+            assembly ("memory-safe") {
+                let i := mload(add(face, 0x20))
+                let j := mload(add(face, 0x40))
+                let k := mload(add(face, 0x60))
+                seen := add(add(mul(i, mload(eye)), mul(j, mload(add(eye, 0x20)))), mul(k, mload(add(eye, 0x40))))
+                switch isOrthographic
+                case 0 {
+                    let a := and(mload(face), ADDRESS_MASK)
+                    seen := sub(seen, add(add(mul(i, mload(a)), mul(j, mload(add(a, 0x20)))), mul(k, mload(add(a, 0x40)))))
+                }
+                default { seen := sub(0, seen) }
+                let sign := sar(255, i)
+                slack := sub(xor(i, sign), sign)
+                sign := sar(255, j)
+                slack := add(slack, sub(xor(j, sign), sign))
+                sign := sar(255, k)
+                slack := add(slack, sub(xor(k, sign), sign))
+                slack := shl(2, slack)
+            }
+            if (isCulled && seen < -slack) return false;
+            // the light of smooth shading may be positive on faces that are turned away
+            return !isFlat || (seen >= -slack && seen <= slack) || (seen > 0) == (side > 0);
+        }
+    }
+
+    /// @return The entry of a face: LIT, DARK, or the address of a chain of lists: that of the next or 0, the end of this one, functions.
+    function shadeFace(
+        State memory state,
+        Receiver memory receiver,
+        Mesh memory mesh,
+        uint256 face,
+        uint256 source,
+        uint256 height
+    ) private pure returns (uint256) {
+        unchecked {
+            uint256 corners = load(face);
+            (receiver.corners, receiver.isPlaced) = (corners, false);
+            bool hasPlanes;
+            uint256 first;
+            uint256 list;
+            for (uint256 offset; offset != 32 * state.words; offset += 32) {
+                uint256 bits;
+                if (corners & BESIDE == 0) {
+                    bits = Faces.candidates(state.sets, state.words, corners, offset);
+                } else {
+                    bits = state.casterCount - 8 * offset;
+                    bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
+                }
+                while (bits != 0) {
+                    uint256 place = Faces.lowestBit(bits);
+                    bits &= bits - 1;
+                    uint256 caster = load(state.casters + 32 * (8 * offset + place));
+                    if (caster == face) continue;
+                    if (!hasPlanes) {
+                        hasPlanes = true;
+                        Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
+                    }
+                    uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
+                    if (shade == MISSED) continue;
+                    if (shade == COVERED) return DARK;
+                    if (!receiver.isPlaced) Receivers.place(receiver, mesh, Triangles.readIndices(source));
+                    uint256 next = freeMemory();
+                    uint256 end;
+                    (shade, end) = Receivers.write(receiver, height, next + 0x40);
+                    if (shade == MISSED) continue;
+                    if (shade == COVERED) return DARK;
+                    setFreeMemory(end);
+                    store(next, 0);
+                    store(next + 0x20, end);
+                    if (list == 0) first = next;
+                    else store(list, next);
+                    list = next;
+                }
+            }
+            return first;
+        }
+    }
+
+    /// @dev Ends the call with the entries and lists of all faces.
+    function answer(State memory state) private pure {
+        unchecked {
+            uint256 face = state.faces[0];
+            uint256 last = state.faces[state.faces.length - 1];
+            uint256 begin = freeMemory();
+            uint256 count = (last - face) / FACE_RECORD_SIZE;
+            uint256 end = begin + (((ENTRY_BITS / 8) * count + 31) & ~uint256(31));
+            uint256 target = begin;
+            while (face != last) {
+                uint256 word = 0;
+                for (uint256 i; i != ENTRIES; ++i) {
+                    word <<= ENTRY_BITS;
+                    if (face == last) continue;
+                    uint256 entry = load(face + FACE_ENTRY);
+                    face += FACE_RECORD_SIZE;
+                    if (entry > DARK) {
+                        word |= end - begin;
+                        end = copyLists(entry, end);
+                    } else {
+                        word |= entry;
+                    }
+                }
+                store(target, word);
+                target += 32;
+            }
+            assembly ("memory-safe") {
+                return(begin, sub(end, begin))
+            }
+        }
+    }
+
+    /// @dev Copies a chain of lists.
+    /// @return end The address after the last word.
+    function copyLists(uint256 list, uint256 target) private pure returns (uint256 end) {
+        unchecked {
+            end = target;
+            for (; list != 0; list = load(list)) {
+                uint256 size = load(list + 0x20) - list - 0x40;
+                assembly ("memory-safe") {
+                    mcopy(end, add(list, 0x40), size)
+                }
+                end += size;
+            }
+            store(end - 32, load(end - 32) | LAST_OF_LIST);
+        }
+    }
+}
