@@ -94,9 +94,10 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.tokens
 	$(BIN)/python -m benchmarks.motion
 
-bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
+bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of docs/antialiasing.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
+	$(BIN)/python -m benchmarks.antialiasing
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md

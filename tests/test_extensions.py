@@ -15,7 +15,7 @@ from pictures import Pixels, chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.reference import draw_call
+from shackled.reference import draw_call, is_antialiased
 from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
@@ -282,6 +282,18 @@ def test_values_at_their_bounds(data: bytes) -> None:
     picture: Pixels = draw_call(call).pixels
     output = chain().call("Renderer", call).output
     assert (decode_bmp(dynamic(output), 48, 48) == picture).all()
+
+
+def test_whether_a_call_asks_for_antialiasing() -> None:
+    spots, opacity, antialias = record(1, 1, DOWN), record(2, 2, HALF), record(3, 0, b"")
+    assert is_antialiased(with_records(mixed(), spots + opacity + antialias))
+    for data in (b"", spots + opacity, record(2, 2, antialias[:4])):
+        assert not is_antialiased(with_records(mixed(), data))
+    # other functions of the Renderer, and data that are no call at all
+    tile = encode(artifact("Renderer").selectors["renderTile"], evolve(mixed(), antialias=True), Rectangle(0, 0, 8, 8))
+    assert is_antialiased(tile)
+    for data in (b"", tile[:4], tile[:100], artifact("Renderer").selectors["engineCall"]):
+        assert not is_antialiased(data)
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:

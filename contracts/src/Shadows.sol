@@ -3,7 +3,7 @@ pragma solidity 0.8.37;
 
 import {Vector} from "./math/Vector.sol";
 import {Matrix} from "./math/Quaternion.sol";
-import {Extensions, NO_SHADOW, OPACITY_OF, RECORD_HEADER, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./scene/Extensions.sol";
+import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
 import {Mesh, openMesh} from "./scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
@@ -12,6 +12,7 @@ import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpa
 import {COVERED, LAST_OF_LIST, MISSED, Receiver, Receivers} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
+import {NO_SHADOW, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
 import {Transform} from "./uniforms/Transform.sol";
 import {View, lookAt} from "./uniforms/View.sol";
 import "./pipeline/Registers.sol";
@@ -47,23 +48,28 @@ contract Shadows is SceneErrors {
     uint256 private constant ENTRY_BITS = 32;
     uint256 private constant ENTRIES = 8;
 
-    /// @notice What the light of the SHADOW, which the scene must have, does not reach. The scene must be checked.
+    /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
+    /// checked.
     /// @return For each face of all objects four bytes: 0 if it is lit, 1 if it is dark, else where from the beginning of the answer on the
-    /// functions stand of what shades parts of it, as words: see Receivers. The entries are filled up to whole words. Without the ABI's
-    /// offset and length.
+    /// functions stand of what shades parts of it, as words: see Receivers. The entries are filled up to whole words. Nothing if no light
+    /// casts shadows. Without the ABI's offset and length.
     function cast(Scene calldata scene) external pure returns (bytes memory) {
         unchecked {
+            (uint256 rule, uint256 light) = check(scene);
+            if (rule == 0) {
+                assembly ("memory-safe") {
+                    return(0, 0)
+                }
+            }
             reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
-            (uint256 record,) = Extensions.findKind(scene, SHADOW);
-            uint256 light = Extensions.keyOf(record) & 0xffff;
             State memory state;
             int256[6] memory bounds = readVertices(scene, state);
             if (bounds[0] <= bounds[3]) {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
                 LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
                 setEye(scene, view_, state);
-                readFaces(scene, state, Extensions.shadowRule(record));
+                readFaces(scene, state, rule);
                 for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
             } else {
                 readFaces(scene, state, 0);
@@ -72,10 +78,33 @@ contract Shadows is SceneErrors {
         }
     }
 
+    /// @dev Checks the records.
+    /// @return rule That of the light that casts shadows; 0 if there is none.
+    /// @return light Its number.
+    function check(Scene calldata scene) private pure returns (uint256 rule, uint256 light) {
+        unchecked {
+            (uint256 record, uint256 end) = Extensions.behind(scene, SHADOW - 1);
+            for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
+                uint256 key = Extensions.keyOf(record);
+                (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind > NO_SHADOW) break;
+                uint256 expected = kind == SHADOW ? 32 : 0;
+                uint256 size = Extensions.sizeOf(record);
+                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+                uint256 count = kind == SHADOW ? scene.lights.length : scene.objects.length;
+                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+                if (kind == NO_SHADOW) continue;
+                if (rule != 0) revert SceneErrors.SeveralShadows(index);
+                (rule, light) = (Extensions.word(record + RECORD_HEADER), index);
+                if (rule == 0 || rule > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, rule);
+            }
+        }
+    }
+
     /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
     function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
-        return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.hasOf(scene, OPACITY_OF, index)
-            && !Extensions.hasOf(scene, NO_SHADOW, index);
+        return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.has(scene, OPACITY_OF, index)
+            && !Extensions.has(scene, NO_SHADOW, index);
     }
 
     /// @dev Writes all vertices in the world.

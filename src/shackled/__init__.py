@@ -10,7 +10,7 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, euler
+from .scene import Background, Camera, Fog, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, euler
 from .web import export, view
 
 try:
@@ -24,6 +24,8 @@ __all__ = [
     "Camera",
     "ChainError",
     "Cluster",
+    "Fog",
+    "Hemisphere",
     "Image",
     "InputError",
     "Light",
@@ -34,8 +36,10 @@ __all__ = [
     "OutputError",
     "Processes",
     "RenderError",
+    "Rim",
     "Scene",
     "ShackledError",
+    "Tone",
     "__version__",
     "euler",
     "export",

@@ -9,34 +9,28 @@ import {SceneErrors} from "./SceneErrors.sol";
 //
 //   kind     1 byte    one of the following
 //   index    2 bytes   the light or the object that it belongs to, counted from 0; 0 for the scene
-//   size     2 bytes   of what follows, which is that of the kind
+//   size     2 bytes   of what follows, which is that of the kind: in bytes, for kinds from 8 on in words of 32 bytes
 //   SPOT               of a point light, which shines into a cone only:
 //                      3 numbers of 8 bytes: where it points, Q32, any length but zero
 //                      2 numbers of 8 bytes: the cosines of the angles from there at which the light begins to fade, and at which none
 //                      is left, Q32, -1..1
 //   OPACITY            of an object: 4 bytes, Q24, below 1
 //   ANTIALIAS          of the scene: nothing; edges are smoothed
-//   SHADOW             of a light, which casts shadows; of one at most: 1 byte, which faces of culled objects do: see SHADOWS_ALL
-//   NO_SHADOW          of an object, such as a ground: nothing; it casts no shadow
+//   4 and above        effects, of the scene or of an object: see Effects.sol. A scene that has any is drawn by the EffectsEngine, which
+//                      checks them
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
 uint256 constant ANTIALIAS = 3;
-uint256 constant SHADOW = 10;
-uint256 constant NO_SHADOW = 11;
+
+/// @dev The first kind of which sizes are told in words.
+uint256 constant LONG_KINDS = 8;
 
 uint256 constant RECORD_HEADER = 5;
 uint256 constant SPOT_SIZE = 40;
 uint256 constant OPACITY_SIZE = 4;
-uint256 constant SHADOW_SIZE = 1;
-
-/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
-/// closed; those turned to it.
-uint256 constant SHADOWS_ALL = 1;
-uint256 constant SHADOWS_AVERSE = 2;
-uint256 constant SHADOWS_TURNED = 3;
 
 /// @dev One, as Q24.
 uint256 constant OPAQUE = 1 << 24;
@@ -53,20 +47,23 @@ library Extensions {
             bytes calldata records = scene.extensions;
             (uint256 record, uint256 end) = bounds(scene);
             uint256 least;
-            uint256 shadow;
             while (record != end) {
                 uint256 place = records.length - (end - record);
                 if (end - record < RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
-                uint256 size = (word(record) >> 216) & 0xffff;
+                uint256 size = sizeOf(record);
                 if (size > end - record - RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
                 uint256 key = keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (key < least) revert SceneErrors.ExtensionOrder(kind, index);
                 least = key + 1;
-                if (kind == 0 || (kind > ANTIALIAS && kind != SHADOW && kind != NO_SHADOW)) revert SceneErrors.UnknownExtension(kind, index);
-                (uint256 expected, uint256 count) = (sizeOf(kind), 1);
-                if (kind == SPOT || kind == SHADOW) count = scene.lights.length;
-                if (kind == OPACITY_OF || kind == NO_SHADOW) count = scene.objects.length;
+                if (kind == 0) revert SceneErrors.UnknownExtension(kind, index);
+                if (kind > ANTIALIAS) {
+                    record += RECORD_HEADER + size;
+                    continue;
+                }
+                (uint256 expected, uint256 count) = kind == SPOT
+                    ? (SPOT_SIZE, scene.lights.length)
+                    : kind == OPACITY_OF ? (OPACITY_SIZE, scene.objects.length) : (0, 1);
                 if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
                 if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
                 if (kind == SPOT) {
@@ -76,21 +73,9 @@ library Extensions {
                 if (kind == OPACITY_OF && opacityOf(record) >= OPAQUE) {
                     revert SceneErrors.OpacityOutOfRange(index, opacityOf(record));
                 }
-                if (kind == SHADOW) {
-                    if (shadow != 0) revert SceneErrors.SeveralShadows(index);
-                    shadow = shadowRule(record);
-                    if (shadow == 0 || shadow > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, shadow);
-                }
                 record += RECORD_HEADER + size;
             }
         }
-    }
-
-    /// @dev Of the content of a record.
-    function sizeOf(uint256 kind) private pure returns (uint256) {
-        if (kind == SPOT) return SPOT_SIZE;
-        if (kind == OPACITY_OF) return OPACITY_SIZE;
-        return kind == SHADOW ? SHADOW_SIZE : 0;
     }
 
     function checkSpot(uint256 record, uint256 light) private pure {
@@ -146,41 +131,28 @@ library Extensions {
         }
     }
 
-    /// @notice Whether there is a record of this kind for the scene.
-    function has(Scene calldata scene, uint256 kind) internal pure returns (bool) {
-        unchecked {
-            (uint256 record, uint256 end) = bounds(scene);
-            while (record != end) {
-                if (keyOf(record) == kind << 16) return true;
-                record += RECORD_HEADER + ((word(record) >> 216) & 0xffff);
-            }
-            return false;
-        }
-    }
-
-    /// @notice The first record of this kind.
-    /// @return record Its place; `end` if there is none.
-    /// @return end The place after the last record.
-    function findKind(Scene calldata scene, uint256 kind) internal pure returns (uint256 record, uint256 end) {
+    /// @notice The first record behind those of kinds up to `kind`, or the end.
+    function behind(Scene calldata scene, uint256 kind) internal pure returns (uint256 record, uint256 end) {
         unchecked {
             (record, end) = bounds(scene);
-            while (record != end && keyOf(record) >> 16 != kind) record += RECORD_HEADER + ((word(record) >> 216) & 0xffff);
+            while (record != end && keyOf(record) >> 16 <= kind) record += RECORD_HEADER + sizeOf(record);
         }
     }
 
     /// @notice Whether there is a record of this kind and index.
-    function hasOf(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (bool) {
+    function has(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (bool) {
         unchecked {
-            (uint256 record, uint256 end) = findKind(scene, kind);
-            while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + ((word(record) >> 216) & 0xffff);
+            (uint256 record, uint256 end) = behind(scene, kind - 1);
+            while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
             return isOf(record, end, kind, index);
         }
     }
 
-    /// @return Which faces of culled objects cast shadows.
-    function shadowRule(uint256 record) internal pure returns (uint256) {
+    /// @notice The bytes of what follows the header of a record.
+    function sizeOf(uint256 record) internal pure returns (uint256) {
         unchecked {
-            return word(record + RECORD_HEADER) >> 248;
+            uint256 header = word(record) >> 216;
+            return (header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5);
         }
     }
 
@@ -207,7 +179,7 @@ library Extensions {
         }
     }
 
-    function word(uint256 place) private pure returns (uint256 value) {
+    function word(uint256 place) internal pure returns (uint256 value) {
         assembly ("memory-safe") {
             value := calldataload(place)
         }

@@ -7,13 +7,14 @@ integers where it computes vertices, faces and light, NumPy arrays where it walk
 from __future__ import annotations
 
 from ..artifacts import artifact
+from ..errors import RenderError
 from ..image import encode_bmp
 from ..scene import Rectangle, Scene, encode
-from . import coverage
+from . import coverage, extensions
 from .call import read_call
 from .pipeline import Picture, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "render", "selector"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "is_antialiased", "render", "selector"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -35,6 +36,15 @@ def count(scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
 def draw_call(data: bytes) -> Picture:
     """Render what a call of `render`, `renderTile` or `renderCounted` of the Renderer asks for."""
     return draw(*read_call(data))
+
+
+def is_antialiased(data: bytes) -> bool:
+    """Return whether a call of the Renderer asks for an antialiased picture; False if it has no readable scene."""
+    try:
+        scene, _ = read_call(data)
+    except RenderError:
+        return False
+    return extensions.is_antialiased(extensions.read_records(scene.extensions))
 
 
 def selector(function: str) -> bytes:

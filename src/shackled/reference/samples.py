@@ -20,6 +20,7 @@ from .primitive_assembly import Triangle
 from .quadratic import Differences
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
+from .surface_light import surface_color
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
@@ -255,7 +256,7 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
-    color = color_at(word >> 192, s, t, x, y, r)
+    color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
     return patches.pack(((color << 48) + patches.HALF_85) & MASK)
 
 
@@ -293,10 +294,11 @@ def blend(word: int, depths: list[int], samples: list[int], place: tuple[int, in
 
 # ---- lines ----
 
-Rectangle = tuple[tuple[Vertex, Vertex, Vertex], tuple[int, int, int]]
+#: Corners of a triangle, the topmost first, counter-clockwise, and their attribute words.
+LineHalf = tuple[tuple[Vertex, Vertex, Vertex], tuple[int, int, int]]
 
 
-def rectangles(triangle: Triangle, r: Registers) -> Iterator[Rectangle]:
+def rectangles(triangle: Triangle, r: Registers) -> Iterator[LineHalf]:
     """Yield the edges of a triangle that is prepared: rectangles, a pixel wide, as two triangles each."""
     words = r.attribute_0, r.attribute_1, r.attribute_2
     # the depths of lines are in their accumulators
@@ -308,7 +310,7 @@ def rectangles(triangle: Triangle, r: Registers) -> Iterator[Rectangle]:
             yield from rectangle(ends[edge], ends[following], words[edge], words[following])
 
 
-def rectangle(p: Vertex, q: Vertex, word_p: int, word_q: int) -> Iterator[Rectangle]:
+def rectangle(p: Vertex, q: Vertex, word_p: int, word_q: int) -> Iterator[LineHalf]:
     """Yield the two triangles of a line."""
     if q.word < p.word:
         p, q, word_p, word_q = q, p, word_q, word_p
@@ -330,7 +332,7 @@ def corner(x: int, y: int) -> Vertex:
     return Vertex(y << 128 | x << 64, x, y, False, False, 0, 0)
 
 
-def ordered(corners: tuple[Vertex, Vertex, Vertex], words: tuple[int, int, int]) -> Iterator[Rectangle]:
+def ordered(corners: tuple[Vertex, Vertex, Vertex], words: tuple[int, int, int]) -> Iterator[LineHalf]:
     """Yield a triangle with the topmost vertex first, counter-clockwise."""
     (a, b, c), (word_a, word_b, word_c) = corners, words
     area = (c.x - a.x) * (b.y - a.y) - (b.x - a.x) * (c.y - a.y)

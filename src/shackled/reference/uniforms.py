@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import lights, materials, mesh_space, transform
+from . import effects, lights, materials, mesh_space, transform
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
 from .registers import Registers
@@ -37,6 +37,8 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
             transform.set_normal_matrix(view, rotation, registers)
         else:
             mesh_space.set_mesh_space(view, scene, obj, rotation, registers)
+        if registers.has_effects:
+            effects.set_object(scene, obj.material, rotation, registers)
     registers.object_mode = mode
 
 

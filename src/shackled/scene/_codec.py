@@ -30,11 +30,21 @@ SHADINGS = {"unlit": 0, "flat": 1, "smooth": 2}
 SPOT = 1
 OPACITY = 2
 ANTIALIAS = 3
+HEMISPHERE = 4
+RIM = 5
+FOG = 6
+TONE = 7
 #: The unit of opacities.
 OPACITY_STEP = 2.0**-24
+#: The unit of exposures.
+EXPOSURE_STEP = 2.0**-16
 
 CULL_BACKFACES = 1
 WIREFRAME = 2
+
+#: Flags of a tone.
+FILMIC = 1
+GAMMA = 2
 
 
 @dataclass(frozen=True)
@@ -104,6 +114,18 @@ def extensions(scene: Scene) -> bytes:
             records.append(_record(OPACITY, index, opacity.to_bytes(4, "big")))
     if scene.antialias:
         records.append(_record(ANTIALIAS, 0, b""))
+    if scene.hemisphere is not None:
+        records.append(_record(HEMISPHERE, 0, bytes([*scene.hemisphere.sky, *scene.hemisphere.ground])))
+    if scene.rim is not None:
+        records.append(_record(RIM, 0, bytes([*scene.rim.color, scene.rim.power])))
+    if scene.fog is not None:
+        near, far = _q32([scene.fog.near, scene.fog.far])
+        distances = near.to_bytes(8, "big") + max(far, near + 1).to_bytes(8, "big")
+        records.append(_record(FOG, 0, bytes(scene.fog.color) + distances))
+    if scene.tone is not None:
+        exposure = max(round(scene.tone.exposure / EXPOSURE_STEP), 1)
+        flags = FILMIC * scene.tone.filmic + GAMMA * scene.tone.gamma
+        records.append(_record(TONE, 0, exposure.to_bytes(4, "big") + bytes([flags])))
     return b"".join(records)
 
 

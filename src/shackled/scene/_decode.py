@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from attrs import evolve
 
@@ -14,15 +15,23 @@ from ._camera import Camera
 from ._codec import (
     ANTIALIAS,
     CULL_BACKFACES,
+    EXPOSURE_STEP,
+    FILMIC,
+    FOG,
+    GAMMA,
+    HEMISPHERE,
     LIGHTS,
     ONE,
     OPACITY,
     OPACITY_STEP,
     PROJECTIONS,
+    RIM,
     SHADINGS,
     SPOT,
+    TONE,
     WIREFRAME,
 )
+from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
 from ._light import Light
@@ -37,7 +46,7 @@ SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
 RECORD_HEADER = 5
 #: Bytes of the content of a record, by kind.
-RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
+RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0, HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -72,7 +81,7 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), OPACITY: len(objects), ANTIALIAS: 1}
+    counts = {SPOT: len(lights), OPACITY: len(objects)}
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
@@ -86,6 +95,7 @@ def decode(data: bytes) -> Scene:
         width,
         height,
         (ANTIALIAS, 0) in records,
+        **_effects(records),
     )
 
 
@@ -210,7 +220,7 @@ def _object(words: _Words, where: str) -> Object:
 
 
 def _records(data: bytes, counts: Mapping[int, int]) -> Records:
-    """Return the records of the extensions. counts: of what records of a kind may belong to."""
+    """Return the records of the extensions. counts: of what records of a kind may belong to, if not to the scene."""
     records: dict[tuple[int, int], bytes] = {}
     place, last = 0, -1
     while place < len(data):
@@ -224,8 +234,8 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
             raise InputError(f"the extensions must ascend by kind and index; {kind}, {index} does not")
         if len(content) != RECORD_SIZES.get(kind):
             raise InputError(f"an extension of kind {kind} and {len(content)} bytes is not known")
-        if index >= counts[kind]:
-            raise InputError(f"an extension belongs to number {index} of {counts[kind]}, counted from 0")
+        if index >= (count := counts.get(kind, 1)):
+            raise InputError(f"an extension belongs to number {index} of {count}, counted from 0")
         records[kind, index] = content
         place, last = place + RECORD_HEADER + len(content), key
     return records
@@ -251,3 +261,22 @@ def _with_opacity(thing: Object, record: bytes | None) -> Object:
     if opacity >= 1:
         raise InputError("an opacity in the extensions must be below 1")
     return evolve(thing, opacity=opacity)
+
+
+def _effects(records: Records) -> dict[str, Any]:
+    """Return the effects of the scene, by the names of its fields."""
+    found: dict[str, Any] = {}
+    if (record := records.get((HEMISPHERE, 0))) is not None:
+        found["hemisphere"] = Hemisphere(tuple(record[:3]), tuple(record[3:]))
+    if (record := records.get((RIM, 0))) is not None:
+        found["rim"] = Rim(tuple(record[:3]), record[3])
+    if (record := records.get((FOG, 0))) is not None:
+        numbers = [int.from_bytes(record[at : at + 8], "big") for at in (3, 11)]
+        near, far = (_number(each, "a distance of the fog", 0, MAX_COORDINATE) for each in numbers)
+        found["fog"] = Fog(tuple(record[:3]), near, far)
+    if (record := records.get((TONE, 0))) is not None:
+        exposure, flags = int.from_bytes(record[:4], "big") * EXPOSURE_STEP, record[4]
+        if not EXPOSURE_STEP <= exposure <= EXPOSURES[1] or flags > FILMIC | GAMMA:
+            raise InputError("the tone in the extensions has an exposure beyond its range, or unknown flags")
+        found["tone"] = Tone(exposure, bool(flags & FILMIC), bool(flags & GAMMA))
+    return found

@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import evolve
+from attrs import asdict, evolve
 from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
+from .._effects import Fog, Hemisphere, Rim, Tone
 from .._light import LIGHT_KINDS, WHITE, Light
 from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, view_of
 from .._material import Material
@@ -40,10 +41,13 @@ def _keys(part: Part, *before: str) -> tuple[str, ...]:
     return (*before, *(setting.name for setting in settings_of(part)))
 
 
-_SCENE = _keys("scene", "size", "camera", "objects")
+_SCENE = _keys("scene", "size", "camera", "objects", "tone")
 _CAMERA = _keys("camera", "projection")
 _OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material")
 _BACKGROUND = ("top", "bottom")
+_HEMISPHERE = ("sky", "ground")
+_RIM = ("color", "power")
+_FOG = ("color", "near", "far")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle")
 _MESH = ("positions", "faces", "colors", "normals")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -78,6 +82,8 @@ def _scene(document: Mapping[str, Any], folder: Path) -> Scene:
     objects = [_object(part, where, folder) for where, part in table.rows("objects")]
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
     given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
+    if "tone" in table:
+        given["tone"] = Tone(**_settings(table.table("tone", _keys("tone")), "tone"))
     return Scene(objects, camera, width=width, height=height, **given)
 
 
@@ -98,6 +104,7 @@ def encode_scene_file(scene: Scene) -> bytes:
     document = {
         "size": [scene.width, scene.height],
         **_fields(scene, "scene"),
+        **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
         "camera": {
             **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
             **({} if camera.near is None else {"near": camera.near}),
@@ -118,14 +125,15 @@ def encode_scene_file(scene: Scene) -> bytes:
 
 
 def _fields(value: object, part: Part) -> dict[str, Any]:
-    """Return the settings that are fields of a value; an object has no colour of its own."""
-    return {name: getattr(value, name) for name in _keys(part) if hasattr(value, name)}
+    """Return the settings that are fields of a value and not None; an object has no colour of its own."""
+    fields = {name: getattr(value, name, None) for name in _keys(part)}
+    return {name: found for name, found in fields.items() if found is not None}
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON has for an array, a background or a light."""
-    if isinstance(value, Background):
-        return {"top": value.top, "bottom": value.bottom}
+    """Return what JSON has for an array, or for a background, a light or an effect."""
+    if isinstance(value, Background | Hemisphere | Rim | Fog):
+        return asdict(value)
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"
@@ -168,6 +176,25 @@ def _background(keys: Table, setting: Setting) -> Background:
     return Background(top, inside.color("bottom", top))
 
 
+def _hemisphere(keys: Table, setting: Setting) -> Hemisphere:
+    inside = keys.table(setting.name, _HEMISPHERE)
+    return Hemisphere(inside.color("sky"), inside.color("ground", (0, 0, 0)))
+
+
+def _rim(keys: Table, setting: Setting) -> Rim:
+    inside = keys.table(setting.name, _RIM)
+    color, power = inside.color("color"), inside.whole("power", 3)
+    with about(inside.where):
+        return Rim(color, power)
+
+
+def _fog(keys: Table, setting: Setting) -> Fog:
+    inside = keys.table(setting.name, _FOG)
+    color, near, far = inside.color("color"), inside.number("near"), inside.number("far")
+    with about(inside.where):
+        return Fog(color, near, far)
+
+
 #: How the values of kinds are read, besides the range.
 _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "whole": lambda keys, setting: round(keys.number(setting.name)),
@@ -178,6 +205,9 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "background": _background,
     "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
     "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
+    "hemisphere": _hemisphere,
+    "rim": _rim,
+    "fog": _fog,
 }
 
 
