@@ -8,6 +8,7 @@ import {Pipeline} from "./pipeline/Pipeline.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import {SampleWires} from "./pipeline/SampleWires.sol";
 import {Rasterizer} from "./pipeline/Rasterizer.sol";
+import {ShadowRows} from "./pipeline/ShadowRows.sol";
 import {Shading} from "./pipeline/Shading.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
 import {WEIGHTED_BIAS} from "./pipeline/FragmentLight.sol";
@@ -30,6 +31,11 @@ contract EffectsEngine is SampleBuffer, SampleWires {
     }
 
     function readObject(uint256 position) internal pure override returns (uint256 next) {
+        if (load(SHADOWS) != 0 && load(SHADOW_ROW) == 0) {
+            // before the records of vertices
+            store(SHADOW_ROW, freeMemory());
+            setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
+        }
         next = super.readObject(position);
         Effects.setObject();
     }
@@ -49,6 +55,8 @@ contract EffectsEngine is SampleBuffer, SampleWires {
                 setFaceUp();
                 mode |= IS_LIT | IS_DIFFUSE;
             }
+            store(SHADOW_LIST, 0);
+            if (mode & IS_LIT != 0 && load(SHADOWS) != 0) ShadowRows.setFace();
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
             Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
             // FragmentLight is to return highlights alone

@@ -9,7 +9,7 @@ import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Sce
 import {SceneErrors} from "./scene/SceneErrors.sol";
 import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
 import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
-import {COVERED, LAST_OF_LIST, MISSED, Receiver, Receivers} from "./shadows/Receivers.sol";
+import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
 import {NO_SHADOW, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
@@ -30,6 +30,8 @@ contract Shadows is SceneErrors {
     /// @param begin, end Of the faces.
     /// @param casters The addresses of the faces that cast shadows.
     /// @param sets See Faces; of `words` words each.
+    /// @param found What shades a face, one address for each face that casts shadows.
+    /// @param heads A word for each row of the canvas.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
         Frame frame;
@@ -40,6 +42,8 @@ contract Shadows is SceneErrors {
         uint256 casterCount;
         uint256 sets;
         uint256 words;
+        uint256 found;
+        uint256 heads;
         int256[3] eye;
     }
 
@@ -185,7 +189,9 @@ contract Shadows is SceneErrors {
             assembly ("memory-safe") {
                 calldatacopy(end, calldatasize(), size)
             }
-            setFreeMemory(end + size);
+            state.found = end + size;
+            state.heads = state.found + 32 * count;
+            setFreeMemory(state.heads + 32 * scene.canvas.height);
             for (uint256 i; i != count; ++i) Faces.insert(state.sets, words, i, load(state.casters + 32 * i));
             Faces.complete(state.sets, words);
         }
@@ -295,8 +301,7 @@ contract Shadows is SceneErrors {
             uint256 corners = load(face);
             (receiver.corners, receiver.isPlaced) = (corners, false);
             bool hasPlanes;
-            uint256 first;
-            uint256 list;
+            uint256 count;
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
                 if (corners & BESIDE == 0) {
@@ -318,20 +323,51 @@ contract Shadows is SceneErrors {
                     if (shade == MISSED) continue;
                     if (shade == COVERED) return DARK;
                     if (!receiver.isPlaced) Receivers.place(receiver, mesh, Triangles.readIndices(source));
-                    uint256 next = freeMemory();
+                    uint256 list = freeMemory();
                     uint256 end;
-                    (shade, end) = Receivers.write(receiver, height, next + 0x40);
+                    (shade, end) = Receivers.write(receiver, height, list + 0x40);
                     if (shade == MISSED) continue;
                     if (shade == COVERED) return DARK;
                     setFreeMemory(end);
-                    store(next, 0);
-                    store(next + 0x20, end);
-                    if (list == 0) first = next;
-                    else store(list, next);
-                    list = next;
+                    store(list + 0x20, end);
+                    store(state.found + 32 * count++, list);
                 }
             }
-            return first;
+            return count == 0 ? LIT : ordered(state, count, height);
+        }
+    }
+
+    /// @dev Chains the lists that were found, ordered by their first rows.
+    /// @return first The address of the first.
+    function ordered(State memory state, uint256 count, uint256 height) private pure returns (uint256 first) {
+        unchecked {
+            uint256 found = state.found;
+            uint256 heads = state.heads;
+            assembly ("memory-safe") {
+                calldatacopy(heads, calldatasize(), shl(5, height))
+                // those of a row in front of one another, from the last on
+                for { let p := add(found, shl(5, count)) } gt(p, found) {} {
+                    p := sub(p, 0x20)
+                    let list := mload(p)
+                    let head := add(heads, shl(5, and(shr(TOP_AT, mload(add(list, 0x40))), ROW_MASK)))
+                    mstore(list, mload(head))
+                    mstore(head, list)
+                }
+                let last
+                for {} count { heads := add(heads, 0x20) } {
+                    let list := mload(heads)
+                    if list {
+                        switch last
+                        case 0 { first := list }
+                        default { mstore(last, list) }
+                        for {} list { list := mload(list) } {
+                            last := list
+                            count := sub(count, 1)
+                        }
+                    }
+                }
+                mstore(last, 0)
+            }
         }
     }
 
@@ -372,14 +408,16 @@ contract Shadows is SceneErrors {
     function copyLists(uint256 list, uint256 target) private pure returns (uint256 end) {
         unchecked {
             end = target;
+            uint256 last;
             for (; list != 0; list = load(list)) {
                 uint256 size = load(list + 0x20) - list - 0x40;
+                last = end;
                 assembly ("memory-safe") {
                     mcopy(end, add(list, 0x40), size)
                 }
                 end += size;
             }
-            store(end - 32, load(end - 32) | LAST_OF_LIST);
+            store(last, load(last) | LAST_SHADOW);
         }
     }
 }

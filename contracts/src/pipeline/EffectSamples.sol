@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import {BlendedSamples} from "./BlendedSamples.sol";
 import {Samples} from "./Samples.sol";
+import {SHADOW_DARK, ShadowRows} from "./ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
 import "./Registers.sol";
 
@@ -13,6 +14,7 @@ library EffectSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         unchecked {
+            if (load(SHADOW_LIST) > SHADOW_DARK) ShadowRows.prepare(column, end, row);
             uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
             for (; column != end; ++column) {
                 uint256 covered = Samples.coverage(left, right, column);
@@ -47,6 +49,7 @@ library EffectSamples {
 
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
         unchecked {
+            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
             (uint256 x, uint256 y) = Samples.centroid(covered);
             attribute = Samples.moved(attribute, x, y);
             uint256 step = load(RAY_STEP);

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Gamma} from "../math/Gamma.sol";
 import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {ALL_SAMPLES} from "./ShadowRows.sol";
 import "./Registers.sol";
 
 // The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
@@ -54,6 +55,7 @@ library Effects {
             for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind == SHADOW) store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
                 if (kind == SHADOW || kind == NO_SHADOW) continue;
                 if (kind > TONE) revert SceneErrors.UnknownExtension(kind, index);
                 uint256 expected = sizeOf(kind);
@@ -67,6 +69,7 @@ library Effects {
                 else setTone(content);
             }
             if (load(TONE_FLAGS) & TONE_GAMMA != 0) decodeLights();
+            if (load(SHADOW_LIGHT) != 0) store(SHADOW_COLOR, load(load(SHADOW_LIGHT) + LIGHT_COLOR));
         }
     }
 
@@ -132,14 +135,22 @@ library Effects {
     /// @notice What the light of the frame is to the object whose uniforms were read.
     function setObject() internal pure {
         unchecked {
+            uint256 shadow = load(SHADOW_LIGHT);
+            // as it is without shadows
+            if (shadow != 0) store(shadow + LIGHT_COLOR, load(SHADOW_COLOR));
             uint256 k = load(AMBIENT_COEFFICIENT);
             store(HEMISPHERE_SKY, scaled(load(SKY_COLOR), k));
             store(HEMISPHERE_GROUND, scaled(load(GROUND_COLOR), k));
-            if (load(TONE_FLAGS) & TONE_GAMMA == 0) return;
-            store(AMBIENT, scaled(load(AMBIENT_LIGHT), k));
-            k = load(DIFFUSE_COEFFICIENT);
-            for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) {
-                store(record + LIGHT_DIFFUSE, scaled(load(record + LIGHT_COLOR), k));
+            if (load(TONE_FLAGS) & TONE_GAMMA != 0) {
+                store(AMBIENT, scaled(load(AMBIENT_LIGHT), k));
+                k = load(DIFFUSE_COEFFICIENT);
+                for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) {
+                    store(record + LIGHT_DIFFUSE, scaled(load(record + LIGHT_COLOR), k));
+                }
+            }
+            if (shadow != 0) {
+                store(SHADOW_DIFFUSE, load(shadow + LIGHT_DIFFUSE));
+                store(SHADOW_SHARE, ALL_SAMPLES);
             }
         }
     }

@@ -14,15 +14,18 @@ import {ADDRESS_MASK, BEHIND, FACE_B_AT, FACE_C_AT, FACE_PLANES_AT, Faces, PLANE
 //   bits  96 to 159   its value at the centre of the first pixel of the canvas
 //   bits  80 to  95   the first row in which the shadow may be
 //   bits  64 to  79   the row after the last
-//   bits   0 and  1   LAST_OF_CASTER, LAST_OF_LIST
+//   bits   0 to   7   in the first word of what casts the shadow, how many words it has; in others 0
+//   bit    8          in the same word, whether it is the last one of the list
+//
+// Lists are ordered by the first row.
 
 uint256 constant X_AT = 208;
 uint256 constant Y_AT = 160;
 uint256 constant CONSTANT_AT = 96;
 uint256 constant TOP_AT = 80;
 uint256 constant BOTTOM_AT = 64;
-uint256 constant LAST_OF_CASTER = 1;
-uint256 constant LAST_OF_LIST = 2;
+uint256 constant LAST_SHADOW = 1 << 8;
+uint256 constant ROW_MASK = 0xffff;
 uint256 constant LANE_48 = 0xffffffffffff;
 
 /// @dev Bits of the distances of vertices, and of other homogeneous coordinates.
@@ -212,7 +215,7 @@ library Receivers {
                 end += 32;
             }
             if (end == begin) return (COVERED, begin);
-            store(end - 32, load(end - 32) | LAST_OF_CASTER);
+            store(begin, load(begin) | (end - begin) >> 5);
             return (MIXED_SHADOW, end);
         }
     }

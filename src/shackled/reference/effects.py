@@ -64,6 +64,8 @@ def set_frame(scene: Scene, view: View, r: Registers) -> None:
         r.fog_range = far - r.fog_near
     for record, light in zip(r.lights, scene.lights, strict=True):
         record.color = color_lanes(light_color(light.color, r))
+    if r.shadows:
+        r.shadow_color = r.lights[r.shadows.light].color
     r.up_x, r.up_y, r.up_z = (part >> 8 for part in view.to_camera(UP))
 
 
@@ -74,6 +76,9 @@ def set_object(scene: Scene, material: Material, rotation: Matrix, r: Registers)
     r.ambient = scaled(light_color(scene.ambient_light, r), material.ambient)
     for record, light in zip(r.lights, scene.lights, strict=True):
         record.diffuse = scaled(light_color(light.color, r), material.diffuse)
+    if r.shadows:
+        r.lights[r.shadows.light].color = r.shadow_color
+        r.shadow_diffuse = r.lights[r.shadows.light].diffuse
     if content := r.records.get((HEMISPHERE, 0)):
         sky, ground = (light_color(color_of(part), r) for part in (content, content[3:]))
         r.hemisphere_sky, r.hemisphere_ground = scaled(sky, material.ambient), scaled(ground, material.ambient)

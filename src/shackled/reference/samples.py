@@ -20,7 +20,8 @@ from .primitive_assembly import Triangle
 from .quadratic import Differences
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
-from .surface_light import surface_color
+from .shadow_table import LIT
+from .surface_light import set_share, surface_color
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
@@ -84,13 +85,20 @@ def run(triangles: list[Triangle], mesh: Mesh, wireframe: bool, r: Registers) ->
             continue
         if wireframe:
             shading.prepare_exact(triangle, mesh, r)
+            set_shadow(triangle, r)
             for corners, attributes in rectangles(triangle, r):
                 draw(*corners, attributes, r)
         else:
             shading.prepare(triangle, mesh, r)
             # the brightest saturate anyway
             r.mode &= ~layout.IS_LINEAR
+            set_shadow(triangle, r)
             draw(triangle.a, triangle.b, triangle.c, (r.attribute_0, r.attribute_1, r.attribute_2), r)
+
+
+def set_shadow(triangle: Triangle, r: Registers) -> None:
+    """Set what shades a triangle that is prepared."""
+    r.shadow = r.shadow_faces[triangle.face] if r.shadow_faces and r.mode & layout.IS_LIT else LIT
 
 
 def set_depths(distances: list[int], r: Registers) -> None:
@@ -256,6 +264,8 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
+    if r.shadows:
+        set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
     return patches.pack(((color << 48) + patches.HALF_85) & MASK)
 

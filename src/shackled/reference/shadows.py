@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from . import layout, transform, vertex_shader
-from .extensions import NO_SHADOW, OPACITY, SHADOW, Records, read_records
+from .effects import NO_SHADOW, SHADOW
+from .extensions import OPACITY, Records
 from .mesh import Mesh, open_mesh
 from .registers import Registers
 from .roots import sqrt
+from .scene_errors import Reverted
+from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
 from .structs import CULL_BACKFACES, FLAT, POINT, UNLIT, WIREFRAME, Scene
 from .vector import Vector, cross, normalize, scale, subtract, to_matrix
 from .view import View
@@ -34,30 +36,6 @@ GRADIENT_BITS, BOUND = 44, 1 << 60
 SLACK = 1 << 16
 #: Sub-pixels by which the rows of a shadow are widened: to the outermost sample, and for rounding.
 WIDER = 112
-#: Entries of faces; others are offsets of lists.
-LIT, DARK = 0, 1
-#: Bytes of an entry. Bits of a word of a list: flags, rows, coefficients.
-ENTRY_SIZE = 4
-LAST_OF_CASTER, LAST_OF_LIST = 1, 2
-BOTTOM_AT, TOP_AT, CONSTANT_AT, Y_AT, X_AT = 64, 80, 96, 160, 208
-#: Where the four samples of a pixel are, in eighths of it.
-SAMPLES = ((-1, -3), (3, -1), (-3, 1), (1, 3))
-
-
-class Function(NamedTuple):
-    """x * X + y * Y + constant, where X and Y are the place on the canvas in eighths of a pixel."""
-
-    x: int
-    y: int
-    constant: int
-
-
-class Shadow(NamedTuple):
-    """What a face casts on another: where all functions are at least 0, in the rows from top to before bottom."""
-
-    top: int
-    bottom: int
-    functions: tuple[Function, ...]
 
 
 @dataclass(frozen=True)
@@ -80,16 +58,17 @@ class Frame:
     def place(self, v: Vector) -> Vector:
         """Return a place of the world."""
         v = subtract(v, self.origin)
-        x, y, z = (self._along(axis, v, 77) for axis in self.axes)
+        x, y, z = (self._along(axis, v) for axis in self.axes)
         return x, y, z
 
     @staticmethod
-    def _along(axis: Vector, v: Vector, shift: int) -> int:
-        return (axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2] + (1 << (shift - 1))) >> shift
+    def _along(axis: Vector, v: Vector) -> int:
+        return (axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2] + (1 << 76)) >> 77
 
     def direction(self, v: Vector) -> Vector:
         """Return a direction of the world, a unit vector, of length 2^COORDINATE_BITS or less."""
-        x, y, z = (self._along(axis, tuple(k * self.radius >> 32 for k in v), 77) for axis in self.axes)
+        scaled = v[0] * self.radius >> 32, v[1] * self.radius >> 32, v[2] * self.radius >> 32
+        x, y, z = (self._along(axis, scaled) for axis in self.axes)
         return x, y, z
 
     def bucket(self, place: Vector) -> tuple[int, int, int] | None:
@@ -123,67 +102,39 @@ class Face:
     planes: list[tuple[int, int, int, int]] = field(default_factory=list)
 
 
-@dataclass(frozen=True)
-class Table:
-    """What is shaded.
-
-    faces: of each object, of each face LIT, DARK, or what shades parts of it.
-    """
-
-    light: int
-    faces: list[list[int | list[Shadow]]]
-
-    def encode(self) -> bytes:
-        """Return the answer of the contract: an entry for each face, and the lists behind them."""
-        entries, lists = [], b""
-        count = sum(map(len, self.faces))
-        begin = (ENTRY_SIZE * count + 31) & ~31
-        for entry in (each for faces in self.faces for each in faces):
-            if isinstance(entry, int):
-                entries.append(entry)
-            else:
-                entries.append(begin + len(lists))
-                lists += b"".join(words_of(entry))
-        return b"".join(each.to_bytes(ENTRY_SIZE, "big") for each in entries).ljust(begin, b"\0") + lists
-
-    def dark(self, index: int, face: int, column: int, row: int) -> list[bool]:
-        """Return which of the samples of a pixel are in the shadow."""
-        entry = self.faces[index][face]
-        if isinstance(entry, int):
-            return [entry == DARK] * 4
-        shadows = [each for each in entry if each.top <= row < each.bottom]
-        return [any(covers(each, 8 * column + x, 8 * row + y) for each in shadows) for x, y in SAMPLES]
-
-
-def covers(shadow: Shadow, x: int, y: int) -> bool:
-    """Return whether a place on the canvas, in eighths of a pixel, is shaded."""
-    return all(f.x * x + f.y * y + f.constant >= 0 for f in shadow.functions)
-
-
-def words_of(shadows: Sequence[Shadow]) -> Iterable[bytes]:
-    """Yield the words of a list."""
-    for shadow in shadows:
-        for f in shadow.functions:
-            flags = (f is shadow.functions[-1]) * LAST_OF_CASTER
-            flags |= (f is shadow.functions[-1] and shadow is shadows[-1]) * LAST_OF_LIST
-            word = flags | shadow.bottom << BOTTOM_AT | shadow.top << TOP_AT
-            word |= (f.constant & (1 << 64) - 1) << CONSTANT_AT
-            word |= (f.y & (1 << 48) - 1) << Y_AT | (f.x & (1 << 48) - 1) << X_AT
-            yield word.to_bytes(32, "big")
-
-
-def shadow_light(records: Records) -> int | None:
-    """Return the number of the light that casts shadows, if one does."""
-    return next((index for kind, index in records if kind == SHADOW), None)
+def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
+    """Check the records of shadows; return the light that casts them, and which faces of culled objects do."""
+    found = None
+    for (kind, index), content in records.items():
+        if kind not in (SHADOW, NO_SHADOW):
+            continue
+        expected, count = (32, len(scene.lights)) if kind == SHADOW else (0, len(scene.objects))
+        if len(content) != expected:
+            raise Reverted("ExtensionSize", kind=kind, index=index, expected=expected, actual=len(content))
+        if index >= count:
+            raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
+        if kind == SHADOW:
+            if found is not None:
+                raise Reverted("SeveralShadows", light=index)
+            rule = int.from_bytes(content, "big")
+            if not ALL <= rule <= TURNED:
+                raise Reverted("ShadowRuleOutOfRange", light=index, rule=rule)
+            found = index, rule
+    return found
 
 
 def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
     """Return what the light of the SHADOW record does not reach; None if there is no such record."""
-    records = read_records(scene.extensions)
-    light = shadow_light(records)
-    if light is None:
+    records = registers.records
+    found = check_shadows(scene, records)
+    if found is None:
         return None
+    light, rule = found
     meshes = [open_mesh(each.mesh) for each in scene.objects]
+    for index, mesh in enumerate(meshes):
+        for number, corners in enumerate(mesh.faces):
+            if max(corners) >= len(mesh.positions):
+                raise Reverted("IndexOutOfRange", object=index, face=number, vertexCount=len(mesh.positions))
     worlds = [world_places(scene, index, mesh) for index, mesh in enumerate(meshes)]
     casting = [casts(scene, index, records) for index in range(len(meshes))]
     table = Table(light, [[LIT] * len(mesh.faces) for mesh in meshes])
@@ -197,7 +148,6 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
         for places, buckets in [light_places(frame, world)]
         for number, corners in enumerate(mesh.faces)
     ]
-    rule = records[SHADOW, light][0]
     casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
     eye = frame.direction(view.forward) if view.orthographic else frame.place(scene.camera.eye)
     for face in faces:
@@ -251,8 +201,15 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
         most = 1 << COORDINATE_BITS
         lows, sizes = (-most,) * 3, (2 * most,) * 3
     x = normalize(cross(z, (0, 1 << 32, 0) if abs(z[1]) < 3 << 30 else (1 << 32, 0, 0)))
-    axes = tuple(tuple(divide_signed(k << 64, radius) for k in axis) for axis in (x, cross(z, x), z))
-    return Frame(is_point, origin, axes, radius, lows, tuple((BUCKETS << 32) // each for each in sizes))
+    i, j, k = (divided(axis, radius) for axis in (x, cross(z, x), z))
+    f, g, h = ((BUCKETS << 32) // each for each in sizes)
+    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h))
+
+
+def divided(axis: Vector, radius: int) -> Vector:
+    """Return 2^64 / radius times a vector."""
+    x, y, z = (divide_signed(value << 64, radius) for value in axis)
+    return x, y, z
 
 
 def length_of(v: Iterable[int]) -> int:
@@ -354,9 +311,7 @@ def values(plane: tuple[int, int, int, int], corners: Iterable[Vector]) -> tuple
     return a, b, c
 
 
-def shade(
-    scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers
-) -> int | list[Shadow]:
+def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
     """Return LIT, DARK, or what shades parts of a face."""
     shadows: list[Shadow] = []
     homogeneous: list[Vector] = []
@@ -380,7 +335,7 @@ def shade(
             if not shadow.functions:
                 return DARK
             shadows.append(shadow)
-    return shadows or LIT
+    return sorted(shadows, key=lambda each: each.top) or LIT
 
 
 def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers) -> list[Vector]:
@@ -394,7 +349,7 @@ def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: R
     distances = [1 << 32 if view.orthographic else w for _, _, w in clip]
     limit = 1 << layout.GUARD_BITS
     if all(
-        w >= registers.near and 0 <= x < d * limit and 0 <= y < d * limit
+        w >= registers.near and max(x, y) < d * limit and min(x, y) >= 0
         for (x, y, w), d in zip(clip, distances, strict=True)
     ):
         if view.orthographic:
