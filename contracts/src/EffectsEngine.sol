@@ -36,6 +36,9 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             store(SHADOW_ROW, freeMemory());
             setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
         }
+        unchecked {
+            store(OBJECT_INDEX, position == load(OBJECTS) ? 0 : load(OBJECT_INDEX) + 1);
+        }
         next = super.readObject(position);
         Effects.setObject();
     }

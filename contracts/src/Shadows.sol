@@ -12,7 +12,7 @@ import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpa
 import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
-import {NO_SHADOW, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
+import {GROUND, MAX_FADE, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
 import {Transform} from "./uniforms/Transform.sol";
 import {View, lookAt} from "./uniforms/View.sol";
 import "./pipeline/Registers.sol";
@@ -54,9 +54,9 @@ contract Shadows is SceneErrors {
 
     /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
     /// checked.
-    /// @return For each face of all objects four bytes: 0 if it is lit, 1 if it is dark, else where from the beginning of the answer on the
-    /// functions stand of what shades parts of it, as words: see Receivers. The entries are filled up to whole words. Nothing if no light
-    /// casts shadows. Without the ABI's offset and length.
+    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, four bytes
+    /// for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of it, as words:
+    /// see Receivers. The entries are filled up to whole words. Nothing if no light casts shadows. Without the ABI's offset and length.
     function cast(Scene calldata scene) external pure returns (bytes memory) {
         unchecked {
             (uint256 rule, uint256 light) = check(scene);
@@ -91,15 +91,19 @@ contract Shadows is SceneErrors {
             for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
-                if (kind > NO_SHADOW) break;
-                uint256 expected = kind == SHADOW ? 32 : 0;
+                if (kind > GROUND) break;
                 uint256 size = Extensions.sizeOf(record);
-                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+                if (size != 32) revert SceneErrors.ExtensionSize(kind, index, 32, size);
                 uint256 count = kind == SHADOW ? scene.lights.length : scene.objects.length;
                 if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
-                if (kind == NO_SHADOW) continue;
+                uint256 content = Extensions.word(record + RECORD_HEADER);
+                if (kind == GROUND) {
+                    uint256 outer = (content >> 128) & LANE_64;
+                    if (content >> 192 >= outer || outer > MAX_FADE) revert SceneErrors.GroundOutOfRange(index, content >> 192, outer);
+                    continue;
+                }
                 if (rule != 0) revert SceneErrors.SeveralShadows(index);
-                (rule, light) = (Extensions.word(record + RECORD_HEADER), index);
+                (rule, light) = (content, index);
                 if (rule == 0 || rule > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, rule);
             }
         }
@@ -108,7 +112,7 @@ contract Shadows is SceneErrors {
     /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
     function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
         return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.has(scene, OPACITY_OF, index)
-            && !Extensions.has(scene, NO_SHADOW, index);
+            && !Extensions.has(scene, GROUND, index);
     }
 
     /// @dev Writes all vertices in the world.
@@ -377,9 +381,12 @@ contract Shadows is SceneErrors {
             uint256 face = state.faces[0];
             uint256 last = state.faces[state.faces.length - 1];
             uint256 begin = freeMemory();
-            uint256 count = (last - face) / FACE_RECORD_SIZE;
-            uint256 end = begin + (((ENTRY_BITS / 8) * count + 31) & ~uint256(31));
-            uint256 target = begin;
+            uint256 objects = state.faces.length - 1;
+            uint256 target = begin + 32 * objects;
+            for (uint256 i; i != objects; ++i) {
+                store(begin + 32 * i, 32 * objects + (ENTRY_BITS / 8) * ((state.faces[i] - face) / FACE_RECORD_SIZE));
+            }
+            uint256 end = target + (((ENTRY_BITS / 8) * ((last - face) / FACE_RECORD_SIZE) + 31) & ~uint256(31));
             while (face != last) {
                 uint256 word = 0;
                 for (uint256 i; i != ENTRIES; ++i) {

@@ -2,6 +2,8 @@
 pragma solidity 0.8.37;
 
 import {BlendedSamples} from "./BlendedSamples.sol";
+import {OPAQUE} from "../scene/Extensions.sol";
+import {Ground} from "./Ground.sol";
 import {Samples} from "./Samples.sol";
 import {SHADOW_DARK, ShadowRows} from "./ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
@@ -41,7 +43,17 @@ library EffectSamples {
                 depths |= FOUND_SAMPLES | (old & SAMPLE_COLORS);
             } else {
                 uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-                depths |= mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, old);
+                if (load(FADE_RANGE) != 0) {
+                    uint256 opacity = load(OPACITY);
+                    if (opacity == 0) {
+                        store(OPACITY, OPAQUE);
+                        return;
+                    }
+                    depths |= BlendedSamples.over(color, old);
+                    store(OPACITY, OPAQUE);
+                } else {
+                    depths |= mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, old);
+                }
             }
             Samples.write(row, column, depths, seen);
         }
@@ -49,12 +61,17 @@ library EffectSamples {
 
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
         unchecked {
-            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
             (uint256 x, uint256 y) = Samples.centroid(covered);
             attribute = Samples.moved(attribute, x, y);
             uint256 step = load(RAY_STEP);
             x = load(RAY_LEFT) + column * step + uint256(int256(x * step) >> 3);
             y = load(RAY_TOP) + row * step + uint256(int256(y * step) >> 3);
+            if (load(FADE_RANGE) != 0) {
+                // until the fragment is drawn
+                store(OPACITY, Ground.opacityAt(attribute, x, y));
+                if (load(OPACITY) == 0) return 0;
+            }
+            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
             return SurfaceLight.colorAt(attribute, x, y);
         }
     }

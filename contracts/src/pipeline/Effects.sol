@@ -4,7 +4,8 @@ pragma solidity 0.8.37;
 import {Gamma} from "../math/Gamma.sol";
 import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
-import {ALL_SAMPLES} from "./ShadowRows.sol";
+import {Ground} from "./Ground.sol";
+import {ALL_SAMPLES, ShadowRows} from "./ShadowRows.sol";
 import "./Registers.sol";
 
 // The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
@@ -15,16 +16,18 @@ import "./Registers.sol";
 //                Q32, 0 to 2^58, the second above the first
 //   TONE         what light is multiplied by in the end, 4 bytes, Q16, above 0, up to 64; and 1 byte of flags: see TONE_FILMIC
 //   SHADOW       of the light that casts shadows; there is one at most: a word, which faces of culled objects do: see SHADOWS_ALL
-//   NO_SHADOW    of an object that casts none, such as a ground: nothing
+//   GROUND       of an object that casts none, and fades into what is behind it: a word, of which the upper half has the distances from its
+//                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
+//                first
 //
-// What they do is told in SurfaceLight, and for the last two, which the contract Shadows checks, there.
+// What they do is told in SurfaceLight. The last two are checked by the contract Shadows: see there, and Ground.
 
 uint256 constant HEMISPHERE = 4;
 uint256 constant RIM = 5;
 uint256 constant FOG = 6;
 uint256 constant TONE = 7;
 uint256 constant SHADOW = 10;
-uint256 constant NO_SHADOW = 11;
+uint256 constant GROUND = 11;
 
 uint256 constant HEMISPHERE_SIZE = 6;
 uint256 constant RIM_SIZE = 4;
@@ -39,6 +42,8 @@ uint256 constant MAX_EXPOSURE = 64 << 16;
 /// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
 uint256 constant TONE_FILMIC = 1;
 uint256 constant TONE_GAMMA = 2;
+/// @dev The greatest radius of a GROUND, 2^26 units, Q32.
+uint256 constant MAX_FADE = 1 << 58;
 
 /// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
 /// closed; those turned to it.
@@ -56,7 +61,7 @@ library Effects {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (kind == SHADOW) store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
-                if (kind == SHADOW || kind == NO_SHADOW) continue;
+                if (kind == SHADOW || kind == GROUND) continue;
                 if (kind > TONE) revert SceneErrors.UnknownExtension(kind, index);
                 uint256 expected = sizeOf(kind);
                 uint256 size = Extensions.sizeOf(record);
@@ -138,6 +143,9 @@ library Effects {
             uint256 shadow = load(SHADOW_LIGHT);
             // as it is without shadows
             if (shadow != 0) store(shadow + LIGHT_COLOR, load(SHADOW_COLOR));
+            uint256 object = load(OBJECT_FIRST) + load(OBJECT_INDEX);
+            Ground.setObject(object);
+            ShadowRows.setObject(object);
             uint256 k = load(AMBIENT_COEFFICIENT);
             store(HEMISPHERE_SKY, scaled(load(SKY_COLOR), k));
             store(HEMISPHERE_GROUND, scaled(load(GROUND_COLOR), k));

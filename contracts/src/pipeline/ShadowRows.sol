@@ -28,13 +28,21 @@ library ShadowRows {
         }
     }
 
+    /// @notice Finds the entries of the faces of an object.
+    /// @param object Its number in the scene.
+    function setObject(uint256 object) internal pure {
+        unchecked {
+            uint256 shadows = load(SHADOWS);
+            if (shadows != 0) store(SHADOW_FACES, shadows + loadCalldata(shadows + 32 * object));
+        }
+    }
+
     /// @notice Finds what shades the face at FACE.
     function setFace() internal pure {
         unchecked {
-            uint256 shadows = load(SHADOWS);
-            uint256 entry = shadows + load(SHADOW_FACES) + SHADOW_ENTRY_SIZE * ((load(FACE) - load(MESH_FACES)) / FACE_SIZE);
+            uint256 entry = load(SHADOW_FACES) + SHADOW_ENTRY_SIZE * ((load(FACE) - load(MESH_FACES)) / FACE_SIZE);
             entry = loadCalldata(entry) >> SHADOW_ENTRY_AT;
-            if (entry > SHADOW_DARK) entry += shadows;
+            if (entry > SHADOW_DARK) entry += load(SHADOWS);
             store(SHADOW_LIST, entry);
             store(SHADOW_BEGIN, entry);
         }

@@ -66,6 +66,8 @@ interface SceneErrors {
     error SeveralShadows(uint256 light);
     /// @notice The rule is 1, 2 or 3.
     error ShadowRuleOutOfRange(uint256 light, uint256 rule);
+    /// @notice The inner radius of a ground is below its outer one, which is 2^58 at most (Q32).
+    error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();

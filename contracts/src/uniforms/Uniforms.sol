@@ -14,7 +14,6 @@ import {TileCulling} from "./TileCulling.sol";
 import {SampleDepths} from "./SampleDepths.sol";
 import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
-import {SHADOW_ENTRY_SIZE} from "../pipeline/ShadowRows.sol";
 import "../pipeline/Registers.sol";
 
 // What is computed once for a frame or an object. The Renderer fills the registers at the addresses that they have in the engine, and
@@ -89,7 +88,6 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
-            store(SHADOW_ENTRIES, 0);
             setEffects(view_, scene);
             setBackground(scene, tile);
             store(INVERT, scene.invert);
@@ -175,10 +173,6 @@ library Uniforms {
             if (copied != 0) {
                 TileCulling.run(mesh, copied, number);
                 if (mesh.faceCount == 0) return false;
-            }
-            if (load(SHADOWS) != 0) {
-                store(SHADOW_FACES, load(SHADOW_ENTRIES));
-                store(SHADOW_ENTRIES, load(SHADOW_FACES) + SHADOW_ENTRY_SIZE * mesh.faceCount);
             }
             mesh.vertices += moved;
             mesh.faces += moved;

@@ -15,8 +15,8 @@ from .words import color_lanes
 
 #: Kinds of records of the scene, and the sizes of their contents.
 HEMISPHERE, RIM, FOG, TONE = 4, 5, 6, 7
-#: Kinds of records that `shadows` checks: of the light that casts shadows, and of objects that cast none.
-SHADOW, NO_SHADOW = 10, 11
+#: Kinds of records that `shadows` checks: of the light that casts shadows, and of objects that cast none and fade.
+SHADOW, GROUND = 10, 11
 SIZES = {HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
 #: Flags of a TONE: the filmic curve; light is added up in linear values.
 TONE_FILMIC, TONE_GAMMA = 1, 2
@@ -29,7 +29,7 @@ UP = (0, 1 << 32, 0)
 def check_effects(records: Records) -> None:
     """Check the records of effects."""
     for (kind, index), content in records.items():
-        if kind < HEMISPHERE or kind in (SHADOW, NO_SHADOW):
+        if kind < HEMISPHERE or kind in (SHADOW, GROUND):
             continue
         if kind not in SIZES:
             raise Reverted("UnknownExtension", kind=kind, index=index)

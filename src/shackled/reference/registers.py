@@ -140,6 +140,9 @@ class Registers:
     #: what is shaded of its faces
     shadow_faces: list[Entry] = field(default_factory=list)
     shadow_diffuse: int = 0
+    fade_square: int = 0
+    fade_range: int = 0
+    fade_place: tuple[int, int, int] = (0, 0, 0)
 
     # triangle
     mode: int = 0

@@ -10,11 +10,14 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import layout, patches, shading
+from .extensions import OPAQUE
 from .fragment_light import color_at
 from .fragment_shader import pack as pack_lanes
 from .fragment_shader import shade_quadratic
+from .ground import opacity_at
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .quadratic import Differences
@@ -223,6 +226,10 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: R
             color = linear(word)
         elif r.patch_size == 1:
             color = exact(word, samples, place, g, r)
+            if r.opacity == 0:
+                # a ground that has faded
+                r.opacity = OPAQUE
+                continue
         else:
             if r.patch_size:
                 cell = column // r.patch_size, row // r.patch_size
@@ -234,7 +241,9 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: R
             color = quadratic(word, column, row, farthest, r)
         for i in seen:
             r.sample_depths[place][i] = depths[i]
-            r.sample_colors[place][i] = color
+            r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r) if r.fade_range else color
+        if r.fade_range:
+            r.opacity = OPAQUE
 
 
 def linear(word: int) -> Color:
@@ -264,6 +273,10 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
+    if r.fade_range:
+        r.opacity = opacity_at(word >> 192, x, y, r)
+        if r.opacity == 0:
+            return 0, 0, 0
     if r.shadows:
         set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
@@ -295,11 +308,16 @@ def blend(word: int, depths: list[int], samples: list[int], place: tuple[int, in
     color = exact(word, samples, place, g, r)
     for i in seen:
         old[i] = depths[i] | DRAWN
-        behind = r.sample_colors[place][i]
-        behind[:] = [
-            (value * r.opacity + int(byte) * ((1 << 24) - r.opacity) + (1 << 23)) >> 24
-            for value, byte in zip(color, behind, strict=True)
-        ]
+        r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r)
+
+
+def over(color: Color, behind: NDArray[np.uint8], r: Registers) -> Color:
+    """Return a colour over what is behind it."""
+    blue, green, red = (
+        (value * r.opacity + int(byte) * ((1 << 24) - r.opacity) + (1 << 23)) >> 24
+        for value, byte in zip(color, behind, strict=True)
+    )
+    return blue, green, red
 
 
 # ---- lines ----

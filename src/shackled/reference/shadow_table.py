@@ -48,17 +48,18 @@ class Table:
     faces: list[list[Entry]]
 
     def encode(self) -> bytes:
-        """Return the answer of the contract: an entry for each face, and the lists behind them."""
-        entries, lists = [], b""
+        """Return the answer of the contract: where entries of objects begin, an entry for each face, and lists."""
+        head, entries, lists = b"", b"", b""
         count = sum(map(len, self.faces))
-        begin = (ENTRY_SIZE * count + 31) & ~31
-        for entry in (each for faces in self.faces for each in faces):
-            if isinstance(entry, int):
-                entries.append(entry)
-            else:
-                entries.append(begin + len(lists))
-                lists += b"".join(words_of(entry))
-        return b"".join(each.to_bytes(ENTRY_SIZE, "big") for each in entries).ljust(begin, b"\0") + lists
+        size = 32 * len(self.faces)
+        begin = size + (ENTRY_SIZE * count + 31 & ~31)
+        for faces in self.faces:
+            head += (size + len(entries)).to_bytes(32, "big")
+            for entry in faces:
+                number = entry if isinstance(entry, int) else begin + len(lists)
+                entries += number.to_bytes(ENTRY_SIZE, "big")
+                lists += b"" if isinstance(entry, int) else b"".join(words_of(entry))
+        return (head + entries).ljust(begin, b"\0") + lists
 
 
 def dark_samples(entry: Entry, column: int, row: int) -> list[bool]:

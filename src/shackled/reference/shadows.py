@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from . import layout, transform, vertex_shader
-from .effects import NO_SHADOW, SHADOW
-from .extensions import OPACITY, Records
+from . import ground, layout, transform, vertex_shader
+from .effects import GROUND, SHADOW
+from .extensions import MAX_COORDINATE, OPACITY, Records
 from .mesh import Mesh, open_mesh
 from .registers import Registers
 from .roots import sqrt
@@ -106,11 +106,11 @@ def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
     """Check the records of shadows; return the light that casts them, and which faces of culled objects do."""
     found = None
     for (kind, index), content in records.items():
-        if kind not in (SHADOW, NO_SHADOW):
+        if kind not in (SHADOW, GROUND):
             continue
-        expected, count = (32, len(scene.lights)) if kind == SHADOW else (0, len(scene.objects))
-        if len(content) != expected:
-            raise Reverted("ExtensionSize", kind=kind, index=index, expected=expected, actual=len(content))
+        count = len(scene.lights if kind == SHADOW else scene.objects)
+        if len(content) != 32:
+            raise Reverted("ExtensionSize", kind=kind, index=index, expected=32, actual=len(content))
         if index >= count:
             raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
         if kind == SHADOW:
@@ -120,6 +120,10 @@ def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
             if not ALL <= rule <= TURNED:
                 raise Reverted("ShadowRuleOutOfRange", light=index, rule=rule)
             found = index, rule
+        else:
+            near, far = ground.radii(content)
+            if near >= far or far > MAX_COORDINATE:
+                raise Reverted("GroundOutOfRange", object=index, inner=near, outer=far)
     return found
 
 
@@ -159,7 +163,7 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
 def casts(scene: Scene, index: int, records: Records) -> bool:
     """Return whether an object casts a shadow: not wires, what is not opaque, and what shall not."""
     is_wire = scene.objects[index].flags & WIREFRAME
-    return not is_wire and (OPACITY, index) not in records and (NO_SHADOW, index) not in records
+    return not is_wire and (OPACITY, index) not in records and (GROUND, index) not in records
 
 
 def world_places(scene: Scene, index: int, mesh: Mesh) -> list[Vector]:
