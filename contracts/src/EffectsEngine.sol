@@ -66,9 +66,22 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             store(ALBEDO_0, load(COLOR_0));
             store(ALBEDO_1, load(COLOR_1));
             store(ALBEDO_2, load(COLOR_2));
+            store(IS_UNIFORM, isUniform(mode) ? 1 : 0);
+            store(UNIFORM_SHARE, 0);
             store(COLOR_0, WEIGHTED_BIAS);
             store(COLOR_1, 0);
             store(COLOR_2, 0);
+        }
+    }
+
+    /// @dev Whether nothing but shadows changes the colour from place to place.
+    function isUniform(uint256 mode) private pure returns (bool) {
+        unchecked {
+            if (load(COLOR_1) | load(COLOR_2) | load(FOG_RANGE) | load(RIM_COLOR) | (mode & (IS_SMOOTH | HAS_SPECULAR)) != 0) return false;
+            for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
+                if (load(light + LIGHT_IS_POINT) != 0) return false;
+            }
+            return true;
         }
     }
 

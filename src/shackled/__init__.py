@@ -10,7 +10,7 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene import Background, Camera, Fog, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, euler
+from .scene import Background, Camera, Fog, Ground, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, euler
 from .web import export, view
 
 try:
@@ -25,6 +25,7 @@ __all__ = [
     "ChainError",
     "Cluster",
     "Fog",
+    "Ground",
     "Hemisphere",
     "Image",
     "InputError",

@@ -42,25 +42,29 @@ library EffectSamples {
             if (mode & IS_DEPTH_PASS != 0) {
                 depths |= FOUND_SAMPLES | (old & SAMPLE_COLORS);
             } else {
-                uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-                if (load(FADE_RANGE) != 0) {
-                    uint256 opacity = load(OPACITY);
-                    if (opacity == 0) {
-                        store(OPACITY, OPAQUE);
-                        return;
-                    }
-                    depths |= BlendedSamples.over(color, old);
-                    store(OPACITY, OPAQUE);
+                uint256 color = colorAt(attribute, covered, column, row);
+                if (mode & IS_BLENDED != 0) {
+                    depths |= DRAWN_SAMPLES | BlendedSamples.over(color, old);
+                } else if (load(OPACITY) == OPAQUE) {
+                    depths |= color * ONES_64;
                 } else {
-                    depths |= mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, old);
+                    // of a ground
+                    bool isGone = load(OPACITY) == 0;
+                    if (!isGone) depths |= BlendedSamples.over(color, old);
+                    store(OPACITY, OPAQUE);
+                    if (isGone) return;
                 }
             }
             Samples.write(row, column, depths, seen);
         }
     }
 
-    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
         unchecked {
+            uint256 uniform = load(IS_UNIFORM);
+            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
+            bool isKnown = uniform != 0 && load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
+            if (isKnown && load(FADE_RANGE) == 0) return load(UNIFORM_COLOR);
             (uint256 x, uint256 y) = Samples.centroid(covered);
             attribute = Samples.moved(attribute, x, y);
             uint256 step = load(RAY_STEP);
@@ -71,8 +75,10 @@ library EffectSamples {
                 store(OPACITY, Ground.opacityAt(attribute, x, y));
                 if (load(OPACITY) == 0) return 0;
             }
-            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
-            return SurfaceLight.colorAt(attribute, x, y);
+            if (isKnown) return load(UNIFORM_COLOR);
+            color = Samples.bytesOf(SurfaceLight.colorAt(attribute, x, y));
+            store(UNIFORM_COLOR, color);
+            store(UNIFORM_SHARE, load(SHADOW_SHARE) + 1);
         }
     }
 }

@@ -20,6 +20,7 @@ from ._light import Light
 from ._object import Object
 from ._packed_mesh import pack
 from ._scene import Scene
+from ._staging import is_closed
 
 ONE = 1 << 32
 
@@ -34,6 +35,10 @@ HEMISPHERE = 4
 RIM = 5
 FOG = 6
 TONE = 7
+SHADOW = 10
+GROUND = 11
+#: The first kind of which sizes are told in words of 32 bytes.
+LONG_KINDS = 8
 #: The unit of opacities.
 OPACITY_STEP = 2.0**-24
 #: The unit of exposures.
@@ -41,6 +46,12 @@ EXPOSURE_STEP = 2.0**-16
 
 CULL_BACKFACES = 1
 WIREFRAME = 2
+
+#: Rules of a shadow: which faces of culled objects cast it.
+ALL_FACES = 1
+TURNED_AWAY = 2
+#: The largest radius of a ground, Q32.
+MAX_FADE = 1 << 58
 
 #: Flags of a tone.
 FILMIC = 1
@@ -126,13 +137,30 @@ def extensions(scene: Scene) -> bytes:
         exposure = max(round(scene.tone.exposure / EXPOSURE_STEP), 1)
         flags = FILMIC * scene.tone.filmic + GAMMA * scene.tone.gamma
         records.append(_record(TONE, 0, exposure.to_bytes(4, "big") + bytes([flags])))
+    for index, light in enumerate(scene.lights):
+        if light.shadow:
+            records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
+    for index, thing in enumerate(scene.objects):
+        if thing.fade is not None:
+            inner, outer = (min(each, MAX_FADE) for each in _q32(thing.fade))
+            radii = min(inner, MAX_FADE - 1).to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
+            records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
     return b"".join(records)
+
+
+def shadow_rule(scene: Scene) -> int:
+    """Return which faces of culled objects cast shadows: all, or of closed ones those turned away from the light."""
+    casters = [o for o in scene.objects if o.cull and not o.wireframe and o.opacity == 1 and o.fade is None]
+    return TURNED_AWAY if all(is_closed(o.mesh) for o in casters) else ALL_FACES
 
 
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
-        raise InputError(f"transparent objects must be among the first 65,536 of a scene, not number {index:,}")
-    return bytes([kind]) + index.to_bytes(2, "big") + len(content).to_bytes(2, "big") + content
+        raise InputError(
+            f"objects with an opacity or a fade must be among the first 65,536 of a scene, not number {index:,}"
+        )
+    size = len(content) if kind < LONG_KINDS else len(content) // 32
+    return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content
 
 
 def _light(light: Light) -> bytes:

@@ -19,17 +19,21 @@ from ._codec import (
     FILMIC,
     FOG,
     GAMMA,
+    GROUND,
     HEMISPHERE,
     LIGHTS,
+    LONG_KINDS,
     ONE,
     OPACITY,
     OPACITY_STEP,
     PROJECTIONS,
     RIM,
     SHADINGS,
+    SHADOW,
     SPOT,
     TONE,
     WIREFRAME,
+    shadow_rule,
 )
 from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
@@ -46,7 +50,7 @@ SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
 RECORD_HEADER = 5
 #: Bytes of the content of a record, by kind.
-RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0, HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
+RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0, HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5, SHADOW: 32, GROUND: 32}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -81,12 +85,16 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), OPACITY: len(objects)}
+    counts = {SPOT: len(lights), OPACITY: len(objects), SHADOW: len(lights), GROUND: len(objects)}
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
-    return Scene(
-        [_with_opacity(each, records.get((OPACITY, index))) for index, each in enumerate(objects)],
+    lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
+    scene = Scene(
+        [
+            _with_fade(_with_opacity(each, records.get((OPACITY, index))), records.get((GROUND, index)))
+            for index, each in enumerate(objects)
+        ],
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
         background,
@@ -97,6 +105,10 @@ def decode(data: bytes) -> Scene:
         (ANTIALIAS, 0) in records,
         **_effects(records),
     )
+    for (kind, _), content in records.items():
+        if kind == SHADOW and int.from_bytes(content, "big") != shadow_rule(scene):
+            raise InputError("the shadow in the extensions is cast by other faces than those that the scene chooses")
+    return scene
 
 
 _PARTS = ("the lights", "the objects", "the extensions")
@@ -225,8 +237,9 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
     place, last = 0, -1
     while place < len(data):
         header = data[place : place + RECORD_HEADER]
-        content = data[place + RECORD_HEADER :][: int.from_bytes(header[3:], "big")]
-        if len(header) < RECORD_HEADER or len(content) < int.from_bytes(header[3:], "big"):
+        size = int.from_bytes(header[3:], "big") * (32 if header[0] >= LONG_KINDS else 1)
+        content = data[place + RECORD_HEADER :][:size]
+        if len(header) < RECORD_HEADER or len(content) < size:
             raise InputError(f"the extensions are cut off at byte {place}")
         key = int.from_bytes(header[:3], "big")
         kind, index = key >> 16, key & 0xFFFF
@@ -261,6 +274,16 @@ def _with_opacity(thing: Object, record: bytes | None) -> Object:
     if opacity >= 1:
         raise InputError("an opacity in the extensions must be below 1")
     return evolve(thing, opacity=opacity)
+
+
+def _with_fade(thing: Object, record: bytes | None) -> Object:
+    if record is None:
+        return thing
+    if any(record[16:]):
+        raise InputError("zeros must fill the word of a ground in the extensions")
+    radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
+    inner, outer = (_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii)
+    return evolve(thing, fade=(inner, outer))
 
 
 def _effects(records: Records) -> dict[str, Any]:
