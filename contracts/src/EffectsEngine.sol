@@ -9,6 +9,7 @@ import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import {SampleWires} from "./pipeline/SampleWires.sol";
 import {Rasterizer} from "./pipeline/Rasterizer.sol";
 import {ShadowRows} from "./pipeline/ShadowRows.sol";
+import {Texture} from "./pipeline/Texture.sol";
 import {Shading} from "./pipeline/Shading.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
 import {WEIGHTED_BIAS} from "./pipeline/FragmentLight.sol";
@@ -16,8 +17,8 @@ import {Rectangle} from "./scene/Scene.sol";
 import "./pipeline/Registers.sol";
 
 /// @title EffectsEngine: from vertices to pixels, for scenes with effects.
-/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog or a tone, with
-/// four samples for each pixel, and lights every fragment for itself.
+/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone,
+/// a texture, a shadow or a ground, with four samples for each pixel, and lights every fragment for itself.
 contract EffectsEngine is SampleBuffer, SampleWires {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
@@ -26,6 +27,9 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         returns (uint256)
     {
         Effects.setFrame();
+        assembly ("memory-safe") {
+            mstore(LISTS, lists)
+        }
         Effects.setObject();
         return super.openPicture(tile, image, bandRows, lists);
     }
@@ -71,13 +75,15 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             store(COLOR_0, WEIGHTED_BIAS);
             store(COLOR_1, 0);
             store(COLOR_2, 0);
+            if (load(TEXTURE) != 0 && mode & IS_DEPTH_PASS == 0) Texture.setTriangle(a, b, c, recordShift(mode));
         }
     }
 
     /// @dev Whether nothing but shadows changes the colour from place to place.
     function isUniform(uint256 mode) private pure returns (bool) {
         unchecked {
-            if (load(COLOR_1) | load(COLOR_2) | load(FOG_RANGE) | load(RIM_COLOR) | (mode & (IS_SMOOTH | HAS_SPECULAR)) != 0) return false;
+            if (mode & (IS_SMOOTH | HAS_SPECULAR) != 0) return false;
+            if (load(COLOR_1) | load(COLOR_2) | load(TEXTURE) | load(FOG_RANGE) | load(RIM_COLOR) != 0) return false;
             for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
                 if (load(light + LIGHT_IS_POINT) != 0) return false;
             }

@@ -31,7 +31,7 @@ contract Shadows is SceneErrors {
     /// @param casters The addresses of the faces that cast shadows.
     /// @param sets See Faces; of `words` words each.
     /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas.
+    /// @param heads A word for each row of the canvas, of which there are `height`.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
         Frame frame;
@@ -44,6 +44,7 @@ contract Shadows is SceneErrors {
         uint256 words;
         uint256 found;
         uint256 heads;
+        uint256 height;
         int256[3] eye;
     }
 
@@ -68,6 +69,7 @@ contract Shadows is SceneErrors {
             reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             State memory state;
+            state.height = scene.canvas.height;
             int256[6] memory bounds = readVertices(scene, state);
             if (bounds[0] <= bounds[3]) {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
@@ -241,7 +243,12 @@ contract Shadows is SceneErrors {
             Object calldata object = scene.objects[index];
             Mesh memory mesh = openMesh(object.mesh);
             bool isReceiver = object.material.shading != UNLIT && object.flags & WIREFRAME == 0;
-            if (isReceiver) Transform.setMatrix(view_, object, object.rotation.toMatrix());
+            if (isReceiver) {
+                Transform.setMatrix(view_, object, object.rotation.toMatrix());
+                assembly ("memory-safe") {
+                    mcopy(MESH_VERTICES, mesh, 0xc0)
+                }
+            }
             Receiver memory receiver;
             receiver.planes = freeMemory();
             setFreeMemory(receiver.planes + 0x200);
@@ -252,7 +259,7 @@ contract Shadows is SceneErrors {
             for (uint256 face = state.faces[index]; face != last; face += FACE_RECORD_SIZE) {
                 uint256 entry = LIT;
                 if (isReceiver && receives(face, state.eye, view_.orthographic, isFlat, isCulled)) {
-                    entry = shadeFace(state, receiver, mesh, face, source, scene.canvas.height);
+                    entry = shadeFace(state, receiver, face, source);
                 }
                 store(face + FACE_ENTRY, entry);
                 source += FACE_SIZE;
@@ -296,15 +303,13 @@ contract Shadows is SceneErrors {
     function shadeFace(
         State memory state,
         Receiver memory receiver,
-        Mesh memory mesh,
         uint256 face,
-        uint256 source,
-        uint256 height
+        uint256 source
     ) private pure returns (uint256) {
         unchecked {
             uint256 corners = load(face);
             (receiver.corners, receiver.isPlaced) = (corners, false);
-            bool hasPlanes;
+            Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
             uint256 count;
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
@@ -315,40 +320,45 @@ contract Shadows is SceneErrors {
                     bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
                 }
                 while (bits != 0) {
-                    uint256 place = Faces.lowestBit(bits);
+                    uint256 caster = load(state.casters + 32 * (8 * offset + Faces.lowestBit(bits)));
                     bits &= bits - 1;
-                    uint256 caster = load(state.casters + 32 * (8 * offset + place));
                     if (caster == face) continue;
-                    if (!hasPlanes) {
-                        hasPlanes = true;
-                        Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
-                    }
-                    uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
-                    if (shade == MISSED) continue;
-                    if (shade == COVERED) return DARK;
-                    if (!receiver.isPlaced) Receivers.place(receiver, mesh, Triangles.readIndices(source));
-                    uint256 list = freeMemory();
-                    uint256 end;
-                    (shade, end) = Receivers.write(receiver, height, list + 0x40);
-                    if (shade == MISSED) continue;
-                    if (shade == COVERED) return DARK;
-                    setFreeMemory(end);
-                    store(list + 0x20, end);
-                    store(state.found + 32 * count++, list);
+                    uint256 found = shadowOf(state, receiver, caster, source);
+                    if (found == DARK) return DARK;
+                    if (found != LIT) store(state.found + 32 * count++, found);
                 }
             }
-            return count == 0 ? LIT : ordered(state, count, height);
+            return count == 0 ? LIT : ordered(state, count);
+        }
+    }
+
+    /// @return What one face casts on another: LIT for nothing, DARK for all of it, or the address of a list.
+    function shadowOf(State memory state, Receiver memory receiver, uint256 caster, uint256 source) private pure returns (uint256) {
+        unchecked {
+            uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
+            if (shade == MISSED) return LIT;
+            if (shade == COVERED) return DARK;
+            if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
+            uint256 list = freeMemory();
+            uint256 end;
+            (shade, end) = Receivers.write(receiver, state.height, list + 0x40);
+            if (shade == MISSED) return LIT;
+            if (shade == COVERED) return DARK;
+            setFreeMemory(end);
+            store(list + 0x20, end);
+            return list;
         }
     }
 
     /// @dev Chains the lists that were found, ordered by their first rows.
     /// @return first The address of the first.
-    function ordered(State memory state, uint256 count, uint256 height) private pure returns (uint256 first) {
+    function ordered(State memory state, uint256 count) private pure returns (uint256 first) {
         unchecked {
             uint256 found = state.found;
             uint256 heads = state.heads;
+            uint256 size = 32 * state.height;
             assembly ("memory-safe") {
-                calldatacopy(heads, calldatasize(), shl(5, height))
+                calldatacopy(heads, calldatasize(), size)
                 // those of a row in front of one another, from the last on
                 for { let p := add(found, shl(5, count)) } gt(p, found) {} {
                     p := sub(p, 0x20)

@@ -10,7 +10,22 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene import Background, Camera, Fog, Ground, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, euler
+from .scene import (
+    Background,
+    Camera,
+    Fog,
+    Ground,
+    Hemisphere,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    Rim,
+    Scene,
+    Texture,
+    Tone,
+    euler,
+)
 from .web import export, view
 
 try:
@@ -40,6 +55,7 @@ __all__ = [
     "Rim",
     "Scene",
     "ShackledError",
+    "Texture",
     "Tone",
     "__version__",
     "euler",

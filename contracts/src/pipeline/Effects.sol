@@ -6,6 +6,7 @@ import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Ground} from "./Ground.sol";
 import {ALL_SAMPLES, ShadowRows} from "./ShadowRows.sol";
+import {TEXTURE_OF, Texture} from "./Texture.sol";
 import "./Registers.sol";
 
 // The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
@@ -20,7 +21,8 @@ import "./Registers.sol";
 //                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
 //                first
 //
-// What they do is told in SurfaceLight. The last two are checked by the contract Shadows: see there, and Ground.
+// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture. SHADOW and GROUND are checked by the contract Shadows: see
+// there, and Ground.
 
 uint256 constant HEMISPHERE = 4;
 uint256 constant RIM = 5;
@@ -62,6 +64,10 @@ library Effects {
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (kind == SHADOW) store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
                 if (kind == SHADOW || kind == GROUND) continue;
+                if (kind == TEXTURE_OF) {
+                    Texture.check(record, index);
+                    continue;
+                }
                 if (kind > TONE) revert SceneErrors.UnknownExtension(kind, index);
                 uint256 expected = sizeOf(kind);
                 uint256 size = Extensions.sizeOf(record);
@@ -73,6 +79,7 @@ library Effects {
                 else if (kind == FOG) setFog(content);
                 else setTone(content);
             }
+            store(IS_TONED, load(TONE_FLAGS) != 0 || load(EXPOSURE) != ONE_16 ? 1 : 0);
             if (load(TONE_FLAGS) & TONE_GAMMA != 0) decodeLights();
             if (load(SHADOW_LIGHT) != 0) store(SHADOW_COLOR, load(load(SHADOW_LIGHT) + LIGHT_COLOR));
         }
@@ -143,9 +150,14 @@ library Effects {
             uint256 shadow = load(SHADOW_LIGHT);
             // as it is without shadows
             if (shadow != 0) store(shadow + LIGHT_COLOR, load(SHADOW_COLOR));
-            uint256 object = load(OBJECT_FIRST) + load(OBJECT_INDEX);
-            Ground.setObject(object);
-            ShadowRows.setObject(object);
+            uint256 index = load(OBJECT_INDEX);
+            Ground.setObject(load(OBJECT_FIRST) + index);
+            ShadowRows.setObject(load(OBJECT_FIRST) + index);
+            if (load(LISTS) != 0) {
+                // an array of pointers to the lists of objects, which begin with the place of the records
+                store(RECORDS, load(load(load(LISTS) + 32 + 32 * index)));
+                Texture.setObject(load(OBJECT_FIRST) + index);
+            }
             uint256 k = load(AMBIENT_COEFFICIENT);
             store(HEMISPHERE_SKY, scaled(load(SKY_COLOR), k));
             store(HEMISPHERE_GROUND, scaled(load(GROUND_COLOR), k));

@@ -93,7 +93,9 @@ library Extensions {
     /// @notice The records in memory with one more, which replaces one of the same kind and index.
     function added(bytes memory records, uint256 kind, uint256 index, bytes memory content) internal pure returns (bytes memory more) {
         unchecked {
-            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(content.length), content);
+            // in words, for kinds from LONG_KINDS on
+            uint256 size = content.length >> (kind < LONG_KINDS ? 0 : 5);
+            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(size), content);
             uint256 key = kind << 16 | index;
             // where the record belongs, and where those after it begin
             (uint256 place, uint256 next) = (0, 0);
@@ -103,7 +105,7 @@ library Extensions {
                     header := shr(216, mload(add(add(records, 32), next)))
                 }
                 if (header >> 16 > key) break;
-                uint256 end = next + RECORD_HEADER + (header & 0xffff);
+                uint256 end = next + RECORD_HEADER + ((header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5));
                 if (end > records.length) revert SceneErrors.ExtensionCutOff(next);
                 next = end;
                 if (header >> 16 < key) place = next;
@@ -146,6 +148,12 @@ library Extensions {
             while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
             return isOf(record, end, kind, index);
         }
+    }
+
+    /// @notice Whether there is a record of the kinds that tell something of vertices or faces.
+    function isLong(Scene calldata scene) internal pure returns (bool) {
+        (uint256 record, uint256 end) = behind(scene, LONG_KINDS - 1);
+        return record != end;
     }
 
     /// @notice The bytes of what follows the header of a record.

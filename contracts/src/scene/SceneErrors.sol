@@ -68,6 +68,8 @@ interface SceneErrors {
     error ShadowRuleOutOfRange(uint256 light, uint256 rule);
     /// @notice The inner radius of a ground is below its outer one, which is 2^58 at most (Q32).
     error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
+    /// @notice The flags of a texture are 0 to 3, and its texels have 1, 2, 4, 8 or 24 bits.
+    error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Mesh} from "../scene/Mesh.sol";
 import {VertexShader} from "../pipeline/VertexShader.sol";
 import "../pipeline/Registers.sol";
 import {ADDRESS_MASK, BEHIND, FACE_B_AT, FACE_C_AT, FACE_PLANES_AT, Faces, PLANES_SIZE, PLANE_SIZE} from "./Faces.sol";
@@ -112,9 +111,9 @@ library Receivers {
         }
     }
 
-    /// @notice Sets the corners on the canvas. The registers have the matrix of the object.
+    /// @notice Sets the corners on the canvas. The registers have the mesh and the matrix of the object.
     /// @param numbers The three numbers of the vertices, 16 bits each.
-    function place(Receiver memory receiver, Mesh memory mesh, uint256 numbers) internal pure {
+    function place(Receiver memory receiver, uint256 numbers) internal pure {
         unchecked {
             receiver.isPlaced = true;
             int256[9] memory p = receiver.places;
@@ -123,7 +122,7 @@ library Receivers {
             bool isPlain = true;
             uint256 most;
             for (uint256 i; i != 9; i += 3) {
-                VertexShader.clipCoordinates(mesh, (numbers >> (FACE_FIRST_AT - 16 * (i / 3))) & FACE_INDEX_MASK, corner);
+                VertexShader.clipCoordinates((numbers >> (FACE_FIRST_AT - 16 * (i / 3))) & FACE_INDEX_MASK, corner);
                 (int256 x, int256 y, int256 w) = (loadSigned(corner), loadSigned(corner + CORNER_Y), loadSigned(corner + CORNER_W));
                 if (w < loadSigned(NEAR)) isPlain = false;
                 if (isOrthographic) w = int256(ONE_32);

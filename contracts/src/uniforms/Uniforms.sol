@@ -46,8 +46,9 @@ library Uniforms {
             data = freeMemory() + room;
             uint256 size;
             uint256 moved;
-            bool culls = (tile.width < scene.canvas.width || tile.height < scene.canvas.height) && load(SHADOWS) == 0
-                && TileCulling.areApart(scene);
+            bool culls = tile.width < scene.canvas.width || tile.height < scene.canvas.height;
+            // the coordinates of a texture are told by the numbers of vertices, and shadows by those of faces, which culling changes
+            culls = culls && !Extensions.isLong(scene) && TileCulling.areApart(scene);
             assembly ("memory-safe") {
                 size := sub(calldatasize(), scene)
                 mstore(data, selector)

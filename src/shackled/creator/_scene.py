@@ -28,7 +28,7 @@ from ..scene import (
     half_height_of,
     is_closed,
     multiply,
-    painted,
+    painted_object,
     rotate,
     simplify_scene,
 )
@@ -220,10 +220,10 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
     surface = state.surface
     given = {name: value for name in MATERIAL if (value := getattr(surface, name)) is not None}
     changes: dict[str, Any] = {name: value for name in OBJECT if (value := getattr(state, name)) is not None}
+    if surface.color is not None:
+        o = painted_object(o, surface.color)
     if given:
         changes["material"] = evolve(o.material, **given)
-    if surface.color is not None:
-        changes["mesh"] = painted(o.mesh, surface.color)
     opacity = state.opacities[number] if number < len(state.opacities) else None
     opacity = surface.opacity if opacity is None else opacity
     if opacity is not None:

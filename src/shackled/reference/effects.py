@@ -9,6 +9,7 @@ from .materials import scaled
 from .registers import Registers
 from .scene_errors import Reverted
 from .structs import Material, Scene
+from .texture import check_texture
 from .vector import Matrix, transposed_times
 from .view import View
 from .words import color_lanes
@@ -17,6 +18,8 @@ from .words import color_lanes
 HEMISPHERE, RIM, FOG, TONE = 4, 5, 6, 7
 #: Kinds of records that `shadows` checks: of the light that casts shadows, and of objects that cast none and fade.
 SHADOW, GROUND = 10, 11
+#: A kind of an object.
+TEXTURE = 8
 SIZES = {HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
 #: Flags of a TONE: the filmic curve; light is added up in linear values.
 TONE_FILMIC, TONE_GAMMA = 1, 2
@@ -26,10 +29,18 @@ MAX_RIM_POWER, MAX_EXPOSURE = 16, 64 << 16
 UP = (0, 1 << 32, 0)
 
 
-def check_effects(records: Records) -> None:
+def has_shadows(records: Records) -> bool:
+    """Return whether the contract Shadows is called."""
+    return any(kind >= SHADOW for kind, _ in records)
+
+
+def check_effects(records: Records, scene: Scene) -> None:
     """Check the records of effects."""
     for (kind, index), content in records.items():
         if kind < HEMISPHERE or kind in (SHADOW, GROUND):
+            continue
+        if kind == TEXTURE:
+            check_texture(content, index, scene)
             continue
         if kind not in SIZES:
             raise Reverted("UnknownExtension", kind=kind, index=index)
@@ -53,7 +64,7 @@ def check_effects(records: Records) -> None:
 
 def set_frame(scene: Scene, view: View, r: Registers) -> None:
     """Check the records, and set the registers of the frame."""
-    check_effects(r.records)
+    check_effects(r.records, scene)
     if content := r.records.get((TONE, 0)):
         r.exposure, r.tone_flags = int.from_bytes(content[:4], "big"), content[4]
     if content := r.records.get((RIM, 0)):

@@ -193,3 +193,8 @@ class Registers:
     fragment_normal_length: int = 0
     fragment_normal_ray: int = 0
     fragment_light: int = 0
+
+    #: the content of the record TEXTURE of the object
+    texture: bytes | None = None
+    #: texture coordinates of the vertices of a triangle, Q16
+    uvs: list[tuple[int, int]] = field(default_factory=list)

@@ -226,10 +226,6 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: R
             color = linear(word)
         elif r.patch_size == 1:
             color = exact(word, samples, place, g, r)
-            if r.opacity == 0:
-                # a ground that has faded
-                r.opacity = OPAQUE
-                continue
         else:
             if r.patch_size:
                 cell = column // r.patch_size, row // r.patch_size
@@ -275,8 +271,6 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
     if r.fade_range:
         r.opacity = opacity_at(word >> 192, x, y, r)
-        if r.opacity == 0:
-            return 0, 0, 0
     if r.shadows:
         set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)

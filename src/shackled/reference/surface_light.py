@@ -11,7 +11,7 @@ Narkowicz.
 
 from __future__ import annotations
 
-from . import gamma
+from . import gamma, texture
 from .effects import TONE_FILMIC, TONE_GAMMA
 from .fragment_light import WEIGHTED_BIAS, color_at
 from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH, IS_STEEP
@@ -78,6 +78,9 @@ def albedo_at(depth: int, s: int, t: int, r: Registers) -> list[int]:
             s, t = min(s, ONE), min(t, ONE)
     color = ((r.albedo_0 + r.albedo_1 * s + r.albedo_2 * t) & MASK) >> 24
     channels = [min(max((color >> (56 * i) & 0xFFFFFFFF) - ONE, 0), WHITE) for i in range(3)]
+    if r.texture is not None:
+        levels = reversed(texture.color_at(s, t, r))
+        channels = [value * level >> 16 for value, level in zip(channels, levels, strict=True)]
     return [gamma.decode(value) for value in channels] if r.tone_flags & TONE_GAMMA else channels
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from . import effects, ground, lights, materials, mesh_space, transform
+from .effects import TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
 from .registers import Registers
@@ -25,6 +26,7 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
     """Set the registers of an object."""
     obj = scene.objects[index]
     registers.opacity = opacity_of(index, registers)
+    registers.texture = registers.records.get((TEXTURE, index))
     rotation = to_matrix(obj.rotation)
     transform.set_matrix(view, obj, rotation, registers)
     transform.set_rounding(registers.tile, bool(obj.flags & WIREFRAME), registers)

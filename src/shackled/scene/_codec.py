@@ -15,10 +15,12 @@ from ..artifacts import artifact
 from ..checks import Color
 from ..errors import InputError
 from ._arithmetic import cosine
+from ._files.table import about
 from ._fit import fit
 from ._light import Light
 from ._object import Object
 from ._packed_mesh import pack
+from ._packed_texture import pack_texture
 from ._scene import Scene
 from ._staging import is_closed
 
@@ -35,10 +37,11 @@ HEMISPHERE = 4
 RIM = 5
 FOG = 6
 TONE = 7
+TEXTURE = 8
 SHADOW = 10
 GROUND = 11
-#: The first kind of which sizes are told in words of 32 bytes.
-LONG_KINDS = 8
+#: Records from this kind on have a size in words of 32 bytes, others in bytes.
+FIRST_IN_WORDS = 8
 #: The unit of opacities.
 OPACITY_STEP = 2.0**-24
 #: The unit of exposures.
@@ -137,6 +140,10 @@ def extensions(scene: Scene) -> bytes:
         exposure = max(round(scene.tone.exposure / EXPOSURE_STEP), 1)
         flags = FILMIC * scene.tone.filmic + GAMMA * scene.tone.gamma
         records.append(_record(TONE, 0, exposure.to_bytes(4, "big") + bytes([flags])))
+    for index, thing in enumerate(scene.objects):
+        if thing.material.texture is not None and thing.mesh.uvs is not None:
+            with about(f"objects[{index}]"):
+                records.append(_record(TEXTURE, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
     for index, light in enumerate(scene.lights):
         if light.shadow:
             records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
@@ -157,9 +164,10 @@ def shadow_rule(scene: Scene) -> int:
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
         raise InputError(
-            f"objects with an opacity or a fade must be among the first 65,536 of a scene, not number {index:,}"
+            "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
+            f"not number {index:,}"
         )
-    size = len(content) if kind < LONG_KINDS else len(content) // 32
+    size = len(content) // 32 if kind >= FIRST_IN_WORDS else len(content)
     return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content
 
 

@@ -17,12 +17,12 @@ from ._codec import (
     CULL_BACKFACES,
     EXPOSURE_STEP,
     FILMIC,
+    FIRST_IN_WORDS,
     FOG,
     GAMMA,
     GROUND,
     HEMISPHERE,
     LIGHTS,
-    LONG_KINDS,
     ONE,
     OPACITY,
     OPACITY_STEP,
@@ -31,6 +31,7 @@ from ._codec import (
     SHADINGS,
     SHADOW,
     SPOT,
+    TEXTURE,
     TONE,
     WIREFRAME,
     shadow_rule,
@@ -42,6 +43,7 @@ from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._object import Object
 from ._packed_mesh import WIDE, unpack
+from ._packed_texture import unpack_texture
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 
 WORD = 32
@@ -49,8 +51,19 @@ WORD = 32
 SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
 RECORD_HEADER = 5
-#: Bytes of the content of a record, by kind.
-RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0, HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5, SHADOW: 32, GROUND: 32}
+#: Bytes of the content of a record, by kind; None for those of any size.
+RECORD_SIZES: dict[int, int | None] = {
+    SPOT: 40,
+    OPACITY: 4,
+    ANTIALIAS: 0,
+    HEMISPHERE: 6,
+    RIM: 4,
+    FOG: 19,
+    TONE: 5,
+    TEXTURE: None,
+    SHADOW: 32,
+    GROUND: 32,
+}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -85,16 +98,13 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), OPACITY: len(objects), SHADOW: len(lights), GROUND: len(objects)}
+    counts = {SPOT: len(lights), SHADOW: len(lights), **dict.fromkeys((OPACITY, TEXTURE, GROUND), len(objects))}
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
     lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
     scene = Scene(
-        [
-            _with_fade(_with_opacity(each, records.get((OPACITY, index))), records.get((GROUND, index)))
-            for index, each in enumerate(objects)
-        ],
+        [_with_records(each, records, index) for index, each in enumerate(objects)],
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
         background,
@@ -237,7 +247,8 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
     place, last = 0, -1
     while place < len(data):
         header = data[place : place + RECORD_HEADER]
-        size = int.from_bytes(header[3:], "big") * (32 if header[0] >= LONG_KINDS else 1)
+        size = int.from_bytes(header[3:], "big")
+        size *= WORD if header[0] >= FIRST_IN_WORDS else 1
         content = data[place + RECORD_HEADER :][:size]
         if len(header) < RECORD_HEADER or len(content) < size:
             raise InputError(f"the extensions are cut off at byte {place}")
@@ -245,7 +256,7 @@ def _records(data: bytes, counts: Mapping[int, int]) -> Records:
         kind, index = key >> 16, key & 0xFFFF
         if key <= last:
             raise InputError(f"the extensions must ascend by kind and index; {kind}, {index} does not")
-        if len(content) != RECORD_SIZES.get(kind):
+        if kind not in RECORD_SIZES or RECORD_SIZES[kind] not in (None, size):
             raise InputError(f"an extension of kind {kind} and {len(content)} bytes is not known")
         if index >= (count := counts.get(kind, 1)):
             raise InputError(f"an extension belongs to number {index} of {count}, counted from 0")
@@ -267,23 +278,22 @@ def _with_spot(light: Light, record: bytes | None, where: str) -> Light:
         return Light.spot(light.vector, direction, light.color, *(math.degrees(math.acos(each)) for each in cosines))
 
 
-def _with_opacity(thing: Object, record: bytes | None) -> Object:
-    if record is None:
-        return thing
-    opacity = int.from_bytes(record, "big") * OPACITY_STEP
-    if opacity >= 1:
-        raise InputError("an opacity in the extensions must be below 1")
-    return evolve(thing, opacity=opacity)
-
-
-def _with_fade(thing: Object, record: bytes | None) -> Object:
-    if record is None:
-        return thing
-    if any(record[16:]):
-        raise InputError("zeros must fill the word of a ground in the extensions")
-    radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
-    inner, outer = (_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii)
-    return evolve(thing, fade=(inner, outer))
+def _with_records(thing: Object, records: Records, index: int) -> Object:
+    if (OPACITY, index) in records:
+        opacity = int.from_bytes(records[OPACITY, index], "big") * OPACITY_STEP
+        if opacity >= 1:
+            raise InputError("an opacity in the extensions must be below 1")
+        thing = evolve(thing, opacity=opacity)
+    if (TEXTURE, index) in records:
+        with about(f"the texture of objects[{index}]"):
+            texture, uvs = unpack_texture(records[TEXTURE, index], len(thing.mesh.positions))
+        thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
+    if (record := records.get((GROUND, index))) is not None:
+        if any(record[16:]):
+            raise InputError("zeros must fill the word of a ground in the extensions")
+        radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
+        thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
+    return thing
 
 
 def _effects(records: Records) -> dict[str, Any]:

@@ -24,7 +24,7 @@ from ._mesh import Mesh
 from ._object import OPACITIES, Object
 from ._rotation import IDENTITY, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
-from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted, placed
+from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made.
@@ -420,30 +420,36 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
-    """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture."""
+def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
+    """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture.
+
+    thing: also the parts of a model, as objects in its own coordinates.
+    """
     if isinstance(thing, Scene) and not look:
         return thing
     crease = look.get("crease", SIMPLIFIED_CREASE)
-    if isinstance(thing, Mesh):
-        width, height = look.get("size", (staging.side, staging.side))
-        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
-        rotation = look.get("rotate", IDENTITY)
-        own = staging.view_of(rotate(rotation, thing.positions))
-        view = view_of(look, width, height, look.get("orthographic", False), own)
-        if staging.by_normals:
-            thing, look = _shaded(thing, look, staging.material.shading)
-        scene = placed(thing, rotation, view, staging, width, height)
-    else:
+    is_staged = not isinstance(thing, Scene)
+    if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
         scene = evolve(scene, width=width, height=height)
+        looks = [look] * len(scene.objects)
+    else:
+        parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
+        width, height = look.get("size", (staging.side, staging.side))
+        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
+        rotation = look.get("rotate", IDENTITY)
+        own = staging.view_of(rotate(rotation, np.concatenate([each.mesh.positions for each in parts])))
+        view = view_of(look, width, height, look.get("orthographic", False), own)
+        shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
+        scene = placed([each for each, _ in shaded], rotation, view, staging, width, height)
+        looks = [own_look for _, own_look in shaded]
     chosen = _given(look, settings_of("scene"))
     fog = chosen.pop("fog", scene.fog)
     scene = evolve(
         scene,
-        objects=[_object(each, look) for each in scene.objects],
-        camera=_camera(scene, look, isinstance(thing, Mesh)),
+        objects=[_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)],
+        camera=_camera(scene, look, is_staged),
         tone=_tone(scene.tone, look),
         **chosen,
     )
@@ -458,15 +464,18 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = MES
     return simplify_scene(scene, look["max_triangles"], crease)
 
 
-def _shaded(mesh: Mesh, look: Mapping[str, Any], shading: Shading) -> tuple[Mesh, Mapping[str, Any]]:
-    """Return the mesh and the look with the shading that suits its normals, unless the look or its file says which."""
-    if shading == "unlit" or {"shading", "crease"} & look.keys():
-        return mesh, look
+def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
+    """Return the object and the look with the shading that suits the normals of the mesh, unless the look or the file
+    says which.
+    """
+    mesh = o.mesh
+    if o.material.shading == "unlit" or {"shading", "crease"} & look.keys():
+        return o, look
     if mesh.normals is None:
-        return mesh, {**look, "crease": CREASE}
+        return o, {**look, "crease": CREASE}
     if is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
-        return without_normals(mesh), {**look, "shading": "flat"}
-    return mesh, {**look, "shading": "smooth"}
+        return evolve(o, mesh=without_normals(mesh)), {**look, "shading": "flat"}
+    return o, {**look, "shading": "smooth"}
 
 
 def view_of(
@@ -502,9 +511,9 @@ def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, in
 
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
     changes = _given(look, settings_of("object"))
-    mesh = painted(o.mesh, changes.pop("color")) if "color" in changes else o.mesh
-    material = evolve(o.material, **_given(look, settings_of("material")))
-    o = evolve(o, mesh=mesh, material=material, **changes)
+    if "color" in changes:
+        o = painted_object(o, changes.pop("color"))
+    o = evolve(o, material=evolve(o.material, **_given(look, settings_of("material"))), **changes)
     return smoothed(o, look["crease"]) if "crease" in look else o
 
 

@@ -5,6 +5,7 @@ Keys that are settings of a look come from its table, with their kinds and range
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 from collections.abc import Callable, Mapping
@@ -28,9 +29,11 @@ from .._mesh import Mesh
 from .._object import Object
 from .._rotation import IDENTITY, from_axis_angle, from_euler
 from .._scene import DEFAULT_SIDE, Scene
-from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted
+from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted_object
+from .._texture import FILTERS, WRAPS, Texture
 from .content import parse, read_text
-from .mesh_file import READERS, read_mesh
+from .mesh_file import READERS, read_model
+from .model import MeshPart
 from .original import is_original, original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
@@ -51,7 +54,8 @@ _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
 _GROUND = ("color", "height", "radius")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
-_MESH = ("positions", "faces", "colors", "normals")
+_MESH = ("positions", "faces", "colors", "normals", "uvs")
+_TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
 _ROTATION = ("quaternion", "axis", "angle")
 
 
@@ -81,7 +85,7 @@ def _scene(document: Mapping[str, Any], folder: Path) -> Scene:
     """Return the scene of a document whose meshes are files relative to `folder`."""
     table = Table(document, "", _SCENE)
     width, height = _size(table)
-    objects = [_object(part, where, folder) for where, part in table.rows("objects")]
+    objects = [each for where, part in table.rows("objects") for each in _objects(part, where, folder)]
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
     given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
     if "tone" in table:
@@ -117,7 +121,7 @@ def encode_scene_file(scene: Scene) -> bytes:
                 "position": thing.position,
                 "rotation": {"quaternion": thing.rotation},
                 "scale": thing.scale,
-                "material": _fields(thing.material, "material"),
+                "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
                 **_fields(thing, "object"),
                 **({} if thing.fade is None else {"fade": list(thing.fade)}),
             }
@@ -131,6 +135,14 @@ def _fields(value: object, part: Part) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
     fields = {name: getattr(value, name, None) for name in _keys(part)}
     return {name: found for name, found in fields.items() if found is not None}
+
+
+def _texture_keys(texture: Texture | None) -> dict[str, Any]:
+    if texture is None:
+        return {}
+    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
+    sides = {"width": texture.width, "height": texture.height}
+    return {"texture": {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}}
 
 
 def _plain(value: Any) -> Any:
@@ -278,35 +290,66 @@ def _light(value: object, where: str) -> Light:
         return Light(kind, place, color, *direction, **given)
 
 
-def _object(value: object, where: str, folder: Path) -> Object:
+def _objects(value: object, where: str, folder: Path) -> list[Object]:
+    """Return the objects of a table: one, or one for each texture of the mesh file that it names."""
     keys = Table(value, where, _OBJECT)
-    mesh = _mesh(keys, where, folder)
+    parts = _parts(keys, where, folder)
     given = _settings(keys, "object")
-    if "color" in given:
-        mesh = painted(mesh, given.pop("color"))
-    material = Material(**_settings(keys.table("material", _keys("material")), "material"))
+    surface = keys.table("material", _keys("material", "texture"))
+    fields = _settings(surface, "material")
+    texture = _texture(surface, folder) if "texture" in surface else None
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
     if "fade" in keys:
         given["fade"] = keys.numbers("fade", (0, 0))
+    color = given.pop("color", None)
     with about(where):
-        return Object(mesh, position, rotation, scale, material, **given)
+        objects = []
+        for part in parts:
+            material = Material(**fields, texture=texture or part.material.get("texture"))
+            thing = Object(part.mesh, position, rotation, scale, material, **given)
+            objects.append(thing if color is None else painted_object(thing, color))
+        return objects
 
 
-def _mesh(keys: Table, where: str, folder: Path) -> Mesh:
+def _parts(keys: Table, where: str, folder: Path) -> list[MeshPart]:
     value = keys.get("mesh")
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
-            return read_mesh(folder / value)
+            return read_model(folder / value)
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     inside = keys.table("mesh", _MESH)
     with about(inside.where):
-        return Mesh(
+        mesh = Mesh(
             inside.matrix("positions"),
             inside.matrix("faces", whole=True),
             inside.matrix("colors", whole=True) if "colors" in inside else None,
             inside.matrix("normals") if "normals" in inside else None,
+            inside.matrix("uvs", width=2) if "uvs" in inside else None,
         )
+    return [MeshPart(mesh, {})]
+
+
+def _texture(surface: Table, folder: Path) -> Texture:
+    """Return a texture: the path of an image, relative to the scene file, or its pixels."""
+    keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
+    keys = keys or surface.table("texture", _TEXTURE)
+    filter, wrap = keys.choice("filter", FILTERS, FILTERS[1]), keys.choice("wrap", WRAPS, WRAPS[0])
+    keys.only_one_of("image", "pixels")
+    with about(surface.place("texture")):
+        if "pixels" not in keys:
+            image = keys.get("image")
+            if not isinstance(image, str) or not image:
+                raise InputError("a texture needs an image: the path of a file, relative to the scene file")
+            return Texture.open(folder / image, filter, wrap)
+        width, height = keys.whole("width"), keys.whole("height")
+        try:
+            data = base64.b64decode(keys.get("pixels"), validate=True)
+        except (TypeError, ValueError):
+            raise InputError("pixels must be red, green and blue bytes in base64") from None
+        if len(data) != 3 * width * height:
+            raise InputError(f"{width} x {height} pixels need {3 * width * height:,} bytes, not {len(data):,}")
+        return Texture(np.frombuffer(data, np.uint8).reshape(height, width, 3), filter, wrap)
 
 
 def _rotation(keys: Table) -> ArrayLike:
