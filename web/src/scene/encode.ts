@@ -8,6 +8,7 @@ import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject 
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
+import { shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
 import type { Rectangle, Scene } from "./types.js";
 
@@ -31,6 +32,12 @@ const HEMISPHERE = 4;
 const RIM = 5;
 const FOG = 6;
 const TONE = 7;
+const SHADOW = 10;
+const GROUND = 11;
+/** Records from this kind on have a size in words of 32 bytes, others in bytes. */
+const FIRST_IN_WORDS = 8;
+/** The largest radius of a ground, Q32. */
+const MAX_FADE = 2n ** 58n;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
 /** One, in exposures. */
@@ -119,6 +126,17 @@ function extensions(scene: CheckedScene): Uint8Array {
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
     records.push(...effects(scene));
+    scene.lights.forEach(({ shadow }, index) => {
+        if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
+    });
+    scene.objects.forEach(({ fade }, index) => {
+        if (!fade) return;
+        const content = new DataView(new ArrayBuffer(WORD));
+        const [inner, outer] = fade.map((each) => (q32(each) < MAX_FADE ? q32(each) : MAX_FADE)) as [bigint, bigint];
+        content.setBigInt64(0, inner < MAX_FADE ? inner : MAX_FADE - 1n);
+        content.setBigInt64(8, outer > inner ? outer : inner + 1n);
+        records.push(record(GROUND, index, content));
+    });
     return joined(records);
 }
 
@@ -146,12 +164,14 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
-        throw new InputError(`transparent objects must be among the first 65,536 of a scene, not number ${index}`);
+        throw new InputError(
+            `objects with an opacity or a fade must be among the first 65,536 of a scene, not number ${index}`,
+        );
     }
     const head = new DataView(new ArrayBuffer(5));
     head.setUint8(0, kind);
     head.setUint16(1, index);
-    head.setUint16(3, content.byteLength);
+    head.setUint16(3, kind < FIRST_IN_WORDS ? content.byteLength : content.byteLength / WORD);
     return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
 }
 
