@@ -12,6 +12,7 @@ import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {AntialiasedEngine} from "./AntialiasedEngine.sol";
 import {AntialiasedFragmentEngine} from "./AntialiasedFragmentEngine.sol";
+import {EffectsEngine} from "./EffectsEngine.sol";
 import {Engine} from "./Engine.sol";
 import {FragmentEngine} from "./FragmentEngine.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
@@ -25,10 +26,12 @@ contract Renderer is SceneErrors {
     Engine public immutable engine;
     /// @notice What computes the pixels of all else.
     FragmentEngine public immutable fragmentEngine;
-    /// @notice The same with four samples for each pixel.
+    /// @notice What `engine` does, with four samples for each pixel.
     AntialiasedEngine public immutable antialiasedEngine;
-    /// @notice The same with four samples for each pixel.
+    /// @notice What `fragmentEngine` does, with four samples for each pixel.
     AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
+    /// @notice What computes all pixels of scenes with effects.
+    EffectsEngine public immutable effectsEngine;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
@@ -50,12 +53,14 @@ contract Renderer is SceneErrors {
         Engine engine_,
         FragmentEngine fragmentEngine_,
         AntialiasedEngine antialiasedEngine_,
-        AntialiasedFragmentEngine antialiasedFragmentEngine_
+        AntialiasedFragmentEngine antialiasedFragmentEngine_,
+        EffectsEngine effectsEngine_
     ) {
         engine = Engine(withCode(address(engine_)));
         fragmentEngine = FragmentEngine(withCode(address(fragmentEngine_)));
         antialiasedEngine = AntialiasedEngine(withCode(address(antialiasedEngine_)));
         antialiasedFragmentEngine = AntialiasedFragmentEngine(withCode(address(antialiasedFragmentEngine_)));
+        effectsEngine = EffectsEngine(withCode(address(effectsEngine_)));
     }
 
     function withCode(address engine_) private view returns (address) {
@@ -250,6 +255,7 @@ contract Renderer is SceneErrors {
     }
 
     function engineOf(Run memory run) private view returns (address) {
+        if (load(EFFECTS) != 0) return address(effectsEngine);
         if (load(FRAME_IS_ANTIALIASED) == 0) return run.turn == BY_FACES ? address(engine) : address(fragmentEngine);
         return run.turn == BY_FACES ? address(antialiasedEngine) : address(antialiasedFragmentEngine);
     }

@@ -39,7 +39,7 @@ library BlendedSamples {
     }
 
     /// @dev A colour over those of the four samples: color * OPACITY + behind * (1 - OPACITY), to the nearest level.
-    function over(uint256 color, uint256 behind) private pure returns (uint256 mixed) {
+    function over(uint256 color, uint256 behind) internal pure returns (uint256 mixed) {
         unchecked {
             (uint256 opacity, uint256 rest) = (load(OPACITY), ONE_24 - load(OPACITY));
             for (uint256 lane; lane != 256; lane += 64) {

@@ -16,6 +16,7 @@ STANDARD = (
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "EffectsEngine",
     "Renderer",
     "Original",
     "Genesis",

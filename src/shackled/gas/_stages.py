@@ -64,6 +64,9 @@ _SOURCES = {
     "pipeline/ExactSamples.sol": FRAGMENTS,
     "pipeline/BlendedSamples.sol": FRAGMENTS,
     "pipeline/SmoothSamples.sol": FRAGMENTS,
+    "pipeline/EffectSamples.sol": FRAGMENTS,
+    "pipeline/SurfaceLight.sol": FRAGMENTS,
+    "math/Gamma.sol": FRAGMENTS,
     "pipeline/Compositor.sol": "compositor",
     "pipeline/SampleBuffer.sol": "compositor",
     "encode/Bmp.sol": "encoding",
@@ -76,6 +79,7 @@ _SOURCES = {
     "FragmentEngine.sol": REST,
     "AntialiasedEngine.sol": REST,
     "AntialiasedFragmentEngine.sol": REST,
+    "EffectsEngine.sol": REST,
     "Renderer.sol": REST,
 }
 

@@ -20,6 +20,7 @@ from .primitive_assembly import Triangle
 from .quadratic import Differences
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
+from .surface_light import surface_color
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
@@ -255,7 +256,7 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
-    color = color_at(word >> 192, s, t, x, y, r)
+    color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
     return patches.pack(((color << 48) + patches.HALF_85) & MASK)
 
 

@@ -53,6 +53,11 @@ class Object(Value):
     wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
     opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", *OPACITIES))
 
+    def __attrs_post_init__(self) -> None:
+        """Check that a texture has its coordinates."""
+        if self.material.texture is not None and self.mesh.uvs is None:
+            raise InputError("a material with a texture needs a mesh with uvs, the texture coordinates of its vertices")
+
     @classmethod
     def from_matrix(cls, mesh: Mesh, matrix: ArrayLike, **fields: Any) -> Object:
         """Return a mesh placed by a (4, 4) matrix, p = matrix @ (v, 1), of a scale, a rotation and a translation.

@@ -17,6 +17,7 @@ export const RENDERER = [
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "EffectsEngine",
     "Renderer",
 ] as const;
 export type ContractName = (typeof RENDERER)[number] | "Studio";

@@ -28,11 +28,19 @@ const SCENE = [
     "ambientLight",
     "invert",
     "antialias",
+    "hemisphere",
+    "rim",
+    "fog",
+    "tone",
     "width",
     "height",
 ] as const;
 const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
 const BACKGROUND = ["top", "bottom"] as const;
+const HEMISPHERE = ["sky", "ground"] as const;
+const RIM = ["color", "power"] as const;
+const FOG = ["color", "near", "far"] as const;
+const TONE = ["exposure", "filmic", "gamma"] as const;
 const LIGHTS = {
     directional: ["kind", "direction", "color"],
     point: ["kind", "position", "color"],
@@ -86,6 +94,28 @@ export interface Light {
     cone: { direction: Vector; innerAngle: number; outerAngle: number } | undefined;
 }
 
+export interface Hemisphere {
+    sky: Rgb;
+    ground: Rgb;
+}
+
+export interface Rim {
+    color: Rgb;
+    power: number;
+}
+
+export interface Fog {
+    color: Rgb;
+    near: number;
+    far: number;
+}
+
+export interface Tone {
+    exposure: number;
+    filmic: boolean;
+    gamma: boolean;
+}
+
 export interface Scene {
     objects: SceneObject[];
     camera: Camera;
@@ -94,6 +124,10 @@ export interface Scene {
     ambientLight: Rgb;
     invert: boolean;
     antialias: boolean;
+    hemisphere: Hemisphere | undefined;
+    rim: Rim | undefined;
+    fog: Fog | undefined;
+    tone: Tone | undefined;
     width: number;
     height: number;
 }
@@ -119,6 +153,10 @@ export function checkedScene(scene: given.Scene): Scene {
         ambientLight: check.color(scene.ambientLight ?? WHITE, "ambientLight"),
         invert: check.flag(scene.invert ?? false, "invert"),
         antialias: check.flag(scene.antialias ?? false, "antialias"),
+        hemisphere: scene.hemisphere && checkedHemisphere(scene.hemisphere),
+        rim: scene.rim && checkedRim(scene.rim),
+        fog: scene.fog && checkedFog(scene.fog),
+        tone: scene.tone && checkedTone(scene.tone),
         width,
         height,
     };
@@ -270,6 +308,39 @@ function checkedBackground(value: given.Background | given.Color): { top: Rgb; b
             : check.fields(value as given.Background, "background", BACKGROUND);
     const found = check.color(top ?? [0, 0, 0], "background.top");
     return { top: found, bottom: bottom === undefined ? found : check.color(bottom, "background.bottom") };
+}
+
+function checkedHemisphere(value: given.Hemisphere): Hemisphere {
+    const { sky, ground } = check.fields(value, "hemisphere", HEMISPHERE);
+    return {
+        sky: check.color(sky, "hemisphere.sky"),
+        ground: check.color(ground ?? [0, 0, 0], "hemisphere.ground"),
+    };
+}
+
+function checkedRim(value: given.Rim): Rim {
+    const { color, power } = check.fields(value, "rim", RIM);
+    return { color: check.color(color, "rim.color"), power: check.whole(power ?? 3, "rim.power", 1, 16) };
+}
+
+function checkedFog(value: given.Fog): Fog {
+    const { color, near, far } = check.fields(value, "fog", FOG);
+    const fog = {
+        color: check.color(color, "fog.color"),
+        near: check.number(near, "fog.near", 0),
+        far: check.number(far, "fog.far", 0),
+    };
+    if (fog.near < fog.far) return fog;
+    throw new InputError(`fog.near, ${fog.near}, must be below fog.far, ${fog.far}`);
+}
+
+function checkedTone(value: given.Tone): Tone {
+    const { exposure, filmic, gamma } = check.fields(value, "tone", TONE);
+    return {
+        exposure: check.number(exposure ?? 1, "tone.exposure", 0, 64),
+        filmic: check.flag(filmic ?? false, "tone.filmic"),
+        gamma: check.flag(gamma ?? false, "tone.gamma"),
+    };
 }
 
 /** Return the vertices of an object in the world. */

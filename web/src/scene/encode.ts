@@ -27,14 +27,22 @@ export const WORD = 32;
 export const SPOT = 1;
 const OPACITY = 2;
 const ANTIALIAS = 3;
+const HEMISPHERE = 4;
+const RIM = 5;
+const FOG = 6;
+const TONE = 7;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
+/** One, in exposures. */
+const EXPOSURE = 2 ** 16;
 
 const PROJECTION_NUMBERS = { perspective: 0, orthographic: 1 } as const;
 const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
 const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
 const CULL_BACKFACES = 1;
 const WIREFRAME = 2;
+const FILMIC = 1;
+const GAMMA = 2;
 
 /**
  * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
@@ -110,7 +118,30 @@ function extensions(scene: CheckedScene): Uint8Array {
         records.push(record(OPACITY, index, content));
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
+    records.push(...effects(scene));
     return joined(records);
+}
+
+function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
+    const records: Uint8Array[] = [];
+    const add = (kind: number, ...bytes: number[]): void => {
+        records.push(record(kind, 0, new DataView(Uint8Array.from(bytes).buffer)));
+    };
+    if (hemisphere) add(HEMISPHERE, ...hemisphere.sky, ...hemisphere.ground);
+    if (rim) add(RIM, ...rim.color, rim.power);
+    if (fog) {
+        const distances = new DataView(new ArrayBuffer(16));
+        const [near, far] = [q32(fog.near), q32(fog.far)];
+        distances.setBigInt64(0, near);
+        distances.setBigInt64(8, far > near ? far : near + 1n);
+        add(FOG, ...fog.color, ...new Uint8Array(distances.buffer));
+    }
+    if (tone) {
+        const exposure = new DataView(new ArrayBuffer(4));
+        exposure.setUint32(0, Math.max(rint(tone.exposure * EXPOSURE), 1));
+        add(TONE, ...new Uint8Array(exposure.buffer), (tone.filmic ? FILMIC : 0) | (tone.gamma ? GAMMA : 0));
+    }
+    return records;
 }
 
 function record(kind: number, index: number, content: DataView): Uint8Array {

@@ -18,7 +18,20 @@ import { isOriginal, originalScene } from "./original.js";
 import { Table } from "./table.js";
 import type * as given from "./types.js";
 
-const SCENE = ["background", "invert", "antialias", "lights", "ambient_light", "size", "camera", "objects"];
+const SCENE = [
+    "background",
+    "invert",
+    "antialias",
+    "lights",
+    "ambient_light",
+    "hemisphere",
+    "rim",
+    "fog",
+    "tone",
+    "size",
+    "camera",
+    "objects",
+];
 const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
@@ -50,13 +63,17 @@ export function parseScene(json: string | object): given.Scene {
         ambientLight: table.read("ambient_light", check.color),
         invert: table.read("invert", check.flag),
         antialias: table.read("antialias", check.flag),
+        hemisphere: table.has("hemisphere") ? hemisphereOf(table.table("hemisphere", ["sky", "ground"])) : undefined,
+        rim: table.has("rim") ? rimOf(table.table("rim", ["color", "power"])) : undefined,
+        fog: table.has("fog") ? fogOf(table.table("fog", ["color", "near", "far"])) : undefined,
+        tone: table.has("tone") ? toneOf(table.table("tone", ["exposure", "filmic", "gamma"])) : undefined,
         width,
         height,
     };
 }
 
 /** The arrays of colours in a text; a quote inside of a string has a backslash before it. */
-const COLORS = /"(?:color|background|top|bottom|ambient_light)"\s*:\s*\[([^\]"{}[]*)\]/g;
+const COLORS = /"(?:color|background|top|bottom|ambient_light|sky|ground)"\s*:\s*\[([^\]"{}[]*)\]/g;
 
 function parse(text: string): unknown {
     const whole = text.replace(COLORS, (found, content: string) => {
@@ -85,6 +102,27 @@ function backgroundOf(table: Table): given.Background | given.Color {
     if (typeof value !== "object" || Array.isArray(value)) return check.color(value, "background");
     const inside = table.table("background", ["top", "bottom"]);
     return { top: inside.read("top", check.color), bottom: inside.read("bottom", check.color) };
+}
+
+function hemisphereOf(keys: Table): given.Hemisphere {
+    return { sky: check.color(keys.get("sky"), keys.place("sky")), ground: keys.read("ground", check.color) };
+}
+
+function rimOf(keys: Table): given.Rim {
+    return { color: check.color(keys.get("color"), keys.place("color")), power: keys.number("power", 1, 16) };
+}
+
+function fogOf(keys: Table): given.Fog {
+    const [near, far] = ["near", "far"].map((key) => check.number(keys.get(key), keys.place(key), 0));
+    return { color: check.color(keys.get("color"), keys.place("color")), near: near as number, far: far as number };
+}
+
+function toneOf(keys: Table): given.Tone {
+    return {
+        exposure: keys.number("exposure", 0, 64),
+        filmic: keys.read("filmic", check.flag),
+        gamma: keys.read("gamma", check.flag),
+    };
 }
 
 function cameraOf(

@@ -101,6 +101,35 @@ export interface Background {
     bottom?: Color | undefined;
 }
 
+/** Light from above (+y) and below, in proportion to the ambient coefficients; `ground` is black by default. */
+export interface Hemisphere {
+    sky: Color;
+    ground?: Color | undefined;
+}
+
+/** Light along the outlines of objects; `power` is a whole number from 1, wide, to 16, narrow, by default 3. */
+export interface Rim {
+    color: Color;
+    power?: number | undefined;
+}
+
+/** Fog between two distances along the line of sight: where it begins, and where it hides everything. */
+export interface Fog {
+    color: Color;
+    near: number;
+    far: number;
+}
+
+/** How the light of surfaces becomes colours. */
+export interface Tone {
+    /** A factor of all light, 0..64; 1 by default. */
+    exposure?: number | undefined;
+    /** Whether bright light is compressed as on film. */
+    filmic?: boolean | undefined;
+    /** Whether light is added in linear space. */
+    gamma?: boolean | undefined;
+}
+
 /**
  * Objects, drawn in their order with one depth buffer, seen by a camera.
  *
@@ -119,6 +148,11 @@ export interface Scene {
     invert?: boolean | undefined;
     /** Whether edges are smoothed, by four samples per pixel. */
     antialias?: boolean | undefined;
+    /** Scenes with one of the following are always antialiased. */
+    hemisphere?: Hemisphere | undefined;
+    rim?: Rim | undefined;
+    fog?: Fog | undefined;
+    tone?: Tone | undefined;
     /** In pixels, 1..2048; 128 by default. */
     width?: number | undefined;
     height?: number | undefined;
