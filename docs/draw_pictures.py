@@ -77,6 +77,22 @@ def smoothed() -> PillowImage.Image:
     return PillowImage.fromarray(np.hstack(pair)).resize((8 * 96, 4 * 96), PillowImage.Resampling.NEAREST)
 
 
+def transparent() -> tuple[PillowImage.Image, int | None]:
+    """A mushroom under glass before its background, and over a checkerboard; the gas of the second picture."""
+    scene = load("icons/mushroom", 256, antialias=True)
+    pane = load("cube", color="#d8f4ff").objects[0]
+    glass = Material("flat", ambient=0.6, diffuse=0.4, specular=0.3, shininess=20)
+    pane = evolve(
+        pane, position=(0.5, -0.32, 0.9), scale=0.4, rotation=(0.1, -0.25, 0.08, 1), material=glass, opacity=0.45
+    )
+    scene = evolve(scene, objects=[*scene.objects, pane])
+    whole, cut = render(scene), render(scene, transparent=True)
+    checks = np.add(*np.indices((256, 256)) // 16) % 2 * 30 + 205
+    board = PillowImage.fromarray(checks.astype(np.uint8)).convert("RGBA")
+    board.alpha_composite(cut.to_pil())
+    return PillowImage.fromarray(np.hstack([whole.pixels, np.asarray(board.convert("RGB"))])), cut.gas
+
+
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     flat = evolve(GLAZED, shading="flat")
@@ -177,6 +193,9 @@ def main() -> None:
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
     stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
     smoothed().save(IMAGES / "antialiasing.png", optimize=True)
+    both, gas = transparent()
+    both.save(IMAGES / "transparent.png", optimize=True)
+    figures["transparent"] = {"gas": gas}
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}
