@@ -16,7 +16,7 @@ from .antialiasing import compare_samples
 from .compare import MOST, Result, compare
 from .coverage import judge
 from .neighbours import interior
-from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
@@ -46,6 +46,12 @@ def test_random_scenes() -> None:
     assert whole.faults_of_run() == []
     assert whole.interior > 200_000
     assert whole.empty < len(SEEDS) / 5
+
+
+def test_textured_scenes() -> None:
+    whole = sum((compare(f"textured scene {seed}", textured_scene(seed)) for seed in range(200, 225)), Result())
+    assert whole.faults_of_run() == []
+    assert whole.interior > 200_000
 
 
 @pytest.mark.parametrize("name", PIECES)

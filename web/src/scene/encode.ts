@@ -9,6 +9,7 @@ import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
 import { pack } from "./mesh.js";
+import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
 
 /** The functions of the Renderer that draw a scene, and their selectors. Those of a tile take a Rectangle too. */
@@ -31,6 +32,9 @@ const HEMISPHERE = 4;
 const RIM = 5;
 const FOG = 6;
 const TONE = 7;
+const TEXTURE = 8;
+/** Records from this kind on have a size in words, others in bytes. */
+export const FIRST_IN_WORDS = 8;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
 /** One, in exposures. */
@@ -119,6 +123,11 @@ function extensions(scene: CheckedScene): Uint8Array {
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
     records.push(...effects(scene));
+    scene.objects.forEach(({ mesh, material: { texture } }, index) => {
+        if (!texture || !mesh.uvs) return;
+        const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
+        records.push(record(TEXTURE, index, new DataView(content.buffer)));
+    });
     return joined(records);
 }
 
@@ -146,12 +155,14 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
-        throw new InputError(`transparent objects must be among the first 65,536 of a scene, not number ${index}`);
+        throw new InputError(
+            `transparent and textured objects must be among the first 65,536 of a scene, not number ${index}`,
+        );
     }
     const head = new DataView(new ArrayBuffer(5));
     head.setUint8(0, kind);
     head.setUint16(1, index);
-    head.setUint16(3, content.byteLength);
+    head.setUint16(3, kind < FIRST_IN_WORDS ? content.byteLength : content.byteLength / WORD);
     return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
 }
 
