@@ -33,7 +33,8 @@ class Result:
     """The comparison of one scene, or the sum of those of many.
 
     scenes: how many. empty: in how many OpenGL draws nothing. pixels: that either drew. interior: those of which the
-    eight neighbours show the same triangle too, and of which the texel is sure; only their colours are compared. differing: pixels that show
+    eight neighbours show the same triangle too, and of which the texel is sure; only their colours are compared.
+    differing: pixels that show
     different triangles. error: the sum of the errors of all channels. many: pixels off by more than MANY levels.
     worst: the largest error. faults: what is out of bounds, in words.
     """

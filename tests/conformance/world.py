@@ -28,7 +28,8 @@ class Solid:
     """An object in the space of the camera: right, up, and toward the viewer.
 
     corners, colors, normals: (n, 3, 3) of the corners of n triangles. facing: (n, 3) their own unit normals.
-    uvs: (n, 3, 2), where the corners are on the texture of the material; zeros without one. first: the number of its first triangle, counted through all objects.
+    uvs: (n, 3, 2), where the corners are on the texture of the material; zeros without one. first: the number of its
+    first triangle, counted through all objects.
     """
 
     corners: Array
