@@ -139,8 +139,11 @@ def render(scene: Scene) -> Picture:
     return render_call(encode(artifact("Renderer").selectors["render"], scene))
 
 
-def render_call(data: bytes) -> Picture:
-    """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it."""
+def render_call(data: bytes, grazing: float = 0.0) -> Picture:
+    """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it.
+
+    grazing: highlights are where N.L is above it.
+    """
     (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
     (width, height), camera, (top, bottom), invert, ambient, lights, objects, extensions = scene
     cones, opacities, effects = _extensions(extensions)
@@ -161,7 +164,7 @@ def render_call(data: bytes) -> Picture:
             surface, first = surfaces[i], firsts[i]
             seen = (drawn >= first) & (drawn < first + len(surface.faces))
             if seen.any():
-                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps, effects)
+                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps, effects, grazing)
                 if surface.opacity < 1:
                     color = np.clip(color, 0, 255) * surface.opacity
                     color += np.clip(picture[seen], 0, 255) * (1 - surface.opacity)
@@ -418,9 +421,10 @@ def _shade(
     ambient_light: Array,
     lights: Any,
     effects: _Effects,
+    grazing: float,
 ) -> Array:
     """The colours of points of a surface; `face` (n,) and `weights` (n, 3) say which."""
-    radiance = _radiance(frame, surface, face, weights, ambient_light, lights, effects)
+    radiance = _radiance(frame, surface, face, weights, ambient_light, lights, effects, grazing)
     point = _mix(surface.positions[surface.faces[face]], weights)
     return effects.fogged(effects.toned(radiance), frame.to_camera(point)[:, 2:])
 
@@ -433,6 +437,7 @@ def _radiance(
     ambient_light: Array,
     lights: Any,
     effects: _Effects,
+    grazing: float,
 ) -> Array:
     """The light of the points, 0..1 and brighter."""
     corners = surface.faces[face]
@@ -458,7 +463,7 @@ def _radiance(
         through = np.ones_like(facing) if cone is None else _through(cone, toward)
         gloss = np.maximum(0, _dot(normal, _unit(toward + view))) ** shininess
         modulate = modulate + diffuse * np.maximum(0, facing) * through * effects.light(_rgb(hue))
-        add = add + specular * np.where(facing > 0, gloss, 0) * through * effects.light(_rgb(hue))
+        add = add + specular * np.where(facing > grazing, gloss, 0) * through * effects.light(_rgb(hue))
     radiance: Array = color * modulate + add
     return radiance
 

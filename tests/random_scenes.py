@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from attrs import evolve
@@ -16,14 +16,18 @@ from shackled.scene import (
     WRAPS,
     Background,
     Camera,
+    Fog,
+    Hemisphere,
     Light,
     Material,
     Mesh,
     Object,
     Rectangle,
+    Rim,
     Scene,
     Shading,
     Texture,
+    Tone,
     rotate,
     vertex_normals,
 )
@@ -50,6 +54,8 @@ AS_IT_COMES = 0.02
 TRIALS = 60
 #: How often a scene is antialiased.
 ANTIALIASED = 0.3
+#: How often a scene has effects, and how often it then has each of them.
+EFFECTS, EACH_EFFECT = 0.25, 0.5
 #: How often a scene has textures.
 TEXTURED = 0.2
 
@@ -65,8 +71,31 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
-    scene = evolve(scene, antialias=antialias)
+    scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
     return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
+
+
+def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
+    """Some effects or none, by the names of their fields; fog is most often about an object."""
+    if rng.random() > EFFECTS:
+        return {}
+    depth = 1000.0
+    if scene.objects:
+        seen = scene.objects[rng.integers(len(scene.objects))]
+        depth = float(np.linalg.norm(seen.position - scene.camera.eye))
+    depth *= 2.0 ** float(rng.choice([0, rng.uniform(-20, 20)], p=[0.8, 0.2]))
+    near = 0.0 if rng.random() < 0.2 else float(_q32(min(depth * rng.uniform(0, 1.5), 2.0**25)))
+    far = float(_q32(min(near + max(depth * 2.0 ** rng.uniform(-8, 1), 2.0**-26), 2.0**26)))
+    exposures = [1.0, rng.uniform(0, 4), 64.0, 2.0**-16]
+    effects = {
+        "hemisphere": Hemisphere(_color(rng), _color(rng)),
+        "rim": Rim(_color(rng), int(rng.integers(1, 17))),
+        "fog": Fog(_color(rng), near, far),
+        "tone": Tone(
+            float(rng.choice(exposures, p=[0.3, 0.6, 0.05, 0.05])), bool(rng.random() < 0.5), bool(rng.random() < 0.5)
+        ),
+    }
+    return {name: effect for name, effect in effects.items() if rng.random() < EACH_EFFECT}
 
 
 def _textured(rng: Rng, scene: Scene) -> Scene:
@@ -106,6 +135,11 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
         width=width,
         height=height,
     )
+
+
+def plain(scene: Scene) -> Scene:
+    """The scene without anti-aliasing and effects."""
+    return evolve(scene, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
 
 
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.

@@ -93,7 +93,7 @@ def compare(name: str, scene: Scene, is_piece: bool = False) -> Result:
         inner[[0, -1]] = inner[:, [0, -1]] = False
     if (error[inner] > MANY).any():
         both = np.stack([opengl.draw(world, threshold).color for threshold in (-GRAZING, GRAZING)])
-        error = np.minimum(error, _outside(ours.pixels, 255 - both if scene.invert else both))
+        error = np.minimum(error, outside(ours.pixels, 255 - both if scene.invert else both))
     largest = error.max(axis=2)
     faults = []
     different = np.argwhere(ours.triangle != theirs.triangle)
@@ -148,10 +148,10 @@ def beyond(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[
 
     A highlight ends where its light does, not gradually: N.L decides, and is zero in the line between two pixels.
     """
-    return _outside(pixels, around(expected))
+    return outside(pixels, around(expected))
 
 
-def _outside(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
+def outside(pixels: NDArray[np.uint8], expected: NDArray[np.float64]) -> NDArray[np.float64]:
     """(H, W, 3): how far a channel is outside of the range of several pictures, (n, H, W, 3)."""
     return np.asarray(np.maximum(0, np.maximum(pixels - expected.max(axis=0), expected.min(axis=0) - pixels)))
 

@@ -13,8 +13,9 @@ from shackled.errors import InputError
 
 from . import contracts, opengl
 from .antialiasing import compare_samples
-from .compare import MOST, Result, compare
+from .compare import MEAN_OF_RUN, MOST, Result, compare
 from .coverage import judge
+from .effects import compare_effects, with_effects
 from .neighbours import interior
 from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 from .world import before_camera
@@ -72,6 +73,14 @@ def test_samples_of_built_in_pieces(name: str) -> None:
     found = compare_samples(name, built_in_scene(name, 128))
     assert found.faults == []
     assert found.differing < 0.4 * found.pixels
+
+
+def test_effects_of_random_scenes() -> None:
+    scenes = [(seed, with_effects(random_scene(seed), seed)) for seed in range(200, 210)]
+    whole = sum((compare_effects(f"random scene {seed}", scene) for seed, scene in scenes), Result())
+    assert whole.faults == []
+    assert whole.interior > 50_000
+    assert whole.mean < MEAN_OF_RUN
 
 
 def test_every_dataset_is_compared() -> None:

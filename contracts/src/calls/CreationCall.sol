@@ -36,7 +36,7 @@ contract CreationCall {
                 let code := next
                 next := add(next, size)
                 // the addresses take the place of what comes next for a moment
-                let kept := mload(0x40)
+                let kept := add(mload(0x40), 0xa0)
                 mcopy(kept, next, 0xa0)
                 mstore(next, target)
                 mstore(add(next, 0x20), or(before, mul(iszero(before), target)))

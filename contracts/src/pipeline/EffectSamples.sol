@@ -14,45 +14,47 @@ library EffectSamples {
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         unchecked {
             uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            uint256 p = Samples.place(row, column);
             for (; column != end; ++column) {
                 uint256 covered = Samples.coverage(left, right, column);
-                if (covered != 0) fragment(attribute, covered, column, row);
+                if (covered != 0) {
+                    uint256 z = Samples.depthsOf(attribute);
+                    uint256 seen;
+                    assembly ("memory-safe") {
+                        let old := mload(p)
+                        switch and(mload(MODE), IS_BLENDED)
+                        case 0 { seen := sub(or(z, TOPS_64), or(old, BELOW_SAMPLE_DEPTHS)) }
+                        // what the first pass has found
+                        default { seen := sub(TOPS_64, and(xor(old, or(z, FOUND_SAMPLES)), PASSES_OF_SAMPLES)) }
+                        seen := and(seen, covered)
+                    }
+                    if (seen != 0) Samples.write(row, column, z | colorsOf(p, attribute, covered, column, row), seen);
+                }
+                p += 32;
                 attribute += load(DX);
             }
         }
     }
 
-    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+    /// @dev What stands beside the depths of the samples of a fragment.
+    function colorsOf(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
         unchecked {
-            uint256 old = load(Samples.place(row, column));
-            uint256 depths = Samples.depthsOf(attribute);
             uint256 mode = load(MODE);
-            uint256 seen = covered
-                & (
-                    mode & IS_BLENDED != 0
-                        // what the first pass has found
-                        ? TOPS_64 - ((old ^ (depths | FOUND_SAMPLES)) & PASSES_OF_SAMPLES)
-                        : (depths | TOPS_64) - (old | BELOW_SAMPLE_DEPTHS)
-                );
-            if (seen == 0) return;
-            if (mode & IS_DEPTH_PASS != 0) {
-                depths |= FOUND_SAMPLES | (old & SAMPLE_COLORS);
-            } else {
-                uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-                depths |= mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, old);
-            }
-            Samples.write(row, column, depths, seen);
+            if (mode & IS_DEPTH_PASS != 0) return FOUND_SAMPLES | (load(p) & SAMPLE_COLORS);
+            uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
+            return mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, load(p));
         }
     }
 
+    /// @dev The colour in the middle of the samples that are covered.
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
-        unchecked {
-            (uint256 x, uint256 y) = Samples.centroid(covered);
-            attribute = Samples.moved(attribute, x, y);
-            uint256 step = load(RAY_STEP);
-            x = load(RAY_LEFT) + column * step + uint256(int256(x * step) >> 3);
-            y = load(RAY_TOP) + row * step + uint256(int256(y * step) >> 3);
-            return SurfaceLight.colorAt(attribute, x, y);
+        (uint256 x, uint256 y) = Samples.centroid(covered);
+        attribute = Samples.moved(attribute, x, y);
+        assembly ("memory-safe") {
+            let step := mload(RAY_STEP)
+            x := add(add(mload(RAY_LEFT), mul(column, step)), sar(3, mul(x, step)))
+            y := add(add(mload(RAY_TOP), mul(row, step)), sar(3, mul(y, step)))
         }
+        return SurfaceLight.colorAt(attribute, x, y);
     }
 }

@@ -60,6 +60,7 @@ library Effects {
                 else if (kind == FOG) setFog(content);
                 else setTone(content);
             }
+            store(IS_TONED, load(TONE_FLAGS) != 0 || load(EXPOSURE) != ONE_16 ? 1 : 0);
             if (load(TONE_FLAGS) & TONE_GAMMA != 0) decodeLights();
         }
     }

@@ -22,77 +22,140 @@ uint256 constant WHITE_10 = 0x3fc00;
 /// @dev Radiance above 2^30 levels, and values of the filmic curve above 64 (Q16), are as good as white.
 uint256 constant BRIGHTEST = 1 << 40;
 uint256 constant BRIGHTEST_FILMIC = 1 << 22;
-/// @dev Where the lanes of a colour begin, and what is in one.
-uint256 constant LANE_56 = 0xffffffffffffff;
+/// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
+uint256 constant FILMIC_59 = 59 << 16;
+uint256 constant FILMIC_3 = 3 << 16;
+uint256 constant FILMIC_14 = 14 << 32;
+/// @dev The end of the lanes of a colour.
+uint256 constant LANES_END = 3 * 56;
+uint256 constant LANES_85_END = 3 * 85;
+/// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to 255
+/// has not.
+uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
+uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
+uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;
 
 library SurfaceLight {
-    /// @notice The colour where the accumulator and the ray are these: lanes of 85 bits, Q10, 0..255.
+    /// @notice The colour where the accumulator and the ray are these: signed lanes of 85 bits, Q10, not kept below 255.
     /// @param attribute The accumulator of barycentric coordinates.
     /// @param x, y As for FragmentLight.
     function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
-        unchecked {
-            uint256 s;
-            uint256 t;
+        uint256 s;
+        uint256 t;
+        assembly ("memory-safe") {
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
+        }
+        uint256 albedo = albedoAt(attribute, s, t);
+        bool isLit;
+        assembly ("memory-safe") {
+            isLit := and(mload(MODE), IS_LIT)
+        }
+        if (isLit) {
+            // the highlights alone; the light that modulates the albedo stays in FRAGMENT_LIGHT
+            color = FragmentLight.colorAt(attribute, s, t, x, y);
+            addHemisphere();
+            color = lit(albedo, color);
+            if (load(RIM_COLOR) != 0) color = withRim(color, rimAt(x, y));
+        } else {
             assembly ("memory-safe") {
-                s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
-                t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
-                attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
-            }
-            uint256 albedo = albedoAt(attribute, s, t);
-            uint256 highlights;
-            uint256 rim;
-            bool isLit = load(MODE) & IS_LIT != 0;
-            if (isLit) {
-                highlights = FragmentLight.colorAt(attribute, s, t, x, y);
-                addHemisphere();
-                if (load(RIM_COLOR) != 0) rim = rimAt(x, y);
-            }
-            uint256 light = load(FRAGMENT_LIGHT);
-            uint256 fog = load(FOG_RANGE) == 0 ? 0 : fogAt(attribute);
-            for (uint256 i; i != 3; ++i) {
-                uint256 channel = (albedo >> (MIDDLE_AT * i)) & LANE_32;
-                if (isLit) {
-                    channel = (channel * (((light >> (MIDDLE_AT * i)) & LANE_56) >> 24)) >> 16;
-                    channel += (highlights >> (MIDDLE_85_AT * i)) & LANE_85;
-                    channel += (((load(RIM_COLOR) >> (MIDDLE_AT * i)) & LANE_32) * rim) >> (Q24 - Q10);
-                }
-                channel = toned(channel);
-                if (fog != 0) {
-                    channel = (channel * (ONE_16 - fog) + (((load(FOG_COLOR) >> (MIDDLE_AT * i)) & LANE_32) << Q10) * fog) >> Q16;
-                }
-                color |= channel << (MIDDLE_85_AT * i);
+                color := add(and(albedo, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, albedo), LANE_32)))
+                color := add(color, shl(UPPER_85_AT, shr(UPPER_AT, albedo)))
             }
         }
+        if (load(IS_TONED) != 0) color = toned(color);
+        if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
     }
 
     /// @dev The colour of the surface itself, lanes of Q10, 0..255.
     function albedoAt(uint256 depth, uint256 s, uint256 t) private pure returns (uint256 albedo) {
-        unchecked {
-            uint256 color;
-            assembly ("memory-safe") {
-                // as in FragmentLight
-                let mode := mload(MODE)
-                if iszero(and(mode, IS_ORTHOGRAPHIC)) {
-                    s := sdiv(mul(s, mload(DEPTH_1)), depth)
-                    t := sdiv(mul(t, mload(DEPTH_2)), depth)
-                    if and(mode, IS_STEEP) {
-                        if sgt(s, ONE_24) { s := ONE_24 }
-                        if sgt(t, ONE_24) { t := ONE_24 }
-                    }
+        assembly ("memory-safe") {
+            // as in FragmentLight
+            let mode := mload(MODE)
+            if iszero(and(mode, IS_ORTHOGRAPHIC)) {
+                s := sdiv(mul(s, mload(DEPTH_1)), depth)
+                t := sdiv(mul(t, mload(DEPTH_2)), depth)
+                if and(mode, IS_STEEP) {
+                    if sgt(s, ONE_24) { s := ONE_24 }
+                    if sgt(t, ONE_24) { t := ONE_24 }
                 }
-                color := shr(24, add(add(mload(ALBEDO_0), mul(mload(ALBEDO_1), s)), mul(mload(ALBEDO_2), t)))
             }
-            bool isLinear = load(TONE_FLAGS) & TONE_GAMMA != 0;
-            bool isTextured = load(TEXTURE) != 0;
-            uint256 texture = isTextured ? Texture.colorAt(s, t) : 0;
+            albedo := shr(24, add(add(mload(ALBEDO_0), mul(mload(ALBEDO_1), s)), mul(mload(ALBEDO_2), t)))
+            albedo := and(albedo, LANES_32)
+            // each lane has 2^24 too much
+            albedo := xor(albedo, ALBEDO_BIAS)
+            if and(add(albedo, ALBEDO_SLACK), BEYOND_ALBEDO) {
+                // lanes that are below 0 have the bit that others have no more
+                let inside := 0
+                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
+                    let channel := and(shr(i, albedo), LANE_32)
+                    if gt(channel, WHITE_10) { channel := mul(WHITE_10, lt(channel, ONE_24)) }
+                    inside := or(inside, shl(i, channel))
+                }
+                albedo := inside
+            }
+        }
+        if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
+        if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+    }
+
+    /// @dev Lanes of Q10 times those of a texture, Q16.
+    function textured(uint256 color, uint256 texture) private pure returns (uint256 product) {
+        assembly ("memory-safe") {
+            product := shr(16, mul(and(color, LANE_32), and(texture, LANE_24)))
+            let channel := shr(16, mul(and(shr(MIDDLE_AT, color), LANE_32), and(shr(MIDDLE_AT, texture), LANE_24)))
+            product := or(product, shl(MIDDLE_AT, channel))
+            product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, color), shr(UPPER_AT, texture)))))
+        }
+    }
+
+    /// @dev Lanes of Q10 as linear levels.
+    function decoded(uint256 color) private pure returns (uint256 linear) {
+        unchecked {
+            for (uint256 i; i != LANES_END; i += MIDDLE_AT) linear |= Gamma.decode((color >> i) & LANE_32) << i;
+        }
+    }
+
+    /// @dev Albedo times FRAGMENT_LIGHT (Q40), and highlights, both lanes of 85 bits, Q10.
+    function lit(uint256 albedo, uint256 highlights) private pure returns (uint256 color) {
+        assembly ("memory-safe") {
+            let light := mload(FRAGMENT_LIGHT)
+            color := shr(16, mul(and(albedo, LANE_32), and(shr(BLUE_Q40_AT, light), LANE_32)))
+            color := add(
+                color,
+                shl(MIDDLE_85_AT, shr(16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32))))
+            )
+            color := add(color, shl(UPPER_85_AT, shr(16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32)))))
+            color := add(color, highlights)
+        }
+    }
+
+    /// @dev A colour and the rim at this strength, Q24.
+    function withRim(uint256 color, uint256 strength) private pure returns (uint256) {
+        unchecked {
+            uint256 rim = load(RIM_COLOR);
             for (uint256 i; i != 3; ++i) {
-                uint256 channel = (color >> (MIDDLE_AT * i)) & LANE_32;
-                // each lane has 2^24 too much, so that it is positive
-                channel = channel < ONE_24 ? 0 : channel - ONE_24;
-                if (channel > WHITE_10) channel = WHITE_10;
-                if (isTextured) channel = (channel * ((texture >> (MIDDLE_AT * i)) & LANE_24)) >> Q16;
-                if (isLinear) channel = Gamma.decode(channel);
-                albedo |= channel << (MIDDLE_AT * i);
+                color += (((rim >> (MIDDLE_AT * i)) & LANE_32) * strength >> (Q24 - Q10)) << (MIDDLE_85_AT * i);
+            }
+            return color;
+        }
+    }
+
+    /// @dev A colour behind fog that hides so much of it, Q16.
+    function fogged(uint256 color, uint256 strength) private pure returns (uint256 mixed) {
+        assembly ("memory-safe") {
+            mixed := color
+            if strength {
+                mixed := 0
+                let fog := mload(FOG_COLOR)
+                for { let i := 0 } lt(i, LANES_85_END) { i := add(i, MIDDLE_85_AT) } {
+                    let channel := and(shr(i, color), LANE_85)
+                    if gt(channel, WHITE_10) { channel := WHITE_10 }
+                    channel := add(mul(channel, sub(ONE_16, strength)), mul(shl(Q10, and(fog, LANE_32)), strength))
+                    mixed := or(mixed, shl(i, shr(Q16, channel)))
+                    fog := shr(MIDDLE_AT, fog)
+                }
             }
         }
     }
@@ -149,22 +212,33 @@ library SurfaceLight {
         }
     }
 
-    /// @dev A channel, Q10, as it is shown: 0..255, Q10.
-    function toned(uint256 channel) private pure returns (uint256) {
+    /// @dev A colour as it is shown, lanes of 85 bits, Q10, 0..255.
+    function toned(uint256 color) private pure returns (uint256 shown) {
         unchecked {
-            if (channel > BRIGHTEST) channel = BRIGHTEST;
-            channel = (channel * load(EXPOSURE)) >> Q16;
-            uint256 flags = load(TONE_FLAGS);
-            if (flags == 0) return channel > WHITE_10 ? WHITE_10 : channel;
-            // Q16, where 1 is white
-            channel = (channel << 6) / 255;
-            if (flags & TONE_FILMIC != 0) {
-                if (channel > BRIGHTEST_FILMIC) channel = BRIGHTEST_FILMIC;
-                uint256 divisor = channel * (243 * channel + 59 * ONE_16) + 14 * ONE_32;
-                channel = ((channel * (251 * channel + 3 * ONE_16)) << Q16) / divisor;
+            (uint256 exposure, uint256 flags) = (load(EXPOSURE), load(TONE_FLAGS));
+            for (uint256 i; i != LANES_85_END; i += MIDDLE_85_AT) {
+                uint256 channel;
+                assembly ("memory-safe") {
+                    channel := and(shr(i, color), LANE_85)
+                    if gt(channel, BRIGHTEST) { channel := BRIGHTEST }
+                    channel := shr(Q16, mul(channel, exposure))
+                    switch flags
+                    case 0 { if gt(channel, WHITE_10) { channel := WHITE_10 } }
+                    default {
+                        // Q16, where 1 is white
+                        channel := div(shl(6, channel), 255)
+                        if and(flags, TONE_FILMIC) {
+                            if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
+                            let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
+                            channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
+                        }
+                        if gt(channel, ONE_16) { channel := ONE_16 }
+                    }
+                }
+                if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
+                else if (flags != 0) channel = (channel * 255) >> 6;
+                shown |= channel << i;
             }
-            if (channel > ONE_16) channel = ONE_16;
-            return flags & TONE_GAMMA != 0 ? Gamma.encode(channel) << 2 : (channel * 255) >> 6;
         }
     }
 }

@@ -5,7 +5,8 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {ANTIALIAS, Extensions, FOG, HEMISPHERE, OPACITY_OF, RIM, SPOT, TONE, TONE_FILMIC, TONE_GAMMA} from "../scene/Extensions.sol";
+import {FOG, HEMISPHERE, RIM, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
+import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES

@@ -253,14 +253,13 @@ class NodeChain(ContractCaller):
     def _below(self, contract: str, data: bytes) -> list[str]:
         """Return the contracts that a call of a contract needs, each before those that it needs itself.
 
-        The Renderer calls two of its engines: those for scenes that are antialiased, or the others.
+        The Renderer calls those of its engines that draw the scene.
         """
         parts = artifact(contract).parts
         if contract == "Renderer":
             from .. import reference
 
-            is_antialiased = reference.is_antialiased(data)
-            parts = [name for name in parts if name.startswith("Antialiased") == is_antialiased]
+            parts = reference.engines(data)
         return parts + [each for part in parts for each in self._below(part, b"")]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:

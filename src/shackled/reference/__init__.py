@@ -14,7 +14,7 @@ from . import coverage, extensions
 from .call import read_call
 from .pipeline import Picture, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "is_antialiased", "render", "selector"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -38,13 +38,17 @@ def draw_call(data: bytes) -> Picture:
     return draw(*read_call(data))
 
 
-def is_antialiased(data: bytes) -> bool:
-    """Return whether a call of the Renderer asks for an antialiased picture; False if it has no readable scene."""
+def engines(data: bytes) -> list[str]:
+    """Return the engines that draw what a call of the Renderer asks for; those of plain scenes if it has none."""
     try:
         scene, _ = read_call(data)
+        records = extensions.read_records(scene.extensions)
     except RenderError:
-        return False
-    return extensions.is_antialiased(extensions.read_records(scene.extensions))
+        records = {}
+    if extensions.has_effects(records):
+        return ["EffectsEngine"]
+    prefix = "Antialiased" if extensions.is_antialiased(records) else ""
+    return [prefix + "Engine", prefix + "FragmentEngine"]
 
 
 def selector(function: str) -> bytes:
