@@ -29,7 +29,7 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
     """Return a mesh of at most `max_triangles` triangles, by edge collapse.
 
     Each vertex has the colour of the nearest vertex that was collapsed into it; so have corners of faces their texture
-    coordinates, within a part of the texture that is connected. Normals are dropped. A mesh that is small enough is
+    coordinates, on their side of a seam. Normals are dropped. A mesh that is small enough is
     returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
     target cannot be reached (it names a number that can), or fast-simplification is not installed.
     """
@@ -75,19 +75,19 @@ def _simplified_object(o: Object, max_triangles: int, crease: float) -> Object:
 class _Surface:
     """A mesh with one vertex for each position.
 
-    uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. charts: (m,), which faces are connected on
-    the texture.
+    uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. places: (m, 3), numbers that corners have
+    in common which are one point of the texture.
     """
 
     positions: NDArray[np.float64]
     faces: NDArray[np.int64]
     colors: NDArray[np.uint8]
     uvs: NDArray[np.float64]
-    charts: NDArray[np.int64]
+    places: NDArray[np.int64]
 
     def part(self, faces: NDArray[np.int64], kept: NDArray[np.int64]) -> _Surface:
         """Return the surface with other vertex numbers, (m, 3), and only those faces that are kept."""
-        return replace(self, faces=faces[kept], uvs=self.uvs[kept], charts=self.charts[kept])
+        return replace(self, faces=faces[kept], uvs=self.uvs[kept], places=self.places[kept])
 
 
 def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
@@ -106,13 +106,13 @@ def _connect(mesh: Mesh) -> _Surface:
     So edges between colours can be collapsed too.
     """
     unique, first, number = np.unique(mesh.positions, axis=0, return_index=True, return_inverse=True)
-    uvs, charts = np.zeros((len(mesh.faces), 3, 2)), np.zeros(len(mesh.faces), dtype=np.int64)
+    faces = number.reshape(-1)[mesh.faces]
+    uvs, places = np.zeros((len(faces), 3, 2)), faces
     if mesh.uvs is not None:
         uvs = mesh.uvs[mesh.faces]
-        on_texture = np.unique(np.hstack([mesh.positions, mesh.uvs]), axis=0, return_inverse=True)[1].reshape(-1)
-        charts = components(on_texture[mesh.faces], len(mesh.positions))[on_texture[mesh.faces[:, 0]]]
-    surface = _Surface(unique, mesh.faces, mesh.colors[first], uvs, charts)
-    faces = number.reshape(-1)[mesh.faces]
+        both = np.hstack([mesh.positions, mesh.uvs])
+        places = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
+    surface = _Surface(unique, faces, mesh.colors[first], uvs, places)
     return surface.part(faces, _proper(faces))
 
 
@@ -145,20 +145,23 @@ def _collapse(surface: _Surface, target: int, agg: int) -> _Surface:
     old = old[np.argsort(-distance[old], kind="stable")]
     nearest = np.zeros(len(points), dtype=np.int64)
     nearest[number[old]] = old
-    uvs = _moved_uvs(surface, moved, distance)
     used, compact = np.unique(moved[kept], return_inverse=True)
-    part = replace(surface, uvs=uvs).part(moved, kept)
+    part = _on_texture(surface, moved, distance).part(moved, kept)
     return replace(part, positions=points[used], faces=compact.reshape(-1, 3), colors=surface.colors[nearest[used]])
 
 
-def _moved_uvs(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the texture coordinates of corners, (m, 3, 2): those of the corner on the same chart that is nearest to
-    the new vertex.
+def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:
+    """Return the surface with the texture coordinates that corners have after a collapse.
 
-    moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
+    Points of the texture between which an edge was collapsed are one: that which is nearest to the new vertex. So both
+    sides of a seam keep their own. moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
     """
-    key = (moved * (surface.charts.max(initial=0) + 1) + surface.charts[:, None]).reshape(-1)
-    order = np.lexsort((distance[surface.faces].reshape(-1), key))
-    keys, first = np.unique(key[order], return_index=True)
-    best = surface.uvs.reshape(-1, 2)[order[first]]
-    return np.asarray(best[np.searchsorted(keys, key)].reshape(-1, 3, 2))
+    ends = np.array([[0, 1], [1, 2], [2, 0]])
+    collapsed = moved[:, ends[:, 0]] == moved[:, ends[:, 1]]
+    links = surface.places[:, ends][collapsed]
+    places = components(links, int(surface.places.max(initial=0)) + 1)[surface.places]
+    order = np.lexsort((distance[surface.faces].reshape(-1), places.reshape(-1)))
+    _, first, number = np.unique(places.reshape(-1)[order], return_index=True, return_inverse=True)
+    uvs = np.empty((len(order), 2))
+    uvs[order] = surface.uvs.reshape(-1, 2)[order[first]][number.reshape(-1)]
+    return replace(surface, uvs=uvs.reshape(-1, 3, 2), places=places)
