@@ -88,15 +88,17 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
 
-gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, motion.json
+gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, icons.json, motion.json
 	$(BIN)/python -m benchmarks.snapshot
 	$(BIN)/python -m benchmarks.studio
 	$(BIN)/python -m benchmarks.tokens
+	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-bench: $(DEV) ## measure: the tables of benchmarks/, and that of the README
+bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of docs/antialiasing.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
+	$(BIN)/python -m benchmarks.antialiasing
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md

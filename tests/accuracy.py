@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -150,7 +151,7 @@ LIGHTS = (
 )
 
 
-def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **material: float) -> Scene:
+def teapot_scene(lights: int = 1, first: int = 0, *, distance: float = 9.0, **material: Any) -> Scene:
     """The teapot with some of the four lights."""
     look = Material("smooth", **{"ambient": 0.25, "diffuse": 0.6, "specular": 0.5, "shininess": 30} | material)
     return Scene(

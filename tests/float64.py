@@ -9,6 +9,11 @@ seen is then shaded pixel by pixel:
 
 C_i is the colour of a light, times what its cone lets through if it is a spot light. Objects that are not opaque are
 drawn after the others: colour * opacity + what is there * (1 - opacity), where each is seen first.
+
+A hemisphere adds ground + (sky - ground) * (1 + N.y) / 2 to A. A rim adds its colour * (1 - max(0, N.V))^power. With
+gamma, surface, A, C_i, hemisphere and rim are linear values, decoded from sRGB. The sum times the exposure, cut off at
+white or compressed by the filmic curve, and encoded as sRGB with gamma, is the colour, which fog then covers by the
+distance along the line of sight. Of antialiased pictures, only pixels that show one triangle can be compared.
 """
 
 from __future__ import annotations
@@ -71,6 +76,52 @@ class _Frame:
 
 
 @dataclass(frozen=True)
+class _Effects:
+    """The effects of a scene; colours are 0..1, and linear with gamma.
+
+    sky, ground, rim: light. power: of the rim. fog: its colour, as it is shown, and its two distances; None without.
+    """
+
+    sky: Array
+    ground: Array
+    rim: Array
+    power: int = 1
+    fog: tuple[Array, float, float] | None = None
+    exposure: float = 1.0
+    filmic: bool = False
+    gamma: bool = False
+
+    def light(self, color: Array) -> Array:
+        """A colour 0..255 as light 0..1."""
+        return decoded(color / 255) if self.gamma else color / 255
+
+    def toned(self, radiance: Array) -> Array:
+        """The colour 0..255 of light 0..1."""
+        x = radiance * self.exposure
+        if self.filmic:
+            x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)
+        x = np.clip(x, 0, 1)
+        return 255 * (encoded(x) if self.gamma else x)
+
+    def fogged(self, color: Array, distance: Array) -> Array:
+        """A colour at a distance from the eye, (n, 1)."""
+        if self.fog is None:
+            return color
+        hue, near, far = self.fog
+        return color + (hue - color) * np.clip((distance - near) / (far - near), 0, 1)
+
+
+def decoded(values: Array) -> Array:
+    """Linear values of sRGB, both 0..1."""
+    return np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
+
+
+def encoded(values: Array) -> Array:
+    """The sRGB of linear values, both 0..1."""
+    return np.where(values <= 0.0031308, values * 12.92, 1.055 * values ** (1 / 2.4) - 0.055)
+
+
+@dataclass(frozen=True)
 class _Surface:
     """An object in the world. positions, colors, normals: of its vertices; faces: (m, 3)."""
 
@@ -88,11 +139,14 @@ def render(scene: Scene) -> Picture:
     return render_call(encode(artifact("Renderer").selectors["render"], scene))
 
 
-def render_call(data: bytes) -> Picture:
-    """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it."""
+def render_call(data: bytes, grazing: float = 0.0) -> Picture:
+    """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it.
+
+    grazing: highlights are where N.L is above it.
+    """
     (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
     (width, height), camera, (top, bottom), invert, ambient, lights, objects, extensions = scene
-    cones, opacities = _extensions(extensions)
+    cones, opacities, effects = _extensions(extensions)
     lamps = [(*light, cones.get(i)) for i, light in enumerate(lights)]
     frame = _frame(camera, width, height)
     surfaces = [_surface(o, opacities.get(i, 1.0)) for i, o in enumerate(objects)]
@@ -110,7 +164,7 @@ def render_call(data: bytes) -> Picture:
             surface, first = surfaces[i], firsts[i]
             seen = (drawn >= first) & (drawn < first + len(surface.faces))
             if seen.any():
-                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps)
+                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps, effects, grazing)
                 if surface.opacity < 1:
                     color = np.clip(color, 0, 255) * surface.opacity
                     color += np.clip(picture[seen], 0, 255) * (1 - surface.opacity)
@@ -162,9 +216,11 @@ def _frame(camera: Any, width: int, height: int) -> _Frame:
     return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height)
 
 
-def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float]]:
-    """The cones of lights (where each points, the cosines of its angles) and the opacities of objects, by index."""
-    cones, opacities = {}, {}
+def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float], _Effects]:
+    """The cones of lights (where each points, the cosines of its angles) and the opacities of objects, by index; and
+    the effects of the scene.
+    """
+    cones, opacities, effects = {}, {}, dict[int, bytes]()
     while data:
         kind, index, size = data[0], int.from_bytes(data[1:3], "big"), int.from_bytes(data[3:5], "big")
         content, data = data[5 : 5 + size], data[5 + size :]
@@ -172,7 +228,32 @@ def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float]]:
             cones[index] = _q32(np.frombuffer(content, ">i8"))
         elif kind == 2:
             opacities[index] = int.from_bytes(content, "big") / 2.0**24
-    return cones, opacities
+        else:
+            effects[kind] = content
+    return cones, opacities, _effects(effects)
+
+
+def _effects(records: dict[int, bytes]) -> _Effects:
+    """The effects of records by their kinds."""
+    tone = records.get(7, (1 << 16).to_bytes(4, "big") + b"\0")
+    gamma = bool(tone[4] & 2)
+    numbers = {kind: np.frombuffer(content, np.uint8).astype(np.float64) for kind, content in records.items()}
+    light = _Effects(np.zeros(3), np.zeros(3), np.zeros(3), gamma=gamma).light
+    hemisphere, rim = numbers.get(4, np.zeros(6)), numbers.get(5, np.array([0, 0, 0, 1]))
+    fog = None
+    if 6 in records:
+        near, far = _q32(np.frombuffer(records[6][3:], ">i8")).tolist()
+        fog = numbers[6][:3], near, far
+    return _Effects(
+        sky=light(hemisphere[:3]),
+        ground=light(hemisphere[3:]),
+        rim=light(rim[:3]),
+        power=int(rim[3]),
+        fog=fog,
+        exposure=int.from_bytes(tone[:4], "big") / 2.0**16,
+        filmic=bool(tone[4] & 1),
+        gamma=gamma,
+    )
 
 
 def _surface(o: Any, opacity: float) -> _Surface:
@@ -333,11 +414,34 @@ def _background(top: Array, bottom: Array, width: int, height: int) -> Array:
 
 
 def _shade(
-    frame: _Frame, surface: _Surface, face: Integers, weights: Array, ambient_light: Array, lights: Any
+    frame: _Frame,
+    surface: _Surface,
+    face: Integers,
+    weights: Array,
+    ambient_light: Array,
+    lights: Any,
+    effects: _Effects,
+    grazing: float,
 ) -> Array:
     """The colours of points of a surface; `face` (n,) and `weights` (n, 3) say which."""
+    radiance = _radiance(frame, surface, face, weights, ambient_light, lights, effects, grazing)
+    point = _mix(surface.positions[surface.faces[face]], weights)
+    return effects.fogged(effects.toned(radiance), frame.to_camera(point)[:, 2:])
+
+
+def _radiance(
+    frame: _Frame,
+    surface: _Surface,
+    face: Integers,
+    weights: Array,
+    ambient_light: Array,
+    lights: Any,
+    effects: _Effects,
+    grazing: float,
+) -> Array:
+    """The light of the points, 0..1 and brighter."""
     corners = surface.faces[face]
-    color = _mix(surface.colors[corners], weights)
+    color = effects.light(_mix(surface.colors[corners], weights))
     shading, ambient, diffuse, specular, shininess = surface.material
     if shading == UNLIT:
         return color
@@ -349,16 +453,19 @@ def _shade(
         normal = _unit(_mix(surface.normals[corners], weights))
     # the direction to the eye
     view = _unit(frame.eye - point) if frame.perspective else np.broadcast_to(-frame.axes[2], point.shape)
-    modulate = np.broadcast_to(ambient * ambient_light / 255, point.shape).copy()
-    add = np.zeros_like(point)
+    upward = (1 + normal[:, 1:2]) / 2
+    hemisphere = effects.ground + (effects.sky - effects.ground) * upward
+    modulate = ambient * (effects.light(ambient_light) + hemisphere)
+    add = effects.rim * (1 - np.maximum(0, _dot(normal, view))) ** effects.power
     for kind, vector, hue, cone in lights:
         toward = _unit(_q32(vector) - point if kind == POINT else np.broadcast_to(_q32(vector), point.shape))
         facing = _dot(normal, toward)
         through = np.ones_like(facing) if cone is None else _through(cone, toward)
         gloss = np.maximum(0, _dot(normal, _unit(toward + view))) ** shininess
-        modulate += diffuse * np.maximum(0, facing) * through * _rgb(hue) / 255
-        add += specular * np.where(facing > 0, gloss, 0) * through * _rgb(hue)
-    return color * modulate + add
+        modulate = modulate + diffuse * np.maximum(0, facing) * through * effects.light(_rgb(hue))
+        add = add + specular * np.where(facing > grazing, gloss, 0) * through * effects.light(_rgb(hue))
+    radiance: Array = color * modulate + add
+    return radiance
 
 
 def _through(cone: Array, toward: Array) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from attrs import evolve
@@ -12,15 +12,22 @@ from numpy.typing import NDArray
 from conformance.coverage import project
 from conformance.world import before_camera
 from shackled.scene import (
+    FILTERS,
+    WRAPS,
     Background,
     Camera,
+    Fog,
+    Hemisphere,
     Light,
     Material,
     Mesh,
     Object,
     Rectangle,
+    Rim,
     Scene,
     Shading,
+    Texture,
+    Tone,
     rotate,
     vertex_normals,
 )
@@ -47,6 +54,10 @@ AS_IT_COMES = 0.02
 TRIALS = 60
 #: How often a scene is antialiased.
 ANTIALIASED = 0.3
+#: How often a scene has effects, and how often it then has each of them.
+EFFECTS, EACH_EFFECT = 0.25, 0.5
+#: How often a scene has textures.
+TEXTURED = 0.2
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -60,7 +71,55 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     tile = Rectangle(x, y, int(rng.integers(1, scene.width - x + 1)), int(rng.integers(1, scene.height - y + 1)))
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
-    return Case(evolve(scene, antialias=antialias), tile)
+    scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
+    return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
+
+
+def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
+    """Some effects or none, by the names of their fields; fog is most often about an object."""
+    if rng.random() > EFFECTS:
+        return {}
+    depth = 1000.0
+    if scene.objects:
+        seen = scene.objects[rng.integers(len(scene.objects))]
+        depth = float(np.linalg.norm(seen.position - scene.camera.eye))
+    depth *= 2.0 ** float(rng.choice([0, rng.uniform(-20, 20)], p=[0.8, 0.2]))
+    near = 0.0 if rng.random() < 0.2 else float(_q32(min(depth * rng.uniform(0, 1.5), 2.0**25)))
+    far = float(_q32(min(near + max(depth * 2.0 ** rng.uniform(-8, 1), 2.0**-26), 2.0**26)))
+    exposures = [1.0, rng.uniform(0, 4), 64.0, 2.0**-16]
+    effects = {
+        "hemisphere": Hemisphere(_color(rng), _color(rng)),
+        "rim": Rim(_color(rng), int(rng.integers(1, 17))),
+        "fog": Fog(_color(rng), near, far),
+        "tone": Tone(
+            float(rng.choice(exposures, p=[0.3, 0.6, 0.05, 0.05])), bool(rng.random() < 0.5), bool(rng.random() < 0.5)
+        ),
+    }
+    return {name: effect for name, effect in effects.items() if rng.random() < EACH_EFFECT}
+
+
+def _textured(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with textures on some of its objects."""
+    if rng.random() >= TEXTURED:
+        return scene
+    objects = [_with_texture(rng, o) if rng.random() < 0.8 else o for o in scene.objects]
+    return evolve(scene, objects=objects)
+
+
+def _with_texture(rng: Rng, o: Object) -> Object:
+    """The object with a texture of any format, on coordinates of any size."""
+    height, width = rng.integers(1, 20, 2).tolist()
+    colors = int(rng.choice([1, 2, 3, 5, 16, 17, 400]))
+    palette = rng.integers(0, 256, (colors, 3), dtype=np.uint8)
+    texture = Texture(
+        palette[rng.integers(0, colors, (height, width))],
+        FILTERS[rng.integers(len(FILTERS))],
+        WRAPS[rng.integers(len(WRAPS))],
+    )
+    uvs = rng.uniform(-1, 1, (len(o.mesh.positions), 2)) * rng.choice([0.3, 1, 3, 127])
+    if rng.random() < 0.3:
+        uvs = np.rint(uvs)
+    return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
 def _scene(rng: Rng, kind: Kind) -> Scene:
@@ -76,6 +135,11 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
         width=width,
         height=height,
     )
+
+
+def plain(scene: Scene) -> Scene:
+    """The scene without anti-aliasing and effects."""
+    return evolve(scene, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
 
 
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.

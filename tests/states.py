@@ -4,7 +4,22 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from shackled.creator import MAX_OPACITIES, Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, control
+from shackled.creator import (
+    MAX_OPACITIES,
+    Backdrop,
+    Curve,
+    Haze,
+    Lamp,
+    Orbit,
+    Outline,
+    Pose,
+    Size,
+    Sky,
+    Source,
+    State,
+    Surface,
+    control,
+)
 from shackled.scene import LIGHT_KINDS
 
 
@@ -67,6 +82,10 @@ def states() -> st.SearchStrategy[State]:
         st.none() | st.lists(lamps, max_size=4).map(tuple),
         st.booleans(),
         st.none() | colors,
+        st.none() | st.builds(Sky, st.booleans(), colors, colors),
+        st.none() | st.builds(Outline, st.booleans(), colors, numbers("rim.power")),
+        st.none() | st.builds(Haze, st.booleans(), colors, numbers("fog.near"), numbers("fog.far")),
+        st.none() | st.builds(Curve, numbers("tone.exposure"), st.booleans(), st.booleans()),
         surfaces,
         st.tuples(*[st.none() | numbers("opacities.0")] * MAX_OPACITIES),
         st.none() | st.builds(Backdrop, colors, colors),

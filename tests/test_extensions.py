@@ -15,7 +15,7 @@ from pictures import Pixels, chain, counts, draw, dynamic
 from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.reference import draw_call
+from shackled.reference import draw_call, engines
 from shackled.scene import ONE, Rectangle, encode, encode_scene, extensions, fit
 
 CORNERS = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
@@ -198,6 +198,16 @@ def with_records(scene: Scene, data: bytes) -> bytes:
     return artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + struct
 
 
+def fog(near: int, far: int) -> bytes:
+    """The content of a record of white fog."""
+    return b"\xff" * 3 + b"".join(distance.to_bytes(8, "big", signed=True) for distance in (near, far))
+
+
+def tone(exposure: int, flags: int) -> bytes:
+    """The content of a record of a tone."""
+    return exposure.to_bytes(4, "big") + bytes([flags])
+
+
 DOWN = cone(0, -ONE, 0, ONE, 0)
 HALF = (1 << 23).to_bytes(4, "big")
 FAR = 1 << 58
@@ -228,7 +238,9 @@ def test_records_are_what_the_file_says() -> None:
         (record(1, 1, DOWN) + b"\2\0\1\0", "ExtensionCutOff(position=45)"),
         (record(2, 1, HALF) + bytes([2, 0, 2, 255, 255]), "ExtensionCutOff(position=9)"),
         (record(0, 0, b""), "UnknownExtension(kind=0, index=0)"),
-        (record(200, 7, b"what is to come"), "UnknownExtension(kind=200, index=7)"),
+        # sizes of kinds from 8 on are told in words
+        (b"\xc8\0\7\0\1" + bytes(32), "UnknownExtension(kind=200, index=7)"),
+        (b"\xc8\0\7\0\1" + bytes(31), "ExtensionCutOff(position=0)"),
         (record(255, 65535, b""), "UnknownExtension(kind=255, index=65535)"),
         (record(2, 1, HALF) + record(1, 1, DOWN), "ExtensionOrder(kind=1, index=1)"),
         (record(2, 1, HALF) + record(2, 1, HALF), "ExtensionOrder(kind=2, index=1)"),
@@ -252,6 +264,23 @@ def test_records_are_what_the_file_says() -> None:
         (record(1, 1, cone(1, 0, 0, 5, 6)), "SpotAngles(light=1, cosInner=5, cosOuter=6)"),
         (record(2, 0, (1 << 24).to_bytes(4, "big")), f"OpacityOutOfRange(object=0, opacity={1 << 24})"),
         (record(2, 0, b"\xff" * 4), f"OpacityOutOfRange(object=0, opacity={2**32 - 1})"),
+        (record(4, 0, bytes(5)), "ExtensionSize(kind=4, index=0, expected=6, actual=5)"),
+        (record(5, 0, bytes(5)), "ExtensionSize(kind=5, index=0, expected=4, actual=5)"),
+        (record(6, 0, b""), "ExtensionSize(kind=6, index=0, expected=19, actual=0)"),
+        (record(7, 0, bytes(4)), "ExtensionSize(kind=7, index=0, expected=5, actual=4)"),
+        (record(4, 1, bytes(6)), "ExtensionIndex(kind=4, index=1, count=1)"),
+        (record(7, 65535, bytes(5)), "ExtensionIndex(kind=7, index=65535, count=1)"),
+        (record(5, 0, bytes(4)) + record(4, 0, bytes(6)), "ExtensionOrder(kind=4, index=0)"),
+        (record(5, 0, bytes(4)), "RimPowerOutOfRange(power=0)"),
+        (record(5, 0, b"\0\0\0\x11"), "RimPowerOutOfRange(power=17)"),
+        (record(6, 0, fog(0, 0)), "FogOutOfRange(near=0, far=0)"),
+        (record(6, 0, fog(2, 1)), "FogOutOfRange(near=2, far=1)"),
+        (record(6, 0, fog(-1, 1)), "FogOutOfRange(near=-1, far=1)"),
+        (record(6, 0, fog(0, FAR + 1)), f"FogOutOfRange(near=0, far={FAR + 1})"),
+        (record(7, 0, bytes(5)), "ExposureOutOfRange(exposure=0)"),
+        (record(7, 0, tone((64 << 16) + 1, 0)), f"ExposureOutOfRange(exposure={(64 << 16) + 1})"),
+        (record(7, 0, tone(1, 4)), "UnknownToneFlags(flags=4)"),
+        (record(7, 0, tone(1, 255)), "UnknownToneFlags(flags=255)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:
@@ -275,6 +304,9 @@ def test_wrong_records_are_refused(data: bytes, error: str) -> None:
         record(1, 1, cone(0, 0, -1, ONE, ONE)),
         record(3, 0, b""),
         record(1, 1, DOWN) + record(2, 2, HALF) + record(3, 0, b""),
+        record(4, 0, bytes(6)) + record(5, 0, b"\0\0\0\1") + record(6, 0, fog(0, 1)) + record(7, 0, tone(1, 0)),
+        record(2, 2, HALF) + record(4, 0, b"\xff" * 6) + record(5, 0, b"\xff\xff\xff\x10"),
+        record(6, 0, fog(FAR - 1, FAR)) + record(7, 0, tone(64 << 16, 3)),
     ],
 )
 def test_values_at_their_bounds(data: bytes) -> None:
@@ -282,6 +314,23 @@ def test_values_at_their_bounds(data: bytes) -> None:
     picture: Pixels = draw_call(call).pixels
     output = chain().call("Renderer", call).output
     assert (decode_bmp(dynamic(output), 48, 48) == picture).all()
+
+
+PLAIN = ["Engine", "FragmentEngine"]
+FOUR_SAMPLES = ["AntialiasedEngine", "AntialiasedFragmentEngine"]
+
+
+def test_engines_of_a_call() -> None:
+    spots, opacity, antialias = record(1, 1, DOWN), record(2, 2, HALF), record(3, 0, b"")
+    assert engines(with_records(mixed(), spots + opacity + antialias)) == FOUR_SAMPLES
+    assert engines(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == ["EffectsEngine"]
+    for data in (b"", spots + opacity, record(2, 2, antialias[:4])):
+        assert engines(with_records(mixed(), data)) == PLAIN
+    # other functions of the Renderer, and data that are no call at all
+    tile = encode(artifact("Renderer").selectors["renderTile"], evolve(mixed(), antialias=True), Rectangle(0, 0, 8, 8))
+    assert engines(tile) == FOUR_SAMPLES
+    for data in (b"", tile[:4], tile[:100], artifact("Renderer").selectors["engineCall"]):
+        assert engines(data) == PLAIN
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:

@@ -13,7 +13,22 @@ import pytest
 import trimesh
 
 import shackled
-from shackled import Background, Camera, InputError, Light, Mesh, Object, Scene, load, render
+from shackled import (
+    Background,
+    Camera,
+    Fog,
+    Hemisphere,
+    InputError,
+    Light,
+    Mesh,
+    Object,
+    Rim,
+    Scene,
+    Tone,
+    load,
+    render,
+    replace,
+)
 from shackled.datasets import require
 from shackled.errors import InputWarning
 from shackled.scene import SETTINGS, LookOptions, look_at, read_mesh, rotate, signed_volume, write_obj
@@ -143,6 +158,12 @@ VALUES: dict[str, Any] = {
     "orthographic": True,
     "lights": Light.point((2, 2, 2), "orange"),
     "ambient_light": "red",
+    "hemisphere": ("skyblue", "tan"),
+    "rim": ("white", 2),
+    "fog": "white",
+    "exposure": 1.5,
+    "filmic": True,
+    "gamma": True,
     "shading": "unlit",
     "crease": 20,
     "smooth": True,
@@ -175,9 +196,10 @@ def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
 
 def test_a_scene_keeps_what_is_not_set() -> None:
     scene = Scene([Object(MESH)], Camera((0, 0, 5)), [Light.point((1, 2, 3))], "navy", (9, 9, 9), True, 30, 20, True)
+    scene = replace(scene, rim=Rim("red"), fog=Fog("red", 1, 2), tone=Tone(2))
     changed = load(scene, color="red", size=(40, 10))
     assert changed.objects[0].mesh.colors.tolist() == [[255, 0, 0]] * len(MESH.positions)
-    for name in ("camera", "lights", "background", "ambient_light", "invert", "antialias"):
+    for name in ("camera", "lights", "background", "ambient_light", "invert", "antialias", "rim", "fog", "tone"):
         assert getattr(changed, name) == getattr(scene, name)
     assert (changed.width, changed.height) == (40, 10)
     placed = load(scene, azimuth=90, elevation=0)
@@ -187,7 +209,33 @@ def test_a_scene_keeps_what_is_not_set() -> None:
     assert placed.lights == scene.lights
 
 
+def test_fog_without_distances_is_about_the_objects() -> None:
+    for camera in (Camera((0, 0, 5)), Camera((0, 0, 5), projection="orthographic", half_height=2)):
+        scene = Scene([Object(MESH, (0, 0, -1)), Object(MESH, (1, 0, 2), scale=0.5)], camera)
+        depths = 5 - scene.world_positions()[:, 2]
+        found = load(scene, fog="gray").fog
+        assert found == Fog("gray", depths.min(), depths.max())
+        assert load(scene, fog=("gray", 1, 9.5)).fog == Fog("gray", 1, 9.5)
+    assert load(Scene([], Camera((0, 0, 5))), fog="gray").fog == Fog("gray", 0, 1)
+    for eye, fog in (((0, 0, 3), Fog("gray", 0, 5)), ((0, 0, -9), Fog("gray", 0, 1))):
+        wall = Object(Mesh([(0, 0, -2), (1, 0, -2), (0, 1, 4)], [(0, 1, 2)]))
+        assert load(Scene([wall], Camera(eye, (0, 0, -99))), fog="gray").fog == fog
+
+
+def test_effects_are_removed() -> None:
+    plain = Scene([Object(MESH)], Camera((0, 0, 5)))
+    scene = load(plain, hemisphere="white", rim="white", fog="white", exposure=2, filmic=True, gamma=True)
+    assert scene.tone == Tone(2, True, True)
+    assert load(scene, fog="none", gamma=False) == replace(scene, fog=None, tone=Tone(2, True))
+    assert load(scene, hemisphere="none", rim="none", fog="none", exposure=1, filmic=False, gamma=False) == plain
+
+
 def test_looks_in_other_words() -> None:
+    assert load(MESH, hemisphere="red").hemisphere == Hemisphere("red")
+    assert load(MESH, hemisphere=((1, 2, 3), "tan")).hemisphere == Hemisphere((1, 2, 3), "tan")
+    assert load(MESH, rim=(1, 2, 3)).rim == Rim((1, 2, 3))
+    assert load(MESH, rim=((1, 2, 3), 9)).rim == Rim((1, 2, 3), 9)
+    assert load(MESH, fog=((1, 2, 3), 0, 9)).fog == Fog((1, 2, 3), 0, 9)
     assert load(MESH, smooth=True) == load(MESH, shading="smooth")
     assert load(MESH, unlit=True) == load(MESH, shading="unlit")
     assert load(MESH, smooth=False) == load(MESH)
@@ -204,6 +252,10 @@ def test_looks_in_other_words() -> None:
         ({"fov": 40, "orthographic": True}, "an orthographic camera has no field of view: give `half_height` instead"),
         ({"smooth": True, "unlit": True}, "the shading cannot be smooth and unlit at once"),
         ({"opacity": 2}, "`opacity` must be a finite number from 0 to 1, not 2"),
+        ({"hemisphere": "bluish"}, "`hemisphere` must be red, green and blue from 0 to 255, or #rrggbb, or the name"),
+        ({"rim": ("white", 0)}, "the power of a rim must be a whole number from 1 to 16, not 0"),
+        ({"fog": ("white", 4, 3)}, "the near distance of the fog, 4, must be below its far distance, 3"),
+        ({"exposure": -1}, "`exposure` must be a finite number from 0 to 64, not -1"),
         ({"shininess": 2.5}, "`shininess` must be a whole number, from 1 to 128, not 2.5"),
         ({"crease": 30, "shading": "flat"}, "`crease` is for smooth shading, and excludes flat"),
         ({"crease": 181}, "`crease` must be a finite number from 0 to 180, not 181"),

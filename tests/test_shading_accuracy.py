@@ -24,7 +24,7 @@ from accuracy import (
     unlit,
 )
 from pictures import call_data, draw
-from random_scenes import Kind, random_case
+from random_scenes import Kind, plain, random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
 
 ORIGINAL, MADE = scenes_of_the_original(), made_scenes()
@@ -67,8 +67,8 @@ def test_random_scenes_together(kind: Kind, seeds: range) -> None:
     """All pixels of many small pictures taken together."""
     errors = [np.empty((0, 3))]
     for seed in seeds:
-        scene = random_case(seed, (kind,)).scene
-        scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects], antialias=False)
+        scene = plain(random_case(seed, (kind,)).scene)
+        scene = evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects])
         try:
             pixels = draw(scene)
         except ChainError:

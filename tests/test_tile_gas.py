@@ -7,7 +7,7 @@ import pytest
 from attrs import evolve
 
 from pictures import call
-from random_scenes import random_case
+from random_scenes import plain, random_case
 from shackled import Camera, ChainError, Light, Material, Mesh, Object, Scene, load
 from shackled.scene import Rectangle, fit
 
@@ -84,7 +84,7 @@ PATCHES = 48_000
 @pytest.mark.parametrize("first", range(0, 150, 50))
 def test_a_tile_costs_no_more_than_the_whole(first: int) -> None:
     for seed in range(first, first + 50):
-        scene = evolve(random_case(seed).scene, antialias=False)
+        scene = plain(random_case(seed).scene)
         try:
             whole = gas(scene)
         except ChainError:
@@ -99,7 +99,7 @@ CROWDED = (213, 254, 257, 304, 429, 672, 707)
 
 @pytest.mark.parametrize("seed", CROWDED)
 def test_finding_out_that_a_tile_shows_most_of_a_mesh(seed: int) -> None:
-    scene = evolve(random_case(seed).scene, antialias=False)
+    scene = plain(random_case(seed).scene)
     whole = gas(scene)
     assert max(gas(scene, tile) for tile in parts(scene.width, scene.height)) <= 1.35 * whole
 

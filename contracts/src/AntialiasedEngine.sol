@@ -11,6 +11,10 @@ import "./pipeline/Registers.sol";
 /// @title AntialiasedEngine: what the Engine does, with four samples for each pixel.
 /// @notice The work of the Renderer: see Engine.
 contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
+    function prepare(uint256 a, uint256 b, uint256 c) internal pure override {
+        setQuadratic(a, b, c);
+    }
+
     function drawFragments(uint256 row, uint256 last) internal pure override {
         if (load(MODE) & IS_PATCHED == 0) LinearSamples.draw(row, last);
         else drawPatches(row, last);

@@ -12,6 +12,12 @@ import "./pipeline/Registers.sol";
 /// @title AntialiasedFragmentEngine: what the FragmentEngine does, with four samples for each pixel.
 /// @notice The work of the Renderer: see FragmentEngine.
 contract AntialiasedFragmentEngine is SampleBuffer, SampleWires {
+    function prepare(uint256 a, uint256, uint256) internal pure override {
+        unchecked {
+            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
+        }
+    }
+
     function drawFragments(uint256 row, uint256 last) internal pure override {
         drawSpans(row, last);
     }

@@ -10,7 +10,22 @@ from ._render import render, turntable
 from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
-from .scene import Background, Camera, Light, Material, Mesh, Object, Scene, euler
+from .scene import (
+    Background,
+    Camera,
+    Fog,
+    Ground,
+    Hemisphere,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    Rim,
+    Scene,
+    Texture,
+    Tone,
+    euler,
+)
 from .web import export, view
 
 try:
@@ -24,6 +39,9 @@ __all__ = [
     "Camera",
     "ChainError",
     "Cluster",
+    "Fog",
+    "Ground",
+    "Hemisphere",
     "Image",
     "InputError",
     "Light",
@@ -34,8 +52,11 @@ __all__ = [
     "OutputError",
     "Processes",
     "RenderError",
+    "Rim",
     "Scene",
     "ShackledError",
+    "Texture",
+    "Tone",
     "__version__",
     "euler",
     "export",

@@ -18,14 +18,15 @@ from .scene import (
     SCENES,
     LookOptions,
     Mesh,
+    MeshPart,
     Object,
     Scene,
     about,
     checked_look,
     is_trimesh,
     look_at,
-    mesh_of,
     objects_of,
+    part_of,
     read_model,
     read_scene,
 )
@@ -50,13 +51,12 @@ def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack
     chosen = checked_look({"size": size, **look})
     found = locate(thing) if isinstance(thing, str | os.PathLike) else thing
     if isinstance(found, Path):
-        material: dict[str, Any] = {}
         if found.suffix.lower() in READERS:
-            thing, material = read_model(found)
+            thing = [_unplaced(part) for part in read_model(found)]
         else:
             thing = read_scene(found)
         with about(str(found)):
-            return look_at(thing, chosen, evolve(MESH_STAGING, material=evolve(MESH_STAGING.material, **material)))
+            return look_at(thing, chosen)
     return look_at(_made(found, chosen), chosen)
 
 
@@ -77,8 +77,13 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
         raise InputError(f"{name} does not exist, and {error}") from None
 
 
-def _made(thing: Any, look: dict[str, Any]) -> Mesh | Scene:
-    """Return the mesh or scene of an input that is not a file."""
+def _unplaced(part: MeshPart) -> Object:
+    """Return a part of a model as an object, which `look_at` is to place."""
+    return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material))
+
+
+def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:
+    """Return the mesh, the parts of a model or the scene of an input that is not a file."""
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Piece):
@@ -88,7 +93,7 @@ def _made(thing: Any, look: dict[str, Any]) -> Mesh | Scene:
         objects = [thing]
     elif is_trimesh(thing):
         if not hasattr(thing, "graph"):
-            return mesh_of(thing)
+            return [_unplaced(part_of(thing))]
         objects = list(objects_of(thing))
     elif isinstance(thing, list | tuple):
         if not thing or not all(isinstance(part, Mesh | Object) for part in thing):

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from shackled import InputError, Scene, __version__, load, render
+from shackled import Hemisphere, InputError, Rim, Scene, Tone, __version__, load, render
 from shackled.chain import CHAINS
 from shackled.cli.app import run
 from shackled.scene import render_call
@@ -364,6 +364,28 @@ def test_options_override_the_scene() -> None:
     for options, antialias in (([], True), (["--no-antialias"], False), (["--antialias"], True)):
         assert run(["render", "smooth.json", "-o", "a.png", *options]) == 0
         assert load("a.png").antialias is antialias
+
+
+def test_effects_override_the_scene(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("foggy.json").write_text('{"fog": {"color": "red", "near": 1, "far": 2}, "tone": {"gamma": true}, "size": 8}')
+    options = ["--hemisphere", "skyblue,#102030", "--rim", "white,4", "--fog", "gray,1.5,3", "--exposure", "2"]
+    assert run(["render", "foggy.json", "-o", "a.png", *options, "--filmic", "--no-gamma"]) == 0
+    scene = load("a.png")
+    assert (scene.hemisphere, scene.rim) == (Hemisphere("skyblue", "#102030"), Rim("white", 4))
+    assert scene.tone == Tone(2, filmic=True)
+    assert scene.fog is not None
+    assert (scene.fog.color, scene.fog.far) == ((128, 128, 128), 2 * scene.fog.near)
+    assert run(["render", "foggy.json", "-o", "a.png", "--fog", "none", "--no-gamma"]) == 0
+    assert (load("a.png").fog, load("a.png").tone) == (None, None)
+    capsys.readouterr()
+    for wrong, message in (
+        (["--fog", "red,1"], "--fog must be a colour, or #rrggbb,near,far, not 'red,1'"),
+        (["--fog", "red,1,x"], "--fog must be a colour, or #rrggbb,near,far, not 'red,1,x'"),
+        (["--rim", "red,2.5"], "the power of a rim must be a whole number from 1 to 16, not 2.5"),
+        (["--hemisphere", "red,red,red"], "--hemisphere must be one colour or two, #rrggbb,#rrggbb, not"),
+    ):
+        assert run(["render", "foggy.json", *wrong]) == 2
+        assert message in capsys.readouterr().err
 
 
 def test_the_scene_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:

@@ -22,8 +22,9 @@ SAMPLES = np.array([(-1, -3), (3, -1), (-3, 1), (1, 3)]) / 8
 MOVES = np.array([(0, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)]) / 24
 #: A mean of four colours is rounded to the nearest level.
 ROUNDING = 0.51
-#: Levels by which a pixel that shows one triangle may leave the range of the plain picture around it.
-MOST = 8.0
+#: Levels by which a pixel that shows one triangle may leave the range of the plain picture around it. The most that was
+#: found is 1, in the random scenes of the seeds 200 to 1,000 and in all pieces.
+MOST = 2.0
 
 
 def compare_samples(name: str, scene: Scene) -> Result:

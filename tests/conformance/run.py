@@ -9,19 +9,23 @@ from multiprocessing import get_context
 
 from .antialiasing import compare_samples
 from .compare import Result, compare
-from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .effects import compare_effects, with_effects
+from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 
 
 @dataclass(frozen=True)
 class Task:
     """One comparison. row: of the table. piece: the name of a built-in piece, or "" for a random scene.
-    number: the size of its canvas in pixels, or the seed. samples: whether the picture is antialiased.
+    number: the size of its canvas in pixels, or the seed. samples: whether the picture is antialiased. effects: whether
+    it has effects. textured: whether the random scene has textures.
     """
 
     row: str
     piece: str
     number: int
     samples: bool = False
+    effects: bool = False
+    textured: bool = False
 
     def run(self) -> Result:
         """Compares the pictures of the scene."""
@@ -33,8 +37,14 @@ class Task:
             if self.samples:
                 return compare_samples(f"{self.piece} at {self.number}, antialiased", scene)
             return compare(f"{self.piece} at {self.number}", scene, is_piece=True)
+        if self.effects:
+            return compare_effects(
+                f"random scene {self.number}, effects", with_effects(random_scene(self.number), self.number)
+            )
         if self.samples:
             return compare_samples(f"random scene {self.number}, antialiased", random_scene(self.number))
+        if self.textured:
+            return compare(f"textured scene {self.number}", textured_scene(self.number))
         return compare(f"random scene {self.number}", random_scene(self.number))
 
 
@@ -43,6 +53,9 @@ def tasks(count: int, seed: int, only: str | None = None) -> Iterator[Task]:
     if only in (None, "random"):
         yield from (Task("random", "", number) for number in range(seed, seed + count))
         yield from (Task("random, antialiased", "", number, True) for number in range(seed, seed + count))
+        yield from (Task("random, textured", "", number, textured=True) for number in range(seed, seed + count))
+        # the judge is slow
+        yield from (Task("random, effects", "", number, effects=True) for number in range(seed, seed + count // 5))
     for piece in built_in() if only != "random" else ():
         if only in (None, piece.dataset, piece.name):
             yield from (Task(f"{piece.dataset}, {size}", piece.name, size) for size in SIZES)

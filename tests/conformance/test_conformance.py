@@ -13,10 +13,11 @@ from shackled.errors import InputError
 
 from . import contracts, opengl
 from .antialiasing import compare_samples
-from .compare import MOST, Result, compare
+from .compare import MEAN_OF_RUN, MOST, Result, compare
 from .coverage import judge
+from .effects import compare_effects, with_effects
 from .neighbours import interior
-from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
@@ -48,6 +49,12 @@ def test_random_scenes() -> None:
     assert whole.empty < len(SEEDS) / 5
 
 
+def test_textured_scenes() -> None:
+    whole = sum((compare(f"textured scene {seed}", textured_scene(seed)) for seed in range(200, 225)), Result())
+    assert whole.faults_of_run() == []
+    assert whole.interior > 200_000
+
+
 @pytest.mark.parametrize("name", PIECES)
 def test_built_in_pieces(name: str) -> None:
     for size in SIZES:
@@ -66,6 +73,14 @@ def test_samples_of_built_in_pieces(name: str) -> None:
     found = compare_samples(name, built_in_scene(name, 128))
     assert found.faults == []
     assert found.differing < 0.4 * found.pixels
+
+
+def test_effects_of_random_scenes() -> None:
+    scenes = [(seed, with_effects(random_scene(seed), seed)) for seed in range(200, 210)]
+    whole = sum((compare_effects(f"random scene {seed}", scene) for seed, scene in scenes), Result())
+    assert whole.faults == []
+    assert whole.interior > 50_000
+    assert whole.mean < MEAN_OF_RUN
 
 
 def test_every_dataset_is_compared() -> None:

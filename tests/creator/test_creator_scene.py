@@ -9,14 +9,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, load, render
+from shackled import Camera, Fog, Hemisphere, InputError, Light, Material, Mesh, Object, Rim, Scene, Tone, load, render
 from shackled.creator import (
     Backdrop,
+    Curve,
     Facts,
+    Haze,
     Lamp,
     Orbit,
+    Outline,
     Pose,
     Size,
+    Sky,
     Source,
     State,
     Surface,
@@ -96,6 +100,10 @@ def test_every_field_changes_the_scene() -> None:
             Lamp("spot", 0, 0, 3, target=(0, 4, 0), inner_angle=10, outer_angle=20),
         ),
         ambient_light="#010203",
+        hemisphere=Sky(True, "#010203", "#040506"),
+        rim=Outline(True, "#070809", 5),
+        fog=Haze(True, "#0a0b0c", 2, 3),
+        tone=Curve(1.5, True, True),
         surface=Surface("unlit", 1, 2, 3, 4, "#00ff00", 0.5),
         background=Backdrop("#000001", "#000002"),
         cull=False,
@@ -118,6 +126,9 @@ def test_every_field_changes_the_scene() -> None:
     assert np.allclose(np.cross(made.lights[2].direction, (0, 4, -3)), 0)
     assert (made.lights[2].inner_angle, made.lights[2].outer_angle) == (10, 20)
     assert made.ambient_light == (1, 2, 3)
+    assert (made.hemisphere, made.rim) == (Hemisphere((1, 2, 3), (4, 5, 6)), Rim((7, 8, 9), 5))
+    assert made.fog == Fog((10, 11, 12), 2 * radius, 3 * radius)
+    assert made.tone == Tone(1.5, True, True)
     assert all(o.material == Material("unlit", 1, 2, 3, 4) for o in made.objects)
     assert all((o.mesh.colors == (0, 255, 0)).all() for o in made.objects)
     assert not any(o.cull for o in made.objects)
@@ -127,6 +138,27 @@ def test_every_field_changes_the_scene() -> None:
     assert made.antialias
     assert (made.background.top, made.background.bottom) == ((0, 0, 1), (0, 0, 2))
     assert (made.width, made.height) == (20, 10)
+
+
+def test_effects_are_shown_and_removed() -> None:
+    scene, facts = facts_of("teapot")
+    shown = filled(State(facts.source), facts)
+    assert shown.fog is not None
+    assert not shown.fog.on
+    depths = (scene.world_positions() - scene.camera.eye) @ -camera_axes(scene.camera)[2] / facts.bounds.radius
+    assert shown.fog.near < depths.min() < depths.max() < shown.fog.far
+    assert to_scene(shown, scene).fog is None
+    foggy = load(scene, fog=("red", 1, 2), rim="white", hemisphere="white", exposure=2)
+    facts = describe(Source("piece", "teapot"), foggy, "")
+    shown = filled(State(facts.source), facts)
+    made = to_scene(shown, foggy)
+    assert (made.hemisphere, made.rim, made.tone) == (foggy.hemisphere, foggy.rim, foggy.tone)
+    assert made.fog is not None
+    assert np.allclose((made.fog.near, made.fog.far), (1, 2), rtol=1e-5)
+    off = replace(shown, hemisphere=Sky(), rim=Outline(), fog=Haze(far=0), tone=Curve())
+    made = to_scene(off, foggy)
+    assert (made.hemisphere, made.rim, made.fog, made.tone) == (None, None, None, None)
+    assert to_scene(replace(off, fog=Haze(True, far=0)), foggy).fog is not None
 
 
 def test_objects_have_an_opacity_of_their_own() -> None:

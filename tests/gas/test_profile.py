@@ -8,7 +8,7 @@ from importlib.resources import files
 
 import pytest
 
-from shackled import Scene
+from shackled import Scene, load
 from shackled.artifacts import artifact
 from shackled.chain import ContractChain, open_chain
 from shackled.deploy import STANDARD
@@ -88,13 +88,22 @@ def test_the_stack_of_calls_is_that_of_the_sources(profiles: dict[str, Profile])
 def test_calls_are_left_where_they_were_entered(scenes: dict[str, Scene]) -> None:
     root, _ = trace("Renderer", render_call(scenes["smooth"]))
 
-    def depth(frame: CallFrame) -> int:
-        return 1 + max(map(depth, frame.calls), default=0)
-
     # a missed way out of a function would nest without end
     assert depth(root) <= 32
     engines = [frame for frame in root.frames() if frame.contract in ("Engine", "FragmentEngine") and frame.entry == 0]
     assert len(engines) == 1
+
+
+def test_functions_whose_ends_the_compiler_joined_do_not_nest() -> None:
+    teapot = load("teapot", unlit=True, cull=True, size=64)
+    root, result = trace("Renderer", render_call(teapot))
+    assert 8 <= depth(root) <= 32
+    assert sum(frame.gas() for frame in root.frames()) == result.gas
+
+
+def depth(frame: CallFrame) -> int:
+    """Return how deep calls nest in a frame."""
+    return 1 + max(map(depth, frame.calls), default=0)
 
 
 def test_lines_are_in_their_files(profiles: dict[str, Profile]) -> None:

@@ -13,7 +13,7 @@ from attrs import evolve
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene
+from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
 from shackled.scene import (
     EXACT_SIZES,
     MAX_COORDINATE,
@@ -21,6 +21,7 @@ from shackled.scene import (
     Projection,
     Rectangle,
     encode,
+    extensions,
     fit,
     pack,
     rotate,
@@ -55,6 +56,24 @@ def decode(data: bytes, *more: str) -> tuple[Any, ...]:
     # eth-abi encodes in the one canonical way: ours must be the same bytes
     assert eth_abi.encode(types, values) == data[4:]  # type: ignore[attr-defined]
     return tuple(values)
+
+
+@pytest.mark.parametrize("size", [1e-9, 1, 1e12])
+def test_fog_is_scaled_with_the_scene(size: float) -> None:
+    mesh = Mesh(size * np.array([[0.1, 0, 0], [1, 0, 0], [0, 1, 0.7]]), [[0, 1, 2]])
+    scene = Scene([Object(mesh)], Camera((0, 0, 5 * size), near=size), fog=Fog("red", 2 * size, 5.5 * size))
+    fitted = fit(scene)
+    assert fitted.fog is not None
+    assert fitted.camera.near is not None
+    assert fitted.fog == Fog("red", 2 * fitted.camera.near, 5.5 * fitted.camera.near)
+    for far in (1e30, 1e300):
+        distant = fit(evolve(scene, fog=Fog("red", far / 2, far))).fog
+        assert distant is not None
+        assert 0 < distant.near < distant.far <= MAX_COORDINATE
+    exact = scene_of(fog=Fog("red", 0.1, MAX_COORDINATE))
+    assert fit(exact).fog == exact.fog
+    assert fit(evolve(exact, fog=Fog("red", 1e-50, 1e-40))).fog == Fog("red", 1e-50, 1e-40)
+    assert extensions(evolve(exact, fog=Fog((1, 2, 3), 1e-50, 1e-40))) == b"\6\0\0\0\x13\1\2\3" + bytes(15) + b"\1"
 
 
 def test_a_whole_numbered_scene_passes_exactly() -> None:

@@ -11,14 +11,33 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from random_scenes import broken_call, random_case
-from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled import (
+    Background,
+    Camera,
+    Fog,
+    Hemisphere,
+    InputError,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    RenderError,
+    Rim,
+    Scene,
+    Tone,
+    render,
+)
 from shackled.chain import ContractChain, open_chain
 from shackled.datasets import pieces
 from shackled.scene import (
     ANTIALIAS,
+    FOG,
+    HEMISPHERE,
     NORMAL_UNIT,
     OPACITY,
+    RIM,
     SPOT,
+    TONE,
     Projection,
     Shading,
     cosine,
@@ -64,6 +83,10 @@ def test_every_field() -> None:
         320,
         200,
         True,
+        Hemisphere((1, 2, 3), (4, 5, 6)),
+        Rim((7, 8, 9), 16),
+        Fog((1, 2, 3), 0.25, 12),
+        Tone(1.5, gamma=True),
     )
     found = assert_same(scene)
     # cosines have 32 bits after the point
@@ -276,6 +299,15 @@ OPAQUE, HALF = (2**24).to_bytes(4, "big"), (2**23).to_bytes(4, "big")
         (record(SPOT, 0, spot(x=2**59)), "the direction of lights.0. must be from"),
         (record(SPOT, 0, spot(2**32 + 1)), "a cosine of lights.0. must be from -1 to 1"),
         (record(SPOT, 0, spot(0, 1)), "must not be above its outer_angle"),
+        (record(HEMISPHERE, 1, bytes(6)), "number 1 of 1"),
+        (record(HEMISPHERE, 0, bytes(5)), "kind 4 and 5 bytes is not known"),
+        (record(RIM, 0, bytes(4)), "power of a rim must be a whole number from 1 to 16, not 0"),
+        (record(RIM, 0, b"\0\0\0\x11"), "power of a rim must be a whole number from 1 to 16, not 17"),
+        (record(FOG, 0, bytes(19)), "near distance of the fog, 0, must be below its far distance, 0"),
+        (record(FOG, 0, bytes(11) + (2**58 + 1).to_bytes(8, "big")), "a distance of the fog must be from 0 to"),
+        (record(TONE, 0, bytes(5)), "exposure beyond its range"),
+        (record(TONE, 0, b"\0\x40\0\1\0"), "exposure beyond its range"),
+        (record(TONE, 0, b"\0\1\0\0\4"), "unknown flags"),
     ],
 )
 def test_extensions(records: bytes, message: str) -> None:

@@ -11,7 +11,23 @@ import numpy as np
 import pytest
 
 import shackled
-from shackled import Background, Camera, InputError, Light, Material, Mesh, Object, Scene, load, render, replace
+from shackled import (
+    Background,
+    Camera,
+    Fog,
+    Hemisphere,
+    InputError,
+    Light,
+    Material,
+    Mesh,
+    Object,
+    Rim,
+    Scene,
+    Tone,
+    load,
+    render,
+    replace,
+)
 from shackled.parallel import Where
 from shackled.scene import rotate, simplify
 
@@ -55,13 +71,21 @@ def scene(**changes: Any) -> Scene:
                 "ambient_light": (1, 2, 3),
                 "invert": True,
                 "antialias": True,
+                "hemisphere": Hemisphere("white"),
+                "rim": Rim("white"),
+                "fog": Fog("white", 1, 2),
+                "tone": Tone(),
                 "width": 7,
             },
         ),
+        (lambda: Hemisphere("white"), {"sky": (1, 2, 3), "ground": (1, 2, 3)}),
+        (lambda: Rim("white"), {"color": (1, 2, 3), "power": 1}),
+        (lambda: Fog("white", 1, 3), {"color": (1, 2, 3), "near": 2, "far": 4}),
+        (Tone, {"exposure": 2, "filmic": True, "gamma": True}),
         (Material, {"ambient": 0.25, "shading": "smooth"}),
         (Background, {"top": (1, 2, 3)}),
     ],
-    ids=["camera", "light", "mesh", "object", "scene", "material", "background"],
+    ids=["camera", "light", "mesh", "object", "scene", "hemisphere", "rim", "fog", "tone", "material", "background"],
 )
 def test_values_are_equal_if_all_is(make: Any, changes: dict[str, Any]) -> None:
     one, other = make(), make()

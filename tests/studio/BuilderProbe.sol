@@ -65,6 +65,11 @@ contract BuilderProbe {
         stage.fade(0);
         stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 100, 100, 0x010203);
         stage.antialias();
+        stage.tone(150, true, false);
+        stage.fog(0xc0ffee, 2, 5);
+        stage.hemisphere(0x010203, 0x040506);
+        stage.rim(0x070809, 4);
+        stage.tone(50, false, true);
         return stage.scene;
     }
 

@@ -151,14 +151,17 @@ def test_a_scene(world: World, probe: bytes) -> None:
     assert all(o[0] == bytes(5) and o[3] == ONE and o[5] == 1 for o in objects)
 
 
-def test_spot_lights_opacities_and_antialiasing(world: World, probe: bytes) -> None:
+def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
     """In whatever order they are added, their records ascend; the last of an object counts."""
     (scene,) = ask(world, probe, [SCENE_STRUCT], "extended()")
     assert [light[0] for light in scene[5]] == [0, 1, 1]
     numbers = [(0, ONE, -2 * ONE, 90 * ONE // 100, -(50 * ONE // 100)), (-ONE, 0, 0, ONE, ONE)]
     cones = [b"".join(number.to_bytes(8, "big", signed=True) for number in cone) for cone in numbers]
+    fog = b"\xc0\xff\xee" + (2 * ONE).to_bytes(8, "big") + (5 * ONE).to_bytes(8, "big")
+    effects = b"\4\0\0\0\6\1\2\3\4\5\6" + b"\5\0\0\0\4\7\10\11\4" + b"\6\0\0\0\x13" + fog
+    effects += b"\7\0\0\0\5\0\0\x80\0\2"
     spots = b"\1\0\1\0\x28" + cones[0] + b"\1\0\2\0\x28" + cones[1]
-    assert scene[7] == spots + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0" + b"\3\0\0\0\0"
+    assert scene[7] == spots + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0" + b"\3\0\0\0\0" + effects
     call = call_data(f"render({SCENE_STRUCT})", scene)
     assert len(world.run(world.address("Renderer"), call)) > 54 + 3 * 20 * 10
 

@@ -22,7 +22,7 @@ from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
 from random_scenes import random_case
-from shackled import InputError, Light, Mesh, Object, Scene, load
+from shackled import Fog, Hemisphere, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
@@ -146,6 +146,7 @@ def changed(scene: Scene, rng: np.random.Generator) -> Scene:
     return evolve(
         scene,
         antialias=bool(rng.random() < 0.5),
+        **effects(rng, factor),
         objects=objects,
         camera=evolve(
             camera,
@@ -156,6 +157,20 @@ def changed(scene: Scene, rng: np.random.Generator) -> Scene:
             half_height=camera.half_height * (1 if camera.projection == "perspective" else factor),
         ),
         lights=[cone(evolve(light, vector=light.vector * factor), rng) for light in scene.lights],
+    )
+
+
+def effects(rng: np.random.Generator, factor: float) -> dict[str, Any]:
+    """Some effects of a scene. factor: of its lengths."""
+    near = float(rng.choice([0.0, rng.uniform(0, 3000)]))
+    fog = Fog(rng.integers(0, 256, 3), near * factor, (near + 10.0 ** rng.uniform(-9, 4)) * factor)
+    exposure = float(rng.choice([0, 64, rng.uniform(0, 4)]))
+    return some(
+        rng,
+        hemisphere=Hemisphere(*rng.integers(0, 256, (2, 3))),
+        rim=Rim(rng.integers(0, 256, 3), int(rng.integers(1, 17))),
+        fog=fog,
+        tone=Tone(exposure, bool(rng.random() < 0.5), bool(rng.random() < 0.5)),
     )
 
 
@@ -233,6 +248,10 @@ WRONG: tuple[dict[str, Any], ...] = (
     {"camera": {"zzz": 1}},
     {"background": {"zzz": 1}},
     {"lights": [{"kind": "point", "zzz": 1}]},
+    {"hemisphere": {"zzz": 1}},
+    {"rim": {"zzz": 1}},
+    {"fog": {"zzz": 1}},
+    {"tone": {"zzz": 1}},
     {"objects": [{"zzz": 1}]},
     {"objects": [{"mesh": {"zzz": 1}}]},
     {"objects": [{"mesh": {"positions": [[0, 0, 0]], "faces": [[0, 0, 0]]}, "material": {"zzz": 1}}]},
@@ -265,6 +284,15 @@ def documents() -> Iterator[dict[str, Any]]:
             invert=bool(rng.random() < 0.5),
             antialias=bool(rng.random() < 0.5),
             ambient_light=color(rng),
+            hemisphere={"sky": color(rng)} | some(rng, ground=color(rng)),
+            rim={"color": color(rng)} | some(rng, power=int(rng.integers(1, 17))),
+            fog={"color": color(rng), "near": (near := rng.uniform(0, 9)), "far": near + rng.uniform(0.01, 9)},
+            tone=some(
+                rng,
+                exposure=one(rng, [0, 3, rng.uniform(0, 64)]),
+                filmic=bool(rng.random() < 0.5),
+                gamma=bool(rng.random() < 0.5),
+            ),
             camera=camera(rng),
             lights=[light(rng) for _ in range(rng.integers(5))],
         ) | {"objects": [thing(rng) for _ in range(rng.integers(4))]}

@@ -88,7 +88,7 @@ library Clipper {
                 bool mustClip = load(record) & MUST_CLIP != 0;
                 isCut = isCut || mustClip;
                 outcodes &= mustClip ? load(record + VERTEX_ATTRIBUTES) : 0;
-                VertexShader.clipCoordinates(mesh, index, polygon);
+                VertexShader.clipCoordinates(index, polygon);
                 store(polygon + CORNER_NORMAL, load(record + 0x40));
                 store(polygon + CORNER_IS_EDGE, 1);
                 polygon += CORNER_SIZE;

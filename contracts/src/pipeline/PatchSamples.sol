@@ -8,6 +8,18 @@ import "./Registers.sol";
 
 // Triangles of which the colours are quadratic, as a whole or over square cells: see Patches.
 abstract contract PatchSamples is SampleRasterizer {
+    /// @dev What quadratic functions need besides.
+    function setQuadratic(uint256 a, uint256 b, uint256 c) internal pure {
+        unchecked {
+            if (load(MODE) & IS_PATCHED == 0) return;
+            uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
+            farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
+            store(FARTHEST, farthest >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
+            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
+        }
+    }
+
     /// @notice Draws the rows from `row` to before `last`.
     function drawPatches(uint256 row, uint256 last) internal pure {
         unchecked {
@@ -52,6 +64,15 @@ abstract contract PatchSamples is SampleRasterizer {
                 color := shr(PIXEL_AT, mul(color, Q58_TO_TOP))
             }
 
+            {
+                // in the row of the kink no pixel counts as inside
+                let inner := mload(INSETS)
+                if iszero(lt(row, mload(KINK_ROW))) { inner := mload(KINK_INSETS) }
+                if eq(row, mload(KINK_ROW)) { inner := NO_INSIDE }
+                inner := add(mload(ROW_BOUNDS), shl(1, inner))
+                mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(15, inner)), WHOLE_SAMPLES))
+                mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, inner), WHOLE_SAMPLES))
+            }
             let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
             mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
             let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))

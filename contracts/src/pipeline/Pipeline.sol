@@ -127,7 +127,7 @@ abstract contract Pipeline is PrimitiveAssembly {
 
     /// @dev Reads the uniforms of an object into their registers.
     /// @return next Where those of the next begin.
-    function readObject(uint256 position) internal pure returns (uint256 next) {
+    function readObject(uint256 position) internal pure virtual returns (uint256 next) {
         unchecked {
             uint256 size;
             assembly ("memory-safe") {

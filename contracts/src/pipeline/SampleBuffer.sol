@@ -20,6 +20,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     function openPicture(Rectangle memory tile, uint256 image, uint256, uint256[3][] memory lists)
         internal
         pure
+        virtual
         override
         returns (uint256 size)
     {

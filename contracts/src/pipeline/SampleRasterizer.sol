@@ -10,8 +10,8 @@ import "./Registers.sol";
 //
 // A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: where the edge crosses the height of the sample,
 // less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are
-// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are kept so
-// that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
+// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are
+// kept so that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
 //
 //   left = 2^63 - side                  left + p  >= 2^63 where p >= side
 //   right = 2^63 - 1 + side             right - p >= 2^63 where p < side
@@ -25,10 +25,12 @@ abstract contract SampleRasterizer is Rasterizer {
     /// @notice Draws the fragments of a row from `column` to before `end`.
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
 
-    /// @notice Draws a fragment of which each is shaded for itself.
-    /// @param attribute The accumulator at the centre of its pixel.
-    /// @param covered The highest bit of each sample that the triangle covers: one at least.
-    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure virtual;
+    /// @notice Draws a fragment, where an engine has rows drawn by drawEach: the accumulator at the centre of its pixel, the highest bit
+    /// of each sample that the triangle covers, one at least, column and row.
+    function drawFragment(uint256, uint256, uint256, uint256) internal pure virtual {}
+
+    /// @notice Sets what the ways to shade a triangle need besides, before its sides are set.
+    function prepare(uint256, uint256, uint256) internal pure virtual {}
 
     /// @notice Draws the rows from `row` to before `last` of the triangle that was set up, as its mode says.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
@@ -44,7 +46,7 @@ abstract contract SampleRasterizer is Rasterizer {
             uint256 row = max((a + ((SUBPIXEL_MASK - OUTERMOST_SAMPLE) << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
             uint256 last = min(lowest >> SCREEN_PIXEL_ROW_AT, load(BAND_BOTTOM));
             if (row >= last) return;
-            if (load(MODE) & (IS_PATCHED | IS_QUADRATIC) != 0) setFarthest(a, b, c);
+            prepare(a, b, c);
             setSides(a, b, c, row);
             setGradients(a, b, c);
             if (load(IS_CLAMPED) != 0) setSpan(a, b, c);
@@ -148,10 +150,9 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(BOUND_STEPS, step)
                 mstore(INSETS, reach)
                 // to the third one on the right
-                side, step, line, reach := edge(xc, c, x, row)
-                // a horizontal edge has no side below it
+                // a horizontal edge has no side below it: nothing is left of address 0
+                side, step, line, reach := edge(xc, c, mul(x, gt(c, 0)), row)
                 mstore(SIDE_RIGHT, not(side))
-                if iszero(c) { mstore(SIDE_RIGHT, BELOW_TOPS_64) }
                 mstore(SIDE_RIGHT_STEP, mul(step, ONES_64))
                 mstore(BOUNDS, add(mload(BOUNDS), shl(128, add(line, reach))))
                 mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(128, step)))
@@ -180,7 +181,8 @@ abstract contract SampleRasterizer is Rasterizer {
             row := sub(shl(SUBPIXEL_BITS, a), row)
             a := sub(a, mload(SIDE_ROW))
             {
-                let side, step, line, reach := edge(sub(xc, xb), sub(c, b), sub(x, mul(a, mload(STRIDE_37))), row)
+                x := mul(sub(x, mul(a, mload(STRIDE_37))), iszero(eq(b, c)))
+                let side, step, line, reach := edge(sub(xc, xb), sub(c, b), x, row)
                 mstore(KINK_EDGE, xor(side, sub(0, gt(shift, 0))))
                 mstore(KINK_STEP, mul(mul(sign, step), ONES_64))
                 // lanes borrow from each other less than bounds are rounded by
@@ -191,7 +193,6 @@ abstract contract SampleRasterizer is Rasterizer {
                 mstore(IS_CLAMPED, or(and(mload(IS_CLAMPED), STEEP_42), and(mload(MODE), IS_CLAMPED_MODE)))
                 if eq(b, c) {
                     // nothing is below
-                    mstore(KINK_EDGE, BELOW_TOPS_64)
                     mstore(KINK_KEPT, not(0))
                     mstore(KINK_BOUND, 0)
                 }
@@ -229,17 +230,6 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev What quadratic functions need besides.
-    function setFarthest(uint256 a, uint256 b, uint256 c) private pure {
-        unchecked {
-            uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
-            farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
-            farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
-            store(FARTHEST, farthest >> ATTRIBUTE_DEPTH_AT << DEPTH_FRACTION);
-            store(QUADRATIC_ROW, max((a + (SUBPIXEL_MASK << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP)));
-        }
-    }
-
     /// @dev Draws the rows from `row` to before `last`, between SPAN_BEGIN and SPAN_END.
     function drawSpans(uint256 row, uint256 last) internal pure {
         unchecked {
@@ -271,14 +261,13 @@ abstract contract SampleRasterizer is Rasterizer {
         }
     }
 
-    /// @dev The sides at a row; their changes to the next, and the bounds, in registers. In the row of the kink no pixel counts as inside.
+    /// @dev The sides at a row; their changes to the next, and the bounds, in registers.
     function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
         unchecked {
             uint256 n = row - load(SIDE_ROW);
             store(ROW_LEFT_STEP, load(SIDE_LEFT_STEP));
             store(ROW_RIGHT_STEP, load(SIDE_RIGHT_STEP));
             store(ROW_BOUND_STEPS, load(BOUND_STEPS));
-            store(ROW_INSETS, load(INSETS));
             (left, right) = (load(SIDE_LEFT) + n * load(SIDE_LEFT_STEP), load(SIDE_RIGHT) + n * load(SIDE_RIGHT_STEP));
             uint256 bounds = load(BOUNDS) + n * load(BOUND_STEPS);
             n = row - load(KINK_ROW);
@@ -301,7 +290,6 @@ abstract contract SampleRasterizer is Rasterizer {
                 }
                 bounds = ((bounds & load(KINK_KEPT)) | load(KINK_BOUND)) + n * step;
                 store(ROW_BOUND_STEPS, load(KINK_BOUND_STEPS));
-                store(ROW_INSETS, n == 0 ? NO_INSIDE : load(KINK_INSETS));
             }
             store(ROW_BOUNDS, bounds);
         }
@@ -321,9 +309,6 @@ abstract contract SampleRasterizer is Rasterizer {
             end := sar(SAMPLE_SIZE_BITS, sub(sar(UPPER_ADDRESS_AT, bounds), base))
             if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
             end := mul(end, sgt(end, 0))
-            bounds := add(bounds, shl(1, mload(ROW_INSETS)))
-            mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(15, bounds)), WHOLE_SAMPLES))
-            mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, bounds), WHOLE_SAMPLES))
         }
     }
 

@@ -13,7 +13,7 @@ import "./Registers.sol";
 uint256 constant SMOOTH_BIAS = 0x100000000000020000000000000200000000000002000000000;
 
 abstract contract SmoothShading is Rasterizer {
-    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure virtual override {
         unchecked {
             uint256 mode = load(OBJECT_MODE);
             uint256 kind = UNBOUNDED_LIGHT;

@@ -96,12 +96,10 @@ library VertexShader {
     }
 
     /// @notice The clip coordinates and the colour of a vertex, as `project` computes them, in the first four words of `corner`.
-    function clipCoordinates(Mesh memory mesh, uint256 index, uint256 corner) internal pure {
-        uint256 vertex = mesh.vertices;
-        uint256 bits = mesh.bits;
-        uint256 stride = mesh.stride;
+    function clipCoordinates(uint256 index, uint256 corner) internal pure {
+        uint256 bits = load(MESH_BITS);
         assembly ("memory-safe") {
-            let data := calldataload(add(vertex, mul(index, stride)))
+            let data := calldataload(add(mload(MESH_VERTICES), mul(index, mload(MESH_STRIDE))))
             let rest := sub(256, bits)
             let clip := add(mul(sar(rest, data), mload(MATRIX_X)), add(mload(MATRIX_T), CLIP_BIAS))
             data := shl(bits, data)

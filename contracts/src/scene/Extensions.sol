@@ -9,19 +9,24 @@ import {SceneErrors} from "./SceneErrors.sol";
 //
 //   kind     1 byte    one of the following
 //   index    2 bytes   the light or the object that it belongs to, counted from 0; 0 for the scene
-//   size     2 bytes   of what follows, which is that of the kind
+//   size     2 bytes   of what follows, which is that of the kind: in bytes, for kinds from 8 on in words of 32 bytes
 //   SPOT               of a point light, which shines into a cone only:
 //                      3 numbers of 8 bytes: where it points, Q32, any length but zero
 //                      2 numbers of 8 bytes: the cosines of the angles from there at which the light begins to fade, and at which none
 //                      is left, Q32, -1..1
 //   OPACITY            of an object: 4 bytes, Q24, below 1
 //   ANTIALIAS          of the scene: nothing; edges are smoothed
+//   4 and above        effects, of the scene or of an object: see Effects.sol. A scene that has any is drawn by the EffectsEngine, which
+//                      checks them
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
 uint256 constant ANTIALIAS = 3;
+
+/// @dev The first kind of which sizes are told in words.
+uint256 constant LONG_KINDS = 8;
 
 uint256 constant RECORD_HEADER = 5;
 uint256 constant SPOT_SIZE = 40;
@@ -45,13 +50,17 @@ library Extensions {
             while (record != end) {
                 uint256 place = records.length - (end - record);
                 if (end - record < RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
-                uint256 size = (word(record) >> 216) & 0xffff;
+                uint256 size = sizeOf(record);
                 if (size > end - record - RECORD_HEADER) revert SceneErrors.ExtensionCutOff(place);
                 uint256 key = keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
                 if (key < least) revert SceneErrors.ExtensionOrder(kind, index);
                 least = key + 1;
-                if (kind == 0 || kind > ANTIALIAS) revert SceneErrors.UnknownExtension(kind, index);
+                if (kind == 0) revert SceneErrors.UnknownExtension(kind, index);
+                if (kind > ANTIALIAS) {
+                    record += RECORD_HEADER + size;
+                    continue;
+                }
                 (uint256 expected, uint256 count) = kind == SPOT
                     ? (SPOT_SIZE, scene.lights.length)
                     : kind == OPACITY_OF ? (OPACITY_SIZE, scene.objects.length) : (0, 1);
@@ -84,7 +93,9 @@ library Extensions {
     /// @notice The records in memory with one more, which replaces one of the same kind and index.
     function added(bytes memory records, uint256 kind, uint256 index, bytes memory content) internal pure returns (bytes memory more) {
         unchecked {
-            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(content.length), content);
+            // in words, for kinds from LONG_KINDS on
+            uint256 size = content.length >> (kind < LONG_KINDS ? 0 : 5);
+            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(size), content);
             uint256 key = kind << 16 | index;
             // where the record belongs, and where those after it begin
             (uint256 place, uint256 next) = (0, 0);
@@ -94,7 +105,7 @@ library Extensions {
                     header := shr(216, mload(add(add(records, 32), next)))
                 }
                 if (header >> 16 > key) break;
-                uint256 end = next + RECORD_HEADER + (header & 0xffff);
+                uint256 end = next + RECORD_HEADER + ((header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5));
                 if (end > records.length) revert SceneErrors.ExtensionCutOff(next);
                 next = end;
                 if (header >> 16 < key) place = next;
@@ -122,15 +133,34 @@ library Extensions {
         }
     }
 
-    /// @notice Whether there is a record of this kind for the scene.
-    function has(Scene calldata scene, uint256 kind) internal pure returns (bool) {
+    /// @notice The first record behind those of kinds up to `kind`, or the end.
+    function behind(Scene calldata scene, uint256 kind) internal pure returns (uint256 record, uint256 end) {
         unchecked {
-            (uint256 record, uint256 end) = bounds(scene);
-            while (record != end) {
-                if (keyOf(record) == kind << 16) return true;
-                record += RECORD_HEADER + ((word(record) >> 216) & 0xffff);
-            }
-            return false;
+            (record, end) = bounds(scene);
+            while (record != end && keyOf(record) >> 16 <= kind) record += RECORD_HEADER + sizeOf(record);
+        }
+    }
+
+    /// @notice Whether there is a record of this kind and index.
+    function has(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (bool) {
+        unchecked {
+            (uint256 record, uint256 end) = behind(scene, kind - 1);
+            while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
+            return isOf(record, end, kind, index);
+        }
+    }
+
+    /// @notice Whether there is a record of the kinds that tell something of vertices or faces.
+    function isLong(Scene calldata scene) internal pure returns (bool) {
+        (uint256 record, uint256 end) = behind(scene, LONG_KINDS - 1);
+        return record != end;
+    }
+
+    /// @notice The bytes of what follows the header of a record.
+    function sizeOf(uint256 record) internal pure returns (uint256) {
+        unchecked {
+            uint256 header = word(record) >> 216;
+            return (header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5);
         }
     }
 
@@ -157,7 +187,7 @@ library Extensions {
         }
     }
 
-    function word(uint256 place) private pure returns (uint256 value) {
+    function word(uint256 place) internal pure returns (uint256 value) {
         assembly ("memory-safe") {
             value := calldataload(place)
         }

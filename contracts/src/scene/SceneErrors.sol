@@ -54,6 +54,22 @@ interface SceneErrors {
     error SpotAngles(uint256 light, int256 cosInner, int256 cosOuter);
     /// @notice Opacities are below 1, 2^24: what is opaque has none.
     error OpacityOutOfRange(uint256 object, uint256 opacity);
+    /// @notice The power of a rim is from 1 to 16.
+    error RimPowerOutOfRange(uint256 power);
+    /// @notice Fog begins at a distance from 0 on, and hides everything farther away, 2^58 at most (Q32).
+    error FogOutOfRange(int256 near, int256 far);
+    /// @notice An exposure is above 0, and 64 at most (Q16).
+    error ExposureOutOfRange(uint256 exposure);
+    /// @notice The flags of a tone are 1 and 2.
+    error UnknownToneFlags(uint256 flags);
+    /// @notice One light casts shadows at most; this is a second one.
+    error SeveralShadows(uint256 light);
+    /// @notice The rule is 1, 2 or 3.
+    error ShadowRuleOutOfRange(uint256 light, uint256 rule);
+    /// @notice The inner radius of a ground is below its outer one, which is 2^58 at most (Q32).
+    error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
+    /// @notice The flags of a texture are 0 to 3, and its texels have 1, 2, 4, 8 or 24 bits.
+    error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);
     /// @notice The engine has used up the gas of the call.
     error OutOfGas();

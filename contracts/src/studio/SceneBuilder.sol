@@ -5,6 +5,7 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
+import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
@@ -147,7 +148,8 @@ struct Stage {
 
 using {
     StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade,
-    StageMaker.antialias
+    StageMaker.antialias, StageMaker.hemisphere, StageMaker.rim, StageMaker.fog, StageMaker.tone,
+    StageMaker.shadow, StageMaker.ground
 } for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
@@ -217,7 +219,56 @@ library StageMaker {
 
     /// @notice Smooths the edges of the picture.
     function antialias(Stage memory made) internal pure {
-        made.scene.extensions = Extensions.added(made.scene.extensions, ANTIALIAS, 0, "");
+        extend(made, ANTIALIAS, "");
+    }
+
+    /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
+    /// antialiased, as with each of the following.
+    function hemisphere(Stage memory made, uint256 sky, uint256 ground) internal pure {
+        extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(ground)));
+    }
+
+    /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
+    function rim(Stage memory made, uint256 color, uint256 power) internal pure {
+        extend(made, RIM, abi.encodePacked(uint24(color), uint8(power)));
+    }
+
+    /// @notice Adds fog, 0xRRGGBB, that begins `near` units from the eye and hides everything from `far` units on.
+    function fog(Stage memory made, uint256 color, uint256 near, uint256 far) internal pure {
+        extend(made, FOG, abi.encodePacked(uint24(color), uint64(near << 32), uint64(far << 32)));
+    }
+
+    /// @notice How light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film, or cut off; added
+    /// up in linear space, or as sRGB values.
+    function tone(Stage memory made, uint256 exposure, bool filmic, bool gamma) internal pure {
+        uint256 flags = (filmic ? TONE_FILMIC : 0) | (gamma ? TONE_GAMMA : 0);
+        extend(made, TONE, abi.encodePacked(uint32((exposure << 16) / 100), uint8(flags)));
+    }
+
+    /// @notice Has objects cast shadows in the light that was added last; one light of a scene at most.
+    function shadow(Stage memory made) internal pure {
+        bytes memory rule = abi.encode(SHADOWS_ALL);
+        made.scene.extensions = Extensions.added(made.scene.extensions, SHADOW, made.scene.lights.length - 1, rule);
+    }
+
+    /// @notice Adds a level, matte disc, 0xRRGGBB, which catches shadows and casts none: opaque around its middle, and gone `radius` units
+    /// from it. It stands best just below what is on it, and is added after it.
+    function ground(Stage memory made, uint256 color, Vector memory middle, uint256 radius) internal pure returns (Object memory object) {
+        Model memory square = ModelMaker.model(4, 2);
+        square.vertex(-1, 0, -1, color);
+        square.vertex(-1, 0, 1, color);
+        square.vertex(1, 0, 1, color);
+        square.vertex(1, 0, -1, color);
+        square.quad(0, 1, 2, 3);
+        object = add(made, square.pack(), flat(40, 70, 0, 1));
+        (object.position, object.scale) = (middle, Fixed.wrap(int256(radius << 32)));
+        bytes memory radii = abi.encode((radius << 32) * 2 / 5 << 192 | radius << 160);
+        made.scene.extensions = Extensions.added(made.scene.extensions, GROUND, made.scene.objects.length - 1, radii);
+    }
+
+    /// @dev Sets a record of the scene.
+    function extend(Stage memory made, uint256 kind, bytes memory content) private pure {
+        made.scene.extensions = Extensions.added(made.scene.extensions, kind, 0, content);
     }
 
     /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away. What is

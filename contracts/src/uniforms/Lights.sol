@@ -37,6 +37,8 @@ library Lights {
                 }
                 record += LIGHT_SIZE;
             }
+            // fragments are lit by one light at least, if need be one without light
+            if (lights.length == 0 && load(EFFECTS) != 0) record += LIGHT_SIZE;
             store(LIGHTS_END, record);
         }
     }

@@ -30,7 +30,7 @@ library Materials {
             if (grey) mode |= IS_GREY;
             Specular.setTable(uint256(material.specular.raw()), material.shininess);
             // without lights the normal makes no difference
-            if (material.shading == FLAT || lights.length == 0) {
+            if (material.shading == FLAT || (lights.length == 0 && load(EFFECTS) == 0)) {
                 mode |= IS_FLAT;
                 store(FRAGMENT_SQUARE, ONE_48);
                 store(FRAGMENT_NORMAL_LENGTH, ONE_24);

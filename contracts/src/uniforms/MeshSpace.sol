@@ -38,7 +38,7 @@ library MeshSpace {
     }
 
     /// @dev A unit vector, Q24, in signed lanes of 86 bits, z lowest.
-    function storeLanes(uint256 pointer, Vector memory v) private pure {
+    function storeLanes(uint256 pointer, Vector memory v) internal pure {
         unchecked {
             uint256 shift = Q32 - Q24;
             storeSigned(pointer, ((v.x.raw() >> shift) << UPPER_86_AT) + ((v.y.raw() >> shift) << MIDDLE_86_AT) + (v.z.raw() >> shift));

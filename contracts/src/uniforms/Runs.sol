@@ -61,6 +61,8 @@ library Runs {
         unchecked {
             uint256 mode = load(position + OBJECT_MODE - OBJECT_BYTES);
             if (mode & IS_BLENDED != 0) return BLENDED;
+            // one engine draws all
+            if (load(EFFECTS) != 0) return BY_FACES;
             bool isWire = load(position + OBJECT_FLAGS - OBJECT_BYTES) & WIREFRAME != 0;
             return isWire || mode & (IS_SMOOTH | IS_SPOT_LIT) != 0 ? BY_FRAGMENTS : BY_FACES;
         }

@@ -2,6 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
+import {Vector} from "../math/Vector.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
@@ -45,7 +46,9 @@ library Uniforms {
             data = freeMemory() + room;
             uint256 size;
             uint256 moved;
-            bool culls = (tile.width < scene.canvas.width || tile.height < scene.canvas.height) && TileCulling.areApart(scene);
+            bool culls = tile.width < scene.canvas.width || tile.height < scene.canvas.height;
+            // the coordinates of a texture are told by the numbers of vertices, and shadows by those of faces, which culling changes
+            culls = culls && !Extensions.isLong(scene) && TileCulling.areApart(scene);
             assembly ("memory-safe") {
                 size := sub(calldatasize(), scene)
                 mstore(data, selector)
@@ -86,10 +89,31 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
-            store(FRAME_IS_ANTIALIASED, Extensions.has(scene, ANTIALIAS) ? 1 : 0);
+            setEffects(view_, scene);
             setBackground(scene, tile);
             store(INVERT, scene.invert);
             extension = Lights.set(view_, scene);
+        }
+    }
+
+    /// @dev What the extensions say of the frame.
+    function setEffects(View memory view_, Scene calldata scene) private pure {
+        unchecked {
+            (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS - 1);
+            store(FRAME_IS_ANTIALIASED, record == end ? 0 : 1);
+            (record, end) = Extensions.behind(scene, ANTIALIAS);
+            if (record == end) return;
+            assembly ("memory-safe") {
+                // their places in the engine's calldata
+                let moved := sub(add(4, FRAME_SIZE), scene)
+                mstore(EFFECTS, add(record, moved))
+                mstore(EFFECTS_END, add(end, moved))
+            }
+            store(AMBIENT_LIGHT, Lights.colorLanes(scene.ambientLight));
+            // the products with (0, 1, 0)
+            storeSigned(UP_X, view_.right.y.raw() >> (Q32 - Q24));
+            storeSigned(UP_Y, view_.down.y.raw() >> (Q32 - Q24));
+            storeSigned(UP_Z, view_.forward.y.raw() >> (Q32 - Q24));
         }
     }
 
@@ -164,8 +188,14 @@ library Uniforms {
                 mode |= Materials.set(view_, scene, object.material);
                 if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
                 else MeshSpace.set(view_, scene, object, rotation);
+                if (load(EFFECTS) != 0) {
+                    store(AMBIENT_COEFFICIENT, uint256(object.material.ambient.raw()) >> (Q32 - Q16));
+                    store(DIFFUSE_COEFFICIENT, uint256(object.material.diffuse.raw()) >> (Q32 - Q16));
+                    MeshSpace.storeLanes(UP_IN_MESH, Vector(rotation.x.y, rotation.y.y, rotation.z.y));
+                }
                 // no square is beyond the beginning of a table that is not there
-                if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
+                if (load(EFFECTS) != 0) end = OBJECT_END;
+                else if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
                 else end = OBJECT_LIGHTS + scene.lights.length * LIGHT_SIZE;
             }
             store(OBJECT_MODE, mode);

@@ -33,9 +33,6 @@ MAX_INIT_CODE = 49152
 #: The contracts that a creation call brings; antialiased pictures need two others of about the same size.
 CARRIED = ("Engine", "FragmentEngine", "Renderer")
 
-#: The word of a scene that has the offset of its extensions, and the record of those that says that it is antialiased.
-EXTENSIONS, ANTIALIASED = 20, bytes([3, 0, 0, 0, 0])
-
 #: Address at which a state override places the contract Meter, which counts gas.
 METER = bytes.fromhex("5ac61ed000000000000000000000000000000002")
 
@@ -256,12 +253,13 @@ class NodeChain(ContractCaller):
     def _below(self, contract: str, data: bytes) -> list[str]:
         """Return the contracts that a call of a contract needs, each before those that it needs itself.
 
-        The Renderer calls two of its engines: those for scenes that are antialiased, or the others.
+        The Renderer calls those of its engines that draw the scene.
         """
         parts = artifact(contract).parts
         if contract == "Renderer":
-            is_antialiased = _is_antialiased(data)
-            parts = [name for name in parts if name.startswith("Antialiased") == is_antialiased]
+            from .. import reference
+
+            parts = reference.engines(data)
         return parts + [each for part in parts for each in self._below(part, b"")]
 
     def _refused(self, data: bytes | None, gas_limit: int | None) -> ChainError:
@@ -346,22 +344,6 @@ def _probe(connection: Connection) -> _Probed:
             return max(found, key=lambda each: (each.gas, not each.named))
     # without creation calls, only deployed contracts can be called
     return _Probed(False, connection.block_gas_limit(), False, creations=False)
-
-
-def _is_antialiased(data: bytes) -> bool:
-    """Return whether a call of the Renderer asks for an antialiased picture; False if it has no such scene."""
-
-    def number(place: int) -> int:
-        return int.from_bytes(data[place : place + 32], "big")
-
-    scene = 4 + number(4)
-    records = scene + number(scene + 32 * EXTENSIONS)
-    place, end = records + 32, min(records + 32 + number(records), len(data))
-    while place < end:
-        if data[place : place + 5] == ANTIALIASED:
-            return True
-        place += 5 + int.from_bytes(data[place + 3 : place + 5], "big")
-    return False
 
 
 def _limit(gas: int | None) -> bytes:

@@ -24,9 +24,9 @@ def deploy(
         str | None,
         option(
             "--contracts",
-            "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, Renderer, "
-            "Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio and GenesisMetadata; without it, the first "
-            "seven. Contracts that they call are added.",
+            "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
+            "EffectsEngine, Shadows, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, "
+            "GenesisMetadata; without it, the first nine. Contracts that they call are added.",
             "NAMES",
         ),
     ] = None,

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 from .._load import load, locate
 from ..datasets import Piece
 from ..scene import SETTINGS, Kind, Scene, Setting, checked_look
-from .option import OPTIONS, option, parse_background, parse_light, parse_size, parse_vector
+from .option import OPTIONS, option, parse_color_and, parse_colors, parse_light, parse_size, parse_vector
 
 #: The type of a value for typer, its metavar, and its converter.
 _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
@@ -22,8 +22,12 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "rotation": (str, "X,Y,Z", parse_vector),
     "flag": (bool, None, lambda value, name: value),
     "color": (str, "COLOR", lambda text, name: text),
-    "background": (str, "COLOR[,COLOR]", lambda text, name: parse_background(text)),
+    "background": (str, "COLOR[,COLOR]", lambda text, name: parse_colors(text, name)),
     "choice": (str, "KIND", lambda text, name: text),
+    "hemisphere": (str, "SKY[,GROUND]", lambda text, name: parse_colors(text, name)),
+    "rim": (str, "COLOR[,EXPONENT]", lambda text, name: parse_color_and(("exponent",), text, name)),
+    "ground": (str, "COLOR", lambda text, name: text),
+    "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
     "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
 }
 

@@ -68,12 +68,24 @@ def parse_vector(text: str, name: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def parse_background(text: str) -> str | tuple[str, str]:
-    """Return the colour of "#rrggbb" or a name, or two for the top and the bottom, separated by a comma."""
+def parse_colors(text: str, name: str) -> str | tuple[str, str]:
+    """Return the colour of "#rrggbb" or a name, or two, the upper one first, separated by a comma."""
     parts = [part.strip() for part in text.split(",")]
     if len(parts) > 2:
-        raise InputError(f"--background must be one colour or two, #rrggbb,#rrggbb, not {text!r}")
+        raise InputError(f"{name} must be one colour or two, #rrggbb,#rrggbb, not {text!r}")
     return parts[0] if len(parts) == 1 else (parts[0], parts[1])
+
+
+def parse_color_and(numbers: tuple[str, ...], text: str, name: str) -> str | tuple[Any, ...]:
+    """Return the colour of "#rrggbb" or a name, with these numbers after it, separated by commas, or alone."""
+    color, *given = (part.strip() for part in text.split(","))
+    try:
+        values = [int(part) if part.isdigit() else float(part) for part in given]
+    except ValueError:
+        values = [0.0] * (len(numbers) + 1)
+    if values and len(values) != len(numbers):
+        raise InputError(f"{name} must be a colour, or #rrggbb,{','.join(numbers)}, not {text!r}")
+    return (color, *values) if values else color
 
 
 def parse_light(text: str) -> Light:

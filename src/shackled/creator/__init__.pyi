@@ -32,7 +32,22 @@ from ._scene import (
     to_scene,
 )
 from ._solidity import contract_name
-from ._state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, from_document, to_document
+from ._state import (
+    Backdrop,
+    Curve,
+    Haze,
+    Lamp,
+    Orbit,
+    Outline,
+    Pose,
+    Size,
+    Sky,
+    Source,
+    State,
+    Surface,
+    from_document,
+    to_document,
+)
 from ._store import Limits, Store, Stored
 from ._takeaway import KINDS, make_file
 from ._tasks import Tasks
@@ -57,19 +72,23 @@ __all__ = [
     "MAX_STEPS",
     "PRESETS",
     "Backdrop",
+    "Curve",
     "Facts",
     "File",
     "ForbiddenError",
     "Frame",
+    "Haze",
     "History",
     "Lamp",
     "Limits",
     "Orbit",
+    "Outline",
     "Pool",
     "PoolError",
     "Pose",
     "Queue",
     "Size",
+    "Sky",
     "Source",
     "State",
     "Store",

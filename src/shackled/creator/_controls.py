@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from ..checks import choice, color
 from ..errors import InputError
-from ..scene import INNER_ANGLE, LIGHT_KINDS, MAX_LIGHTS, OUTER_ANGLE, SETTINGS
+from ..scene import INNER_ANGLE, LIGHT_KINDS, MAX_LIGHTS, OUTER_ANGLE, POWERS, SETTINGS
 
 ControlKind = Literal["number", "choice", "switch", "color"]
 
@@ -70,6 +70,8 @@ GROUPS = (
     ("object", "Object"),
     ("camera", "Camera"),
     ("lights", "Lights"),
+    ("atmosphere", "Sky, rim and fog"),
+    ("tone", "Tone"),
     ("material", "Material"),
     ("background", "Background"),
     ("drawing", "Drawing"),
@@ -126,6 +128,10 @@ def _length(path: str, group: str, label: str, low: float, high: float, **change
     return Control(path, group, label, low=low, high=high, step=0.01, unit="radii", **changes)
 
 
+def _color(path: str, label: str, help: str) -> Control:
+    return Control(path, "atmosphere", label, "color", help=help)
+
+
 _PROJECTIONS = (("perspective", "Perspective"), ("orthographic", "Orthographic"))
 
 CONTROLS: tuple[Control, ...] = (
@@ -160,6 +166,27 @@ CONTROLS: tuple[Control, ...] = (
         help="Keep the lights where they are for the viewer.",
     ),
     _set("ambient_light", "lights", "Ambient light"),
+    Control("hemisphere.on", "atmosphere", "Sky light", "switch", help=_SETTINGS["hemisphere"].text),
+    _color("hemisphere.sky", "Sky", "Colour of the light from above."),
+    _color("hemisphere.ground", "Ground", "Colour of the light from below."),
+    Control("rim.on", "atmosphere", "Rim light", "switch", help=_SETTINGS["rim"].text),
+    _color("rim.color", "Rim colour", "Colour of the light along outlines."),
+    Control(
+        "rim.power",
+        "atmosphere",
+        "Rim exponent",
+        low=POWERS[0],
+        high=POWERS[1],
+        whole=True,
+        help="From a wide rim to a narrow one.",
+    ),
+    Control("fog.on", "atmosphere", "Fog", "switch", help=_SETTINGS["fog"].text),
+    _color("fog.color", "Fog colour", "Colour of the fog."),
+    _length("fog.near", "atmosphere", "Fog from", 0, 1000, reach=(0, 10), help="Distance at which the fog begins."),
+    _length("fog.far", "atmosphere", "Fog to", 0, 1000, reach=(0, 10), help="Distance at which it hides everything."),
+    _set("tone.exposure", "tone", "Exposure", reach=(0, 4)),
+    _set("tone.filmic", "tone", "Filmic"),
+    _set("tone.gamma", "tone", "Linear light"),
     _set("surface.shading", "material", "Shading"),
     _set("surface.color", "material", "Colour", none="its own colours"),
     _set("surface.ambient", "material", "Ambient", reach=(0, 2)),

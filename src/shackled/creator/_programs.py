@@ -18,7 +18,7 @@ from ..gas import KEPT, floor_gas, render_call
 from ..image import Image
 from ..scene import Light, Scene
 from ._link import LOCAL, is_local
-from ._scene import FLAGS, MATERIAL, Facts
+from ._scene import EFFECTS, FLAGS, MATERIAL, Facts
 from ._state import State
 from ._store import Stored
 
@@ -108,6 +108,11 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
     ]
     if source.ambient_light != scene.ambient_light:
         lines.append(f"    ambient_light={_numbers(scene.ambient_light)},\n")
+    lines += [
+        f"    {name}={'' if value is None else 'shackled.'}{value!r},\n"
+        for name in EFFECTS
+        if (value := getattr(scene, name)) != getattr(source, name)
+    ]
     if source.background != scene.background:
         top, bottom = _numbers(scene.background.top), _numbers(scene.background.bottom)
         lines.append(f"    background=shackled.Background({top}, {bottom}),\n")

@@ -17,19 +17,23 @@ from ..checks import Color, Floats
 from ..scene import (
     Background,
     Camera,
+    Fog,
+    Hemisphere,
     Light,
     Object,
+    Rim,
     Scene,
+    Tone,
     from_euler,
     half_height_of,
     is_closed,
     multiply,
-    painted,
+    painted_object,
     rotate,
     simplify_scene,
 )
 from ._controls import tidy, within
-from ._state import Backdrop, Lamp, Orbit, Pose, Size, Source, State, Surface, Vector
+from ._state import Backdrop, Curve, Haze, Lamp, Orbit, Outline, Pose, Size, Sky, Source, State, Surface, Vector
 
 #: The fields that a surface has in common with a material.
 MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
@@ -37,6 +41,8 @@ MATERIAL = ("shading", "ambient", "diffuse", "specular", "shininess")
 OBJECT = ("cull", "wireframe")
 #: The flags of a state that are those of the scene.
 FLAGS = ("invert", "antialias")
+#: The parts of a state that are effects of the scene.
+EFFECTS = ("hemisphere", "rim", "fog", "tone")
 
 
 @dataclass(frozen=True)
@@ -94,6 +100,7 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
         camera=orbit_of(scene.camera, bounds),
         lights=tuple(lamp_of(light, bounds) for light in scene.lights),
         ambient_light=_hex(scene.ambient_light),
+        **_effects_of(scene, bounds),
         surface=Surface(**own),
         background=Backdrop(_hex(scene.background.top), _hex(scene.background.bottom)),
         invert=scene.invert,
@@ -119,7 +126,7 @@ def describe(source: Source, scene: Scene, title: str, notice: str = "", licence
 def filled(state: State, facts: Facts) -> State:
     """Return the state with the values of the source in place of each None."""
     changes: dict[str, Any] = {}
-    for name in ("camera", "lights", "ambient_light", "background", *OBJECT, *FLAGS, "size"):
+    for name in ("camera", "lights", "ambient_light", *EFFECTS, "background", *OBJECT, *FLAGS, "size"):
         if getattr(state, name) is None:
             changes[name] = getattr(facts.defaults, name)
     own = facts.defaults.surface
@@ -153,12 +160,56 @@ def arranged(state: State, scene: Scene, bounds: Bounds) -> Scene:
         changes["lights"] = [carried(light, scene.camera, camera, bounds) for light in changes["lights"]]
     if state.ambient_light is not None:
         changes["ambient_light"] = state.ambient_light
+    changes |= _effects(state, bounds)
     if state.background is not None:
         changes["background"] = Background(state.background.top, state.background.bottom)
     changes |= {name: value for name in FLAGS if (value := getattr(state, name)) is not None}
     if state.size is not None:
         changes |= {"width": state.size.width, "height": state.size.height}
     return evolve(scene, **changes)
+
+
+def _effects_of(scene: Scene, bounds: Bounds) -> dict[str, Any]:
+    """Return the effects of a scene as parts of a state; those that it does not have suit it, but are not on."""
+    back = camera_axes(scene.camera)[2]
+    depth = max(float((scene.camera.eye - bounds.middle) @ back) / bounds.radius, 1.0)
+    parts: dict[str, Any] = {
+        "hemisphere": Sky(),
+        "rim": Outline(),
+        "fog": Haze(False, _hex(scene.background.bottom), _distance(depth - 1), _distance(depth + 1)),
+        "tone": Curve(),
+    }
+    hemisphere, rim, fog, tone = scene.hemisphere, scene.rim, scene.fog, scene.tone
+    if hemisphere is not None:
+        parts["hemisphere"] = Sky(True, _hex(hemisphere.sky), _hex(hemisphere.ground))
+    if rim is not None:
+        parts["rim"] = Outline(True, _hex(rim.color), rim.power)
+    if fog is not None:
+        near, far = (_distance(each / bounds.radius) for each in (fog.near, fog.far))
+        parts["fog"] = Haze(True, _hex(fog.color), near, far)
+    if tone is not None:
+        parts["tone"] = Curve(tidy(tone.exposure), tone.filmic, tone.gamma)
+    return parts
+
+
+def _distance(radii: float) -> float:
+    return within("fog.near", radii)
+
+
+def _effects(state: State, bounds: Bounds) -> dict[str, Any]:
+    """Return the fields of a scene that the effects of a state replace."""
+    fields: dict[str, Any] = {}
+    if (sky := state.hemisphere) is not None:
+        fields["hemisphere"] = Hemisphere(sky.sky, sky.ground) if sky.on else None
+    if (rim := state.rim) is not None:
+        fields["rim"] = Rim(rim.color, rim.power) if rim.on else None
+    if (fog := state.fog) is not None:
+        # fog that ends before it begins is a wall
+        near, far = fog.near * bounds.radius, max(fog.far, fog.near + 0.01) * bounds.radius
+        fields["fog"] = Fog(fog.color, near, far) if fog.on else None
+    if (tone := state.tone) is not None:
+        fields["tone"] = None if tone == Curve() else Tone(tone.exposure, tone.filmic, tone.gamma)
+    return fields
 
 
 def _lights(lamps: Sequence[Lamp] | None, scene: Scene, bounds: Bounds) -> Sequence[Light]:
@@ -169,10 +220,10 @@ def _object(o: Object, state: State, bounds: Bounds, number: int) -> Object:
     surface = state.surface
     given = {name: value for name in MATERIAL if (value := getattr(surface, name)) is not None}
     changes: dict[str, Any] = {name: value for name in OBJECT if (value := getattr(state, name)) is not None}
+    if surface.color is not None:
+        o = painted_object(o, surface.color)
     if given:
         changes["material"] = evolve(o.material, **given)
-    if surface.color is not None:
-        changes["mesh"] = painted(o.mesh, surface.color)
     opacity = state.opacities[number] if number < len(state.opacities) else None
     opacity = surface.opacity if opacity is None else opacity
     if opacity is not None:

@@ -92,6 +92,55 @@ class Lamp:
 
 
 @dataclass(frozen=True)
+class Sky:
+    """Light from above and below; without effect unless it is on."""
+
+    on: bool = False
+    sky: str = "#b4c8e6"
+    ground: str = "#3c342c"
+
+    def __post_init__(self) -> None:
+        check_fields(self, "hemisphere", "sky light")
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Light along outlines; without effect unless it is on."""
+
+    on: bool = False
+    color: str = "#ffffff"
+    power: int = 3
+
+    def __post_init__(self) -> None:
+        check_fields(self, "rim", "rim")
+
+
+@dataclass(frozen=True)
+class Haze:
+    """Fog between two distances from the eye; without effect unless it is on."""
+
+    on: bool = False
+    color: str = "#8892a2"
+    near: float = 2.0
+    far: float = 4.0
+
+    def __post_init__(self) -> None:
+        check_fields(self, "fog", "fog")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """How light becomes colours."""
+
+    exposure: float = 1.0
+    filmic: bool = False
+    gamma: bool = False
+
+    def __post_init__(self) -> None:
+        check_fields(self, "tone", "tone")
+
+
+@dataclass(frozen=True)
 class Surface:
     """The material of all objects, where it replaces their own; `color` replaces the colours of the meshes."""
 
@@ -143,6 +192,10 @@ class State:
     lights: tuple[Lamp, ...] | None = None
     lights_follow: bool = False
     ambient_light: str | None = None
+    hemisphere: Sky | None = None
+    rim: Outline | None = None
+    fog: Haze | None = None
+    tone: Curve | None = None
     surface: Surface = Surface()
     opacities: tuple[float | None, ...] = (None,) * MAX_OPACITIES
     background: Backdrop | None = None
@@ -198,6 +251,10 @@ _PARTS: dict[str, type] = {
     "source": Source,
     "pose": Pose,
     "camera": Orbit,
+    "hemisphere": Sky,
+    "rim": Outline,
+    "fog": Haze,
+    "tone": Curve,
     "surface": Surface,
     "background": Backdrop,
     "size": Size,

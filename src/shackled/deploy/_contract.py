@@ -16,6 +16,8 @@ STANDARD = (
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "EffectsEngine",
+    "Shadows",
     "Renderer",
     "Original",
     "Genesis",

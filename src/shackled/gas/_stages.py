@@ -64,6 +64,11 @@ _SOURCES = {
     "pipeline/ExactSamples.sol": FRAGMENTS,
     "pipeline/BlendedSamples.sol": FRAGMENTS,
     "pipeline/SmoothSamples.sol": FRAGMENTS,
+    "pipeline/EffectSamples.sol": FRAGMENTS,
+    "pipeline/SurfaceLight.sol": FRAGMENTS,
+    "pipeline/ShadowRows.sol": FRAGMENTS,
+    "pipeline/Ground.sol": FRAGMENTS,
+    "math/Gamma.sol": FRAGMENTS,
     "pipeline/Compositor.sol": "compositor",
     "pipeline/SampleBuffer.sol": "compositor",
     "encode/Bmp.sol": "encoding",
@@ -76,6 +81,11 @@ _SOURCES = {
     "FragmentEngine.sol": REST,
     "AntialiasedEngine.sol": REST,
     "AntialiasedFragmentEngine.sol": REST,
+    "EffectsEngine.sol": REST,
+    "Shadows.sol": UNIFORMS,
+    "shadows/LightSpace.sol": UNIFORMS,
+    "shadows/Faces.sol": UNIFORMS,
+    "shadows/Receivers.sol": UNIFORMS,
     "Renderer.sol": REST,
 }
 

@@ -7,13 +7,14 @@ integers where it computes vertices, faces and light, NumPy arrays where it walk
 from __future__ import annotations
 
 from ..artifacts import artifact
+from ..errors import RenderError
 from ..image import encode_bmp
 from ..scene import Rectangle, Scene, encode
-from . import coverage
+from . import coverage, effects, extensions
 from .call import read_call
 from .pipeline import Picture, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "render", "selector"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -35,6 +36,19 @@ def count(scene: Scene, tile: Rectangle | None = None) -> tuple[int, int]:
 def draw_call(data: bytes) -> Picture:
     """Render what a call of `render`, `renderTile` or `renderCounted` of the Renderer asks for."""
     return draw(*read_call(data))
+
+
+def engines(data: bytes) -> list[str]:
+    """Return the engines that draw what a call of the Renderer asks for; those of plain scenes if it has none."""
+    try:
+        scene, _ = read_call(data)
+        records = extensions.read_records(scene.extensions)
+    except RenderError:
+        records = {}
+    if extensions.has_effects(records):
+        return ["EffectsEngine", "Shadows"] if effects.has_shadows(records) else ["EffectsEngine"]
+    prefix = "Antialiased" if extensions.is_antialiased(records) else ""
+    return [prefix + "Engine", prefix + "FragmentEngine"]
 
 
 def selector(function: str) -> bytes:

@@ -7,6 +7,8 @@ from .structs import POINT, Scene
 
 #: Kinds of records.
 SPOT, OPACITY, ANTIALIAS = 1, 2, 3
+#: The first kind of which sizes are told in words of 32 bytes.
+LONG_KINDS = 8
 #: Bytes of kind, index and size; and of the content, by kind.
 HEADER = 5
 SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
@@ -25,15 +27,18 @@ def check_extensions(scene: Scene) -> None:
     counts = {SPOT: len(scene.lights), OPACITY: len(scene.objects), ANTIALIAS: 1}
     place, least = 0, 0
     while place != len(data):
-        header, content = data[place : place + HEADER], data[place + HEADER :]
-        size = int.from_bytes(header[3:], "big")
-        if len(header) < HEADER or size > len(content):
+        content = data[place + HEADER :]
+        if len(data) - place < HEADER or (size := size_of(data[place:])) > len(content):
             raise Reverted("ExtensionCutOff", position=place)
-        key = int.from_bytes(header[:3], "big")
+        key = int.from_bytes(data[place : place + 3], "big")
         kind, index = key >> 16, key & 0xFFFF
         if key < least:
             raise Reverted("ExtensionOrder", kind=kind, index=index)
         least = key + 1
+        place += HEADER + size
+        if kind > ANTIALIAS:
+            # an effect, which the engine checks
+            continue
         if kind not in SIZES:
             raise Reverted("UnknownExtension", kind=kind, index=index)
         if size != SIZES[kind]:
@@ -48,7 +53,11 @@ def check_extensions(scene: Scene) -> None:
             opacity = int.from_bytes(content[:size], "big")
             if opacity >= OPAQUE:
                 raise Reverted("OpacityOutOfRange", object=index, opacity=opacity)
-        place += HEADER + size
+
+
+def size_of(record: bytes) -> int:
+    """Return the size of the content of a record, in bytes."""
+    return int.from_bytes(record[3:HEADER], "big") * (1 if record[0] < LONG_KINDS else 32)
 
 
 def check_spot(content: bytes, index: int) -> None:
@@ -66,15 +75,20 @@ def read_records(data: bytes) -> Records:
     """Return the records of a scene that was checked."""
     records = {}
     while data:
-        size = int.from_bytes(data[3:HEADER], "big")
+        size = size_of(data)
         records[data[0], int.from_bytes(data[1:3], "big")] = data[HEADER : HEADER + size]
         data = data[HEADER + size :]
     return records
 
 
 def is_antialiased(records: Records) -> bool:
-    """Return whether edges are smoothed."""
-    return (ANTIALIAS, 0) in records
+    """Return whether each pixel has four samples."""
+    return any(kind >= ANTIALIAS for kind, _ in records)
+
+
+def has_effects(records: Records) -> bool:
+    """Return whether the scene has records of effects."""
+    return any(kind > ANTIALIAS for kind, _ in records)
 
 
 def spot_numbers(content: bytes) -> tuple[int, ...]:

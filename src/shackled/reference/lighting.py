@@ -44,6 +44,12 @@ def set_face(mesh: Mesh, face: int, registers: Registers) -> tuple[int, int]:
     return mode, total
 
 
+def set_face_up(r: Registers) -> None:
+    """Set how much the normal of the face points up."""
+    up = signed(r.face_normal * r.up_in_mesh) >> UPPER_86_AT
+    r.face_up = divide_signed(up << 16, face_length(r.face_square << 32))
+
+
 def face_length(square: int) -> int:
     """Return the root of the square of a normal, within 2^-22 of it.
 

@@ -25,14 +25,14 @@ def set_material(view: View, scene: Scene, material: Material, registers: Regist
         mode |= HAS_SPECULAR
     specular.set_table(material.specular, material.shininess, registers)
     # without lights the normal makes no difference
-    if material.shading == FLAT or not scene.lights:
+    if material.shading == FLAT or not (scene.lights or registers.has_effects):
         mode |= IS_FLAT
         registers.fragment_square = 1 << 48
         registers.fragment_normal_length = 1 << 24
     else:
         registers.face_light_40 = registers.ambient << 24
         focal = view.focal >> 32
-        is_point = registers.lights[0].is_point
+        is_point = any(record.is_point for record in registers.lights[:1])
         registers.smooth_reach = smooth_reach(focal, material.diffuse, is_point)
         registers.half_reach = specular.half_reach(material.specular, material.shininess)
         # with several lights most of the work would be repeated for each

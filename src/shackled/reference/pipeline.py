@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import compositor, primitive_assembly, rasterizer, samples, uniforms, vertex_shader, wireframe
+from . import compositor, effects, primitive_assembly, rasterizer, samples, shadows, uniforms, vertex_shader, wireframe
 from .checks import check_scene
-from .extensions import is_antialiased, read_records
+from .extensions import has_effects, is_antialiased, read_records
 from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
 from .mesh import Mesh, open_mesh
 from .primitive_assembly import Triangle
@@ -48,12 +48,15 @@ class Geometry:
 def draw(scene: Scene, tile: Rectangle) -> Picture:
     """Draw a part of the canvas; raise Reverted where the contract refuses."""
     registers, view, geometry, triangles = assemble(scene, tile)
+    if registers.has_effects:
+        effects.set_frame(scene, view, registers)
     for blended in (False, True):
         compositor.begin(blended, scene, registers)
         if registers.antialiased and not blended:
             registers.sample_colors = np.repeat(registers.image[:, :, None], 4, axis=2)
         for index, part in enumerate(geometry):
             uniforms.set_object(view, scene, index, registers)
+            registers.shadow_faces = registers.shadows.faces[index] if registers.shadows else []
             mode = registers.object_mode
             if (mode & IS_BLENDED != 0) != blended or registers.opacity == 0:
                 continue
@@ -89,12 +92,15 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
         image=np.zeros((tile.height, tile.width, 3), np.uint8),
         records=(records := read_records(scene.extensions)),
         antialiased=is_antialiased(records),
+        has_effects=has_effects(records),
         sample_depths=np.zeros((tile.height, tile.width, 4), np.uint64),
         sample_colors=np.zeros((tile.height, tile.width, 4, 3), np.uint8),
         band_top=tile.y + PIXEL_BIAS,
         band_bottom=tile.y + tile.height + PIXEL_BIAS,
     )
     view = uniforms.set_frame(scene, registers)
+    if registers.has_effects:
+        registers.shadows = shadows.cast(scene, view, registers)
     drawn = 0
     geometry = []
     distances: list[int] = []

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .extensions import Records
 from .layout import IS_BLENDED, IS_DEPTH_PASS
 from .quadratic import Differences
+from .shadow_table import Entry, Table
 from .structs import Rectangle
 
 #: The modes of objects that are drawn in two passes.
@@ -66,6 +67,8 @@ class Registers:
     antialiased: bool
     sample_depths: NDArray[np.uint64]
     sample_colors: NDArray[np.uint8]
+    #: whether the scene has hemisphere light, a rim, fog or a tone
+    has_effects: bool
     #: what depths of samples are less than those of accumulators, and by how many bits they are shifted
     sample_base: int = 0
     sample_shift: int = 0
@@ -91,6 +94,20 @@ class Registers:
     length_slope: int = 0
     length_steps: int = 0
     lights: list[LightRecord] = field(default_factory=list)
+    rim_color: int = 0
+    rim_power: int = 0
+    fog_color: int = 0
+    fog_near: int = 0
+    fog_range: int = 0
+    exposure: int = 1 << 16
+    tone_flags: int = 0
+    up_x: int = 0
+    up_y: int = 0
+    up_z: int = 0
+
+    #: what one light does not reach, and its colour where it does
+    shadows: Table | None = None
+    shadow_color: int = 0
 
     # object
     matrix_x: int = 0
@@ -116,12 +133,27 @@ class Registers:
     reach: int = 0
     smooth_reach: int = 0
     half_reach: int = 0
+    hemisphere_sky: int = 0
+    hemisphere_ground: int = 0
+    up_in_mesh: int = 0
+
+    #: what is shaded of its faces
+    shadow_faces: list[Entry] = field(default_factory=list)
+    shadow_diffuse: int = 0
+    fade_square: int = 0
+    fade_range: int = 0
+    fade_place: tuple[int, int, int] = (0, 0, 0)
 
     # triangle
     mode: int = 0
+    shadow: Entry = 0
     color_0: int = 0
     color_1: int = 0
     color_2: int = 0
+    albedo_0: int = 0
+    albedo_1: int = 0
+    albedo_2: int = 0
+    face_up: int = 0
     depth_1: int = 0
     depth_2: int = 0
     nearest: int = 0
@@ -161,3 +193,8 @@ class Registers:
     fragment_normal_length: int = 0
     fragment_normal_ray: int = 0
     fragment_light: int = 0
+
+    #: the content of the record TEXTURE of the object
+    texture: bytes | None = None
+    #: texture coordinates of the vertices of a triangle, Q16
+    uvs: list[tuple[int, int]] = field(default_factory=list)

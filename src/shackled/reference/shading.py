@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from . import layout, lighting, patches
+from . import layout, lighting, patches, texture
 from .fragment_light import WEIGHTED_BIAS
 from .fragment_shader import vertex_highlights
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import IS_IN_PASSES, Normals, Registers
 from .smooth_light import STEEP_LIGHT, UNBOUNDED_LIGHT, set_light
+from .surface_light import set_albedo
 from .vertex_shader import Vertex
 from .words import divide
 
@@ -28,7 +29,7 @@ SMALL = 20 << 16
 
 def prepare(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     """Choose the way to shade a triangle, and set what it needs."""
-    if registers.object_mode & (layout.IS_SPOT_LIT | IS_IN_PASSES):
+    if registers.has_effects or registers.object_mode & (layout.IS_SPOT_LIT | IS_IN_PASSES):
         prepare_exact(triangle, mesh, registers)
     elif registers.object_mode & layout.IS_SMOOTH:
         prepare_smooth(triangle, mesh, registers)
@@ -84,15 +85,37 @@ def prepare_smooth(triangle: Triangle, mesh: Mesh, registers: Registers) -> None
 def prepare_exact(triangle: Triangle, mesh: Mesh, registers: Registers) -> None:
     """Prepare to light every fragment, unless only the colour changes, and that linearly."""
     r = registers
+    if r.has_effects:
+        prepare_effects(triangle, mesh, r)
+        return
     mode, attributes = set_face(triangle, mesh, r)
     mode &= ~layout.IS_QUADRATIC
     if mode & layout.IS_SMOOTH:
-        a, b, c = triangle.a, triangle.b, triangle.c
-        r.normals = Normals(a.normal << 16, b.normal - a.normal, c.normal - a.normal)
+        set_normals(triangle.a, triangle.b, triangle.c, r)
     elif mode & (layout.IS_LIT | IS_IN_PASSES) == 0 and not r.antialiased and is_affine(attributes, triangle):
         set_linear(attributes, layout.IS_LINEAR | crossing_of(triangle), r)
         return
     set_exact(triangle, attributes, mode | crossing_of(triangle), r)
+
+
+def prepare_effects(triangle: Triangle, mesh: Mesh, r: Registers) -> None:
+    """Prepare a triangle of a scene with effects."""
+    a, b, c = triangle.a, triangle.b, triangle.c
+    mode = r.object_mode & ~layout.IS_QUADRATIC
+    if mode & layout.IS_SMOOTH:
+        set_normals(a, b, c, r)
+    elif mode & layout.IS_FLAT:
+        lighting.set_face(mesh, triangle.face, r)
+        lighting.set_face_up(r)
+        mode |= layout.IS_LIT | layout.IS_DIFFUSE
+    set_exact(triangle, [vertex.attributes for vertex in (a, b, c)], mode | crossing_of(triangle), r)
+    set_albedo(r)
+    texture.set_triangle(triangle, mesh, r)
+
+
+def set_normals(a: Vertex, b: Vertex, c: Vertex, r: Registers) -> None:
+    """Set the normals of a smooth triangle."""
+    r.normals = Normals(a.normal << 16, b.normal - a.normal, c.normal - a.normal)
 
 
 def crossing_of(triangle: Triangle) -> int:

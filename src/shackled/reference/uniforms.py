@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from . import lights, materials, mesh_space, transform
+from . import effects, ground, lights, materials, mesh_space, transform
+from .effects import TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
 from .registers import Registers
@@ -25,6 +26,7 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
     """Set the registers of an object."""
     obj = scene.objects[index]
     registers.opacity = opacity_of(index, registers)
+    registers.texture = registers.records.get((TEXTURE, index))
     rotation = to_matrix(obj.rotation)
     transform.set_matrix(view, obj, rotation, registers)
     transform.set_rounding(registers.tile, bool(obj.flags & WIREFRAME), registers)
@@ -37,7 +39,11 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
             transform.set_normal_matrix(view, rotation, registers)
         else:
             mesh_space.set_mesh_space(view, scene, obj, rotation, registers)
+        if registers.has_effects:
+            effects.set_object(scene, obj.material, rotation, registers)
     registers.object_mode = mode
+    if registers.has_effects:
+        ground.set_object(index, registers)
 
 
 def opacity_of(index: int, registers: Registers) -> int:

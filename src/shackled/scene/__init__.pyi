@@ -4,12 +4,17 @@ from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._codec import (
     ANTIALIAS,
     CULL_BACKFACES,
+    FOG,
+    HEMISPHERE,
     LIGHTS,
     ONE,
     OPACITY,
     PROJECTIONS,
+    RIM,
     SHADINGS,
     SPOT,
+    TEXTURE,
+    TONE,
     WIREFRAME,
     Rectangle,
     encode,
@@ -19,9 +24,11 @@ from ._codec import (
 )
 from ._crease import CREASE, SIMPLIFIED_CREASE, creased
 from ._decode import decode
-from ._files.colors import TEXTURED, sample
+from ._effects import EXPOSURES, POWERS, Fog, Hemisphere, Rim, Tone
+from ._files.colors import sample
 from ._files.content import MAX_BYTES
 from ._files.mesh_file import READERS, read_mesh, read_model
+from ._files.model import TEXTURED, MeshPart
 from ._files.obj import write_obj
 from ._files.original import original_scene
 from ._files.picture import CHUNK, LONGEST_TEXT, PICTURE, SceneChunk, scene_chunk
@@ -30,17 +37,20 @@ from ._files.scene_file import SCENES, encode_scene_file, read_scene, write_scen
 from ._files.table import about
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
-from ._from_trimesh import is_trimesh, mesh_of, objects_of
+from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
+from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
 from ._mesh import DEFAULT_COLOR, MAX_VERTICES, Mesh, components, vertex_normals, without_slivers
 from ._object import Object
 from ._packed_mesh import NORMAL_UNIT, NORMALS, WIDE, pack, unpack
+from ._packed_texture import pack_texture, unpack_texture
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, signed_volume, view_axes
+from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, painted_object, signed_volume, view_axes
+from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
 
 __all__ = [
@@ -52,9 +62,13 @@ __all__ = [
     "DEFAULT_COLOR",
     "DEFAULT_HALF_HEIGHT",
     "EXACT_SIZES",
+    "EXPOSURES",
     "FILLED",
+    "FILTERS",
+    "FOG",
     "FORCEFUL",
     "GENTLE",
+    "HEMISPHERE",
     "INNER_ANGLE",
     "LIGHTS",
     "LIGHT_KINDS",
@@ -63,6 +77,7 @@ __all__ = [
     "MAX_COORDINATE",
     "MAX_LIGHTS",
     "MAX_SIDE",
+    "MAX_TEXTURE_SIDE",
     "MAX_VERTICES",
     "MESH_STAGING",
     "NORMALS",
@@ -71,32 +86,44 @@ __all__ = [
     "OPACITY",
     "OUTER_ANGLE",
     "PICTURE",
+    "POWERS",
     "PROJECTIONS",
     "READERS",
+    "RIM",
     "SCENES",
     "SETTINGS",
     "SHADINGS",
     "SIMPLIFIED_CREASE",
     "SPOT",
+    "TEXTURE",
     "TEXTURED",
+    "TONE",
     "WHITE",
     "WIDE",
     "WIREFRAME",
+    "WRAPS",
     "Background",
     "Camera",
+    "Fog",
+    "Ground",
+    "Hemisphere",
     "Kind",
     "Light",
     "LightKind",
     "LookOptions",
     "Material",
     "Mesh",
+    "MeshPart",
     "Object",
     "Projection",
     "Rectangle",
+    "Rim",
     "Scene",
     "SceneChunk",
     "Setting",
     "Shading",
+    "Texture",
+    "Tone",
     "about",
     "checked_look",
     "components",
@@ -126,7 +153,10 @@ __all__ = [
     "objects_of",
     "original_scene",
     "pack",
+    "pack_texture",
     "painted",
+    "painted_object",
+    "part_of",
     "read_mesh",
     "read_model",
     "read_scene",
@@ -144,6 +174,7 @@ __all__ = [
     "tangent",
     "turn",
     "unpack",
+    "unpack_texture",
     "vertex_normals",
     "view_axes",
     "weld",

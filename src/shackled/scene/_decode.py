@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from attrs import evolve
 
@@ -14,21 +15,35 @@ from ._camera import Camera
 from ._codec import (
     ANTIALIAS,
     CULL_BACKFACES,
+    EXPOSURE_STEP,
+    FILMIC,
+    FIRST_IN_WORDS,
+    FOG,
+    GAMMA,
+    GROUND,
+    HEMISPHERE,
     LIGHTS,
     ONE,
     OPACITY,
     OPACITY_STEP,
     PROJECTIONS,
+    RIM,
     SHADINGS,
+    SHADOW,
     SPOT,
+    TEXTURE,
+    TONE,
     WIREFRAME,
+    shadow_rule,
 )
+from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, Material
 from ._object import Object
 from ._packed_mesh import WIDE, unpack
+from ._packed_texture import unpack_texture
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 
 WORD = 32
@@ -36,8 +51,19 @@ WORD = 32
 SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
 RECORD_HEADER = 5
-#: Bytes of the content of a record, by kind.
-RECORD_SIZES = {SPOT: 40, OPACITY: 4, ANTIALIAS: 0}
+#: Bytes of the content of a record, by kind; None for those of any size.
+RECORD_SIZES: dict[int, int | None] = {
+    SPOT: 40,
+    OPACITY: 4,
+    ANTIALIAS: 0,
+    HEMISPHERE: 6,
+    RIM: 4,
+    FOG: 19,
+    TONE: 5,
+    TEXTURE: None,
+    SHADOW: 32,
+    GROUND: 32,
+}
 
 #: Contents of records by kind and index.
 Records = Mapping[tuple[int, int], bytes]
@@ -72,12 +98,13 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), OPACITY: len(objects), ANTIALIAS: 1}
+    counts = {SPOT: len(lights), SHADOW: len(lights), **dict.fromkeys((OPACITY, TEXTURE, GROUND), len(objects))}
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
-    return Scene(
-        [_with_opacity(each, records.get((OPACITY, index))) for index, each in enumerate(objects)],
+    lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
+    scene = Scene(
+        [_with_records(each, records, index) for index, each in enumerate(objects)],
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
         background,
@@ -86,7 +113,12 @@ def decode(data: bytes) -> Scene:
         width,
         height,
         (ANTIALIAS, 0) in records,
+        **_effects(records),
     )
+    for (kind, _), content in records.items():
+        if kind == SHADOW and int.from_bytes(content, "big") != shadow_rule(scene):
+            raise InputError("the shadow in the extensions is cast by other faces than those that the scene chooses")
+    return scene
 
 
 _PARTS = ("the lights", "the objects", "the extensions")
@@ -210,22 +242,24 @@ def _object(words: _Words, where: str) -> Object:
 
 
 def _records(data: bytes, counts: Mapping[int, int]) -> Records:
-    """Return the records of the extensions. counts: of what records of a kind may belong to."""
+    """Return the records of the extensions. counts: of what records of a kind may belong to, if not to the scene."""
     records: dict[tuple[int, int], bytes] = {}
     place, last = 0, -1
     while place < len(data):
         header = data[place : place + RECORD_HEADER]
-        content = data[place + RECORD_HEADER :][: int.from_bytes(header[3:], "big")]
-        if len(header) < RECORD_HEADER or len(content) < int.from_bytes(header[3:], "big"):
+        size = int.from_bytes(header[3:], "big")
+        size *= WORD if header[0] >= FIRST_IN_WORDS else 1
+        content = data[place + RECORD_HEADER :][:size]
+        if len(header) < RECORD_HEADER or len(content) < size:
             raise InputError(f"the extensions are cut off at byte {place}")
         key = int.from_bytes(header[:3], "big")
         kind, index = key >> 16, key & 0xFFFF
         if key <= last:
             raise InputError(f"the extensions must ascend by kind and index; {kind}, {index} does not")
-        if len(content) != RECORD_SIZES.get(kind):
+        if kind not in RECORD_SIZES or RECORD_SIZES[kind] not in (None, size):
             raise InputError(f"an extension of kind {kind} and {len(content)} bytes is not known")
-        if index >= counts[kind]:
-            raise InputError(f"an extension belongs to number {index} of {counts[kind]}, counted from 0")
+        if index >= (count := counts.get(kind, 1)):
+            raise InputError(f"an extension belongs to number {index} of {count}, counted from 0")
         records[kind, index] = content
         place, last = place + RECORD_HEADER + len(content), key
     return records
@@ -244,10 +278,38 @@ def _with_spot(light: Light, record: bytes | None, where: str) -> Light:
         return Light.spot(light.vector, direction, light.color, *(math.degrees(math.acos(each)) for each in cosines))
 
 
-def _with_opacity(thing: Object, record: bytes | None) -> Object:
-    if record is None:
-        return thing
-    opacity = int.from_bytes(record, "big") * OPACITY_STEP
-    if opacity >= 1:
-        raise InputError("an opacity in the extensions must be below 1")
-    return evolve(thing, opacity=opacity)
+def _with_records(thing: Object, records: Records, index: int) -> Object:
+    if (OPACITY, index) in records:
+        opacity = int.from_bytes(records[OPACITY, index], "big") * OPACITY_STEP
+        if opacity >= 1:
+            raise InputError("an opacity in the extensions must be below 1")
+        thing = evolve(thing, opacity=opacity)
+    if (TEXTURE, index) in records:
+        with about(f"the texture of objects[{index}]"):
+            texture, uvs = unpack_texture(records[TEXTURE, index], len(thing.mesh.positions))
+        thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
+    if (record := records.get((GROUND, index))) is not None:
+        if any(record[16:]):
+            raise InputError("zeros must fill the word of a ground in the extensions")
+        radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
+        thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
+    return thing
+
+
+def _effects(records: Records) -> dict[str, Any]:
+    """Return the effects of the scene, by the names of its fields."""
+    found: dict[str, Any] = {}
+    if (record := records.get((HEMISPHERE, 0))) is not None:
+        found["hemisphere"] = Hemisphere(tuple(record[:3]), tuple(record[3:]))
+    if (record := records.get((RIM, 0))) is not None:
+        found["rim"] = Rim(tuple(record[:3]), record[3])
+    if (record := records.get((FOG, 0))) is not None:
+        numbers = [int.from_bytes(record[at : at + 8], "big") for at in (3, 11)]
+        near, far = (_number(each, "a distance of the fog", 0, MAX_COORDINATE) for each in numbers)
+        found["fog"] = Fog(tuple(record[:3]), near, far)
+    if (record := records.get((TONE, 0))) is not None:
+        exposure, flags = int.from_bytes(record[:4], "big") * EXPOSURE_STEP, record[4]
+        if not EXPOSURE_STEP <= exposure <= EXPOSURES[1] or flags > FILMIC | GAMMA:
+            raise InputError("the tone in the extensions has an exposure beyond its range, or unknown flags")
+        found["tone"] = Tone(exposure, bool(flags & FILMIC), bool(flags & GAMMA))
+    return found

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ._arithmetic import dot, length, unit
 from ._camera import Camera
+from ._effects import Fog
 from ._light import Light
 from ._mesh import Mesh, vertex_normals
 from ._object import Object
@@ -53,27 +54,35 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 def fit(scene: Scene) -> Scene:
     """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane."""
     _check_view(scene.camera)
-    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    scene = _prepared(scene)
     objects: list[Object]
     if _is_exact(scene):
         camera = evolve(scene.camera, near=near_plane(scene, 1.0, most=1.0))
         lights = list(scene.lights)
         objects = list(scene.objects)
+        fog = scene.fog
     else:
         factor = _factor(scene)
         camera = _move_camera(scene, factor)
         lights = [_move_light(light, scene.camera.eye, factor) for light in scene.lights]
         objects = [_move_object(o, scene, factor) for o in scene.objects]
+        fog = scene.fog and _move_fog(scene.fog, factor)
     camera = evolve(camera, up=_direction(camera.up))
     objects = [evolve(o, rotation=_direction(o.rotation)) for o in objects]
     lights = [_pointed(light) for light in lights]
-    return evolve(scene, objects=objects, camera=camera, lights=lights)
+    return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
 
 
 def fit_factor(scene: Scene) -> float:
     """Return the factor by which `fit` scales lengths; 1 for a scene that it leaves as it is."""
-    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    scene = _prepared(scene)
     return 1.0 if _is_exact(scene) else _factor(scene)
+
+
+def _prepared(scene: Scene) -> Scene:
+    """Return the scene with its ground as an object, and all objects prepared."""
+    grounds = [] if scene.ground is None else [scene.ground.under(scene.world_positions())]
+    return evolve(scene, objects=[_prepare(o) for o in (*scene.objects, *grounds)], ground=None)
 
 
 def _pointed(light: Light) -> Light:
@@ -106,7 +115,8 @@ def _prepare(o: Object) -> Object:
     if len(used) < len(positions):
         positions, faces = positions[used], inverse.reshape(-1, 3)
         normals = None if normals is None else normals[used]
-        mesh = Mesh(positions, faces, mesh.colors[used], normals)
+        uvs = None if mesh.uvs is None else mesh.uvs[used]
+        mesh = Mesh(positions, faces, mesh.colors[used], normals, uvs)
     elif normals is not mesh.normals:
         mesh = evolve(mesh, normals=normals)
     return o if mesh is o.mesh else evolve(o, mesh=mesh)
@@ -138,6 +148,7 @@ def _is_exact(scene: Scene) -> bool:
         and all(each % STEP == 0 for each in lengths)
         and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
         and bool(length(view) >= DIRECTION_LENGTHS[0])
+        and (scene.fog is None or scene.fog.far <= MAX_COORDINATE)
     )
 
 
@@ -151,6 +162,9 @@ def _factor(scene: Scene) -> float:
             # lights far beyond the scene may be moved nearer: their direction hardly changes
             distance = float(np.abs(light.vector - scene.camera.eye).max())
             reach = max(reach, min(distance, 1024 * reach))
+    if scene.fog is not None:
+        # what is so near to the eye is clear in fog that ends beyond
+        reach = max(reach, min(scene.fog.far, 1024 * reach))
     exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
     if size:
         exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1])
@@ -214,6 +228,12 @@ def _move_light(light: Light, eye: Array, factor: float) -> Light:
     return evolve(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
 
 
+def _move_fog(fog: Fog, factor: float) -> Fog:
+    # nothing is as far away as the largest distances
+    far = min(max(fog.far * factor, STEP), MAX_COORDINATE)
+    return evolve(fog, near=min(fog.near * factor, MAX_COORDINATE - 1), far=far)
+
+
 def _move_object(o: Object, scene: Scene, factor: float) -> Object:
     positions = o.mesh.positions
     center, step = np.zeros(3), 1.0
@@ -223,7 +243,8 @@ def _move_object(o: Object, scene: Scene, factor: float) -> Object:
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
         o = evolve(o, mesh=evolve(o.mesh, positions=grid))
     place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
-    return evolve(o, position=place * factor, scale=o.scale * step * factor)
+    fade = None if o.fade is None else (o.fade[0] * factor, o.fade[1] * factor)
+    return evolve(o, position=place * factor, scale=o.scale * step * factor, fade=fade)
 
 
 def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:

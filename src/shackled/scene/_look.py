@@ -10,24 +10,41 @@ import numpy as np
 from attrs import evolve, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import choice, color, flag, integer, number, vector
+from ..checks import Color, choice, color, flag, integer, number, vector
 from ..errors import InputError
 from ._arithmetic import dot, length
 from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
 from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, smoothed, without_normals
+from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, Tone, fog_or_color, hemisphere_of, rim_of
+from ._ground import Ground, ground_of
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
 from ._object import OPACITIES, Object
 from ._rotation import IDENTITY, rotate, rotation_of
 from ._scene import MAX_SIDE, Scene, lights_of
-from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted, placed
+from ._staging import ELEVATIONS, MARGINS, MESH_STAGING, PLAIN, Staging, Viewpoint, frame, painted_object, placed
 from ._turning import middle, turn
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made.
-Part = Literal["scene", "camera", "object", "material"]
-Kind = Literal["size", "whole", "number", "vector", "rotation", "flag", "color", "background", "choice", "lights"]
+Part = Literal["scene", "camera", "object", "material", "tone"]
+Kind = Literal[
+    "size",
+    "whole",
+    "number",
+    "vector",
+    "rotation",
+    "flag",
+    "color",
+    "background",
+    "choice",
+    "lights",
+    "hemisphere",
+    "rim",
+    "fog",
+    "ground",
+]
 
 
 @frozen
@@ -88,6 +105,10 @@ _WORDS: dict[Kind, str] = {
     "background": "one colour or two",
     "choice": "a word",
     "lights": "lights",
+    "hemisphere": "one colour or two, or none",
+    "rim": "a colour, with an exponent from 1 to 16 or without, or none",
+    "fog": "a colour, with two distances or without, or none",
+    "ground": "a colour, or none",
 }
 
 #: The material of mesh files.
@@ -190,6 +211,48 @@ SETTINGS = (
         default="bluish white for mesh files, else white",
     ),
     Setting(
+        "hemisphere",
+        "hemisphere",
+        "scene",
+        "Light",
+        "Light from the sky above and from the ground below, added to the ambient light.",
+    ),
+    Setting("rim", "rim", "scene", "Light", "Light along the outlines of objects, wide or narrow by its exponent."),
+    Setting(
+        "fog",
+        "fog",
+        "scene",
+        "Light",
+        "Fog that begins at one distance from the eye and hides everything at another.",
+        default="distances of the nearest and the farthest point",
+    ),
+    Setting(
+        "shadow",
+        "flag",
+        None,
+        "Light",
+        "Let objects cast shadows in the light of the first light.",
+        option="--shadow/--no-shadow",
+    ),
+    Setting("ground", "ground", "scene", "Light", "Ground under the objects, which catches shadows."),
+    Setting("exposure", "number", "tone", "Light", "Factor of all light.", *EXPOSURES, default="1"),
+    Setting(
+        "filmic",
+        "flag",
+        "tone",
+        "Light",
+        "Compress bright light as on film, instead of cutting it off.",
+        option="--filmic/--no-filmic",
+    ),
+    Setting(
+        "gamma",
+        "flag",
+        "tone",
+        "Light",
+        "Add light in linear space, as in nature, instead of as sRGB values.",
+        option="--gamma/--no-gamma",
+    ),
+    Setting(
         "shading",
         "choice",
         "material",
@@ -290,6 +353,14 @@ class LookOptions(TypedDict, total=False):
     orthographic: bool | None
     lights: Light | Sequence[Light] | None
     ambient_light: AnyColor | None
+    hemisphere: Hemisphere | AnyColor | tuple[AnyColor, AnyColor] | None
+    rim: Rim | AnyColor | tuple[AnyColor, int] | None
+    fog: Fog | AnyColor | tuple[AnyColor, float, float] | None
+    shadow: bool | None
+    ground: Ground | AnyColor | None
+    exposure: float | None
+    filmic: bool | None
+    gamma: bool | None
     shading: Shading | None
     crease: float | None
     smooth: bool | None
@@ -349,30 +420,43 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
-def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
-    """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture."""
+def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], staging: Staging = MESH_STAGING) -> Scene:
+    """Return the scene with a look, of `checked_look`; a mesh is staged, so that it fills the picture.
+
+    thing: also the parts of a model, as objects in its own coordinates.
+    """
     if isinstance(thing, Scene) and not look:
         return thing
     crease = look.get("crease", SIMPLIFIED_CREASE)
-    if isinstance(thing, Mesh):
-        width, height = look.get("size", (staging.side, staging.side))
-        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
-        rotation = look.get("rotate", IDENTITY)
-        own = staging.view_of(rotate(rotation, thing.positions))
-        view = view_of(look, width, height, look.get("orthographic", False), own)
-        if staging.by_normals:
-            thing, look = _shaded(thing, look, staging.material.shading)
-        scene = placed(thing, rotation, view, staging, width, height)
-    else:
+    is_staged = not isinstance(thing, Scene)
+    if isinstance(thing, Scene):
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
         width, height = look.get("size", (scene.width, scene.height))
         scene = evolve(scene, width=width, height=height)
+        looks = [look] * len(scene.objects)
+    else:
+        parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
+        width, height = look.get("size", (staging.side, staging.side))
+        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
+        rotation = look.get("rotate", IDENTITY)
+        own = staging.view_of(rotate(rotation, np.concatenate([each.mesh.positions for each in parts])))
+        view = view_of(look, width, height, look.get("orthographic", False), own)
+        shaded = [_shaded(each, look) if staging.by_normals else (each, look) for each in parts]
+        scene = placed([each for each, _ in shaded], rotation, view, staging, width, height)
+        looks = [own_look for _, own_look in shaded]
+    chosen = _given(look, settings_of("scene"))
+    fog = chosen.pop("fog", scene.fog)
     scene = evolve(
         scene,
-        objects=[_object(each, look) for each in scene.objects],
-        camera=_camera(scene, look, isinstance(thing, Mesh)),
-        **_given(look, settings_of("scene")),
+        objects=[_object(each, own_look) for each, own_look in zip(scene.objects, looks, strict=True)],
+        camera=_camera(scene, look, is_staged),
+        tone=_tone(scene.tone, look),
+        **chosen,
     )
+    scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
+    if "shadow" in look:
+        lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
+        scene = evolve(scene, lights=lights)
     if "max_triangles" not in look:
         return scene
     from ._simplify import simplify_scene
@@ -380,15 +464,18 @@ def look_at(thing: Mesh | Scene, look: Mapping[str, Any], staging: Staging = MES
     return simplify_scene(scene, look["max_triangles"], crease)
 
 
-def _shaded(mesh: Mesh, look: Mapping[str, Any], shading: Shading) -> tuple[Mesh, Mapping[str, Any]]:
-    """Return the mesh and the look with the shading that suits its normals, unless the look or its file says which."""
-    if shading == "unlit" or {"shading", "crease"} & look.keys():
-        return mesh, look
+def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
+    """Return the object and the look with the shading that suits the normals of the mesh, unless the look or the file
+    says which.
+    """
+    mesh = o.mesh
+    if o.material.shading == "unlit" or {"shading", "crease"} & look.keys():
+        return o, look
     if mesh.normals is None:
-        return mesh, {**look, "crease": CREASE}
+        return o, {**look, "crease": CREASE}
     if is_flat(mesh.positions, mesh.faces, mesh.normals[mesh.faces]):
-        return without_normals(mesh), {**look, "shading": "flat"}
-    return mesh, {**look, "shading": "smooth"}
+        return evolve(o, mesh=without_normals(mesh)), {**look, "shading": "flat"}
+    return o, {**look, "shading": "smooth"}
 
 
 def view_of(
@@ -424,10 +511,31 @@ def size_of(value: int | tuple[int, int], name: str = "`size`") -> tuple[int, in
 
 def _object(o: Object, look: Mapping[str, Any]) -> Object:
     changes = _given(look, settings_of("object"))
-    mesh = painted(o.mesh, changes.pop("color")) if "color" in changes else o.mesh
-    material = evolve(o.material, **_given(look, settings_of("material")))
-    o = evolve(o, mesh=mesh, material=material, **changes)
+    if "color" in changes:
+        o = painted_object(o, changes.pop("color"))
+    o = evolve(o, material=evolve(o.material, **_given(look, settings_of("material"))), **changes)
     return smoothed(o, look["crease"]) if "crease" in look else o
+
+
+def _tone(tone: Tone | None, look: Mapping[str, Any]) -> Tone | None:
+    chosen = _given(look, settings_of("tone"))
+    if not chosen:
+        return tone
+    changed = evolve(tone or Tone(), **chosen)
+    return None if changed == Tone() else changed
+
+
+def _fog_between(scene: Scene, color: Color) -> Fog:
+    """Return fog that begins at the nearest point of the objects, and hides the farthest one."""
+    camera = scene.camera
+    forward = camera.target - camera.eye
+    points = scene.world_positions() - camera.eye
+    if not forward.any() or not len(points):
+        return Fog(color, 0, 1)
+    depths = dot(points, forward / length(forward))
+    near, far = max(float(depths.min()), 0.0), float(depths.max())
+    # a scene without depth is clear
+    return Fog(color, near, far if far > near else 2 * near + 1)
 
 
 def _camera(scene: Scene, look: Mapping[str, Any], is_staged: bool) -> Camera:
@@ -483,6 +591,11 @@ def _whole(value: object, setting: Setting, name: str) -> int:
     return found
 
 
+def _unless_none(made: Callable[[Any, str], Any], value: object, name: str) -> Any:
+    """Return an effect of a value, or None for the word that removes it."""
+    return None if isinstance(value, str) and value.strip().lower() == NONE else made(value, name)
+
+
 _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "size": lambda value, setting, name: size_of(value, name),
     "whole": _whole,
@@ -494,4 +607,8 @@ _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "background": lambda value, setting, name: background_of(value),
     "choice": lambda value, setting, name: choice(value, name, setting.choices),
     "lights": lambda value, setting, name: lights_of(value),
+    "hemisphere": lambda value, setting, name: _unless_none(hemisphere_of, value, name),
+    "rim": lambda value, setting, name: _unless_none(rim_of, value, name),
+    "fog": lambda value, setting, name: _unless_none(fog_or_color, value, name),
+    "ground": lambda value, setting, name: _unless_none(ground_of, value, name),
 }

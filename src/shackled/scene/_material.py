@@ -6,8 +6,9 @@ from typing import Literal, cast
 
 from attrs import field, frozen
 
-from ..checks import choice, number
+from ..checks import choice, instance, number
 from ..values import checked, with_names
+from ._texture import Texture
 
 Shading = Literal["unlit", "flat", "smooth"]
 SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
@@ -26,12 +27,19 @@ def _shininess(value: float) -> int:
     return round(number(value, "the shininess of a material", *EXPONENTS))
 
 
+def _texture(value: Texture | None) -> Texture | None:
+    if value is not None:
+        instance(value, "the texture of a material", Texture)
+    return value
+
+
 @frozen(field_transformer=with_names)
 class Material:
     """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
 
     shading: "unlit" shows the vertex colours as they are, "flat" takes the normals of the faces, "smooth" those of the
         vertices.
+    texture: multiplied with the colours of the vertices, or None. It needs a mesh with `uvs`.
     """
 
     shading: Shading = field(default="flat", converter=_shading)
@@ -45,3 +53,4 @@ class Material:
         default=0.3, converter=number, metadata=checked("the specular coefficient of a material", *COEFFICIENTS)
     )
     shininess: int = field(default=24, converter=_shininess)
+    texture: Texture | None = field(default=None, converter=_texture)

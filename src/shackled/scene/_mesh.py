@@ -36,6 +36,19 @@ def _optional_table(values: ArrayLike | None, name: str = "a table") -> Floats |
     return None if values is None else _table(values, name)
 
 
+def _uvs(values: ArrayLike | None) -> Floats | None:
+    if values is None:
+        return None
+    name = "the texture coordinates of a mesh"
+    try:
+        rows = fixed(values, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be rows of 2 numbers") from None
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        raise InputError(f"{name} must be rows of 2 numbers, not of shape {rows.shape}")
+    return rows
+
+
 def _faces(values: ArrayLike) -> NDArray[np.int64]:
     name = "the faces of a mesh"
     if isinstance(values, np.ndarray) and values.dtype == np.int64:
@@ -105,6 +118,8 @@ class Mesh(Value):
     colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
         opaque alpha, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
     normals: (n, 3) float, or None; computed for smooth shading if they are absent.
+    uvs: (n, 2) float, or None: where each vertex is on a texture, from its upper left corner (0, 0) to its lower right
+        one (1, 1), as in glTF. Corners of faces with different ones need vertices of their own.
 
     A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
     """
@@ -115,6 +130,7 @@ class Mesh(Value):
     normals: Floats | None = field(
         default=None, converter=_optional_table, eq=array_key, metadata=checked("the normals of a mesh")
     )
+    uvs: Floats | None = field(default=None, converter=_uvs, eq=array_key)
 
     def __attrs_post_init__(self) -> None:
         """Check the fields against one another."""
@@ -138,6 +154,10 @@ class Mesh(Value):
             raise InputError(f"a mesh of {count} vertices needs as many colours, not {len(self.colors)}")
         if self.normals is not None and (len(self.normals) != count or not np.isfinite(self.normals).all()):
             raise InputError(f"a mesh needs a finite normal for each of its {count} vertices, not {len(self.normals)}")
+        if self.uvs is not None and (len(self.uvs) != count or not np.isfinite(self.uvs).all()):
+            raise InputError(
+                f"a mesh needs finite texture coordinates for each of its {count} vertices, not {len(self.uvs)}"
+            )
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:

@@ -15,6 +15,8 @@ from ..errors import InputError
 from ..values import checked, plural, with_names
 from ._background import Background, background_of
 from ._camera import Camera
+from ._effects import Fog, Hemisphere, Rim, Tone, fog_of, hemisphere_of, rim_of, tone_of
+from ._ground import Ground, ground_of
 from ._light import WHITE, Light
 from ._mesh import Mesh
 from ._object import Object
@@ -84,6 +86,12 @@ class Scene:
     invert: every byte v of the picture becomes 255 - v.
     width, height: of the picture in pixels, 1..2048.
     antialias: whether edges are smoothed, by four samples per pixel.
+    hemisphere: light from above and below; also given as a colour, or two, (sky, ground).
+    rim: light along outlines; also given as a colour, or (colour, power).
+    fog: fog between two distances; also given as (colour, near, far).
+    tone: how light becomes colours.
+    ground: a disc under the objects, which catches shadows; also given as a colour. Scenes with a hemisphere, rim, fog,
+        tone, shadow or ground are always antialiased.
     """
 
     objects: tuple[Object, ...] = field(converter=_objects)
@@ -95,9 +103,14 @@ class Scene:
     width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))
     height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
     antialias: bool = field(default=False, converter=flag, metadata=checked("antialias of a scene"))
+    hemisphere: Hemisphere | None = field(default=None, converter=hemisphere_of)
+    rim: Rim | None = field(default=None, converter=rim_of)
+    fog: Fog | None = field(default=None, converter=fog_of)
+    tone: Tone | None = field(default=None, converter=tone_of)
+    ground: Ground | None = field(default=None, converter=ground_of)
 
     def __attrs_post_init__(self) -> None:
-        """Set the default camera, lights and background."""
+        """Set the default camera, lights and background; check that one light at most casts shadows."""
         camera, background = Camera(), Background()
         lights: tuple[Light, ...] = ()
         if self.objects and self.camera is None and self.lights is None and self.background is None:
@@ -109,6 +122,8 @@ class Scene:
         for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
             if getattr(self, name) is None:
                 object.__setattr__(self, name, chosen)
+        if sum(light.shadow for light in self.lights) > 1:
+            raise InputError("one light of a scene may cast shadows, not several")
 
     @property
     def triangles(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -115,12 +115,16 @@ MESH_STAGING = Staging(
 )
 
 
-def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, staging: Staging, width: int, height: int) -> Scene:
-    """Return a scene of one mesh, scaled to a bounding sphere of radius 1 about the origin, and filling the picture.
+def placed(
+    objects: Sequence[Object], rotation: Floats, view: Viewpoint, staging: Staging, width: int, height: int
+) -> Scene:
+    """Return a scene of the parts of a model, scaled to a bounding sphere of radius 1 about the origin, and filling the
+    picture.
 
-    The mesh keeps its coordinates; position and scale of the object do the rest.
+    objects: meshes with their materials. The meshes keep their coordinates; position and scale of the objects do the
+    rest.
     """
-    positions = mesh.positions
+    positions = np.concatenate([each.mesh.positions for each in objects])
     with np.errstate(over="ignore"):
         center = (positions.min(axis=0) + positions.max(axis=0)) / 2
         radius = float(length(positions - center).max())
@@ -128,8 +132,12 @@ def placed(mesh: Mesh, rotation: Floats, view: Viewpoint, staging: Staging, widt
     if not np.isfinite(center).all() or not np.isfinite(radius) or not np.isfinite(scale):
         raise InputError("the coordinates of the mesh are too large or too small to be scaled")
     turned = rotate(rotation, (positions - center) * scale)
+    starts = np.cumsum([0, *(len(each.mesh.positions) for each in objects)])
+    faces = [each.mesh.faces + start for each, start in zip(objects, starts, strict=False)]
+    cull = is_closed(Mesh(positions, np.concatenate(faces)))
+    position = -rotate(rotation, center * scale)
     return Scene(
-        [Object(mesh, -rotate(rotation, center * scale), rotation, scale, staging.material, cull=is_closed(mesh))],
+        [evolve(each, position=position, rotation=rotation, scale=scale, cull=cull) for each in objects],
         frame(turned, view),
         [_light(direction, color, view) for direction, color in staging.lights],
         width=width,
@@ -156,6 +164,11 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
     """Return the mesh in one colour."""
     return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
+
+
+def painted_object(o: Object, color: ArrayLike | str) -> Object:
+    """Return the object in one colour, without a texture."""
+    return evolve(o, mesh=painted(o.mesh, color), material=evolve(o.material, texture=None))
 
 
 def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:

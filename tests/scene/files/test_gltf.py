@@ -12,7 +12,7 @@ from PIL import Image
 
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import DEFAULT_COLOR, STUDIO, TEXTURED, Mesh, read_mesh, read_model
+from shackled.scene import DEFAULT_COLOR, MESH_STAGING, TEXTURED, Mesh, read_mesh, read_model
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -109,16 +109,16 @@ def test_what_a_material_says_of_its_surface(tmp_path: Path) -> None:
     def surface(**values: Any) -> dict[str, Any]:
         model = Gltf()
         model.material(**values)
-        return read_model(model.glb(tmp_path / "model.glb"))[1]
+        return read_model(model.glb(tmp_path / "model.glb"))[0].material
 
-    assert read_model(Gltf().glb(tmp_path / "model.glb"))[1] == surface() == surface(metallicFactor=0) == {}
+    assert read_model(Gltf().glb(tmp_path / "model.glb"))[0].material == surface() == surface(metallicFactor=0) == {}
     rough, glossy = surface(roughnessFactor=1, metallicFactor=0), surface(roughnessFactor=0.2, metallicFactor=0)
     assert rough["specular"] == 0
     assert rough["specular"] < glossy["specular"] < surface(roughnessFactor=0.2)["specular"]
     assert rough["shininess"] < glossy["shininess"] <= 128
     assert surface(roughnessFactor=0.2, metallicRoughnessTexture={"index": 0}) == {}
     scene = load(tmp_path / "model.glb", shininess=7)
-    assert scene.objects[0].material == evolve(STUDIO.material, shading="flat", shininess=7)
+    assert scene.objects[0].material == evolve(MESH_STAGING.material, shading="flat", shininess=7)
 
 
 def test_an_unlit_material_is_unlit(tmp_path: Path) -> None:
@@ -162,14 +162,14 @@ def test_vertex_colors_of_8_and_16_bits(tmp_path: Path, scale: int) -> None:
     model = Gltf()
     colors = np.array([[255, 0, 0, 255], [0, 100, 0, 255], [0, 0, 7, 255]]) * scale
     model.attribute("COLOR_0", colors.astype(np.uint8 if scale == 1 else np.uint16), normalized=True)
-    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 0, 0], [0, 100, 0], [0, 0, 7]]]
+    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 0, 0], [0, 168, 0], [0, 0, 46]]]
 
 
 def test_material_color_times_vertex_color(tmp_path: Path) -> None:
     model = Gltf()
     model.attribute("COLOR_0", np.array([[1, 1, 1], [0.5, 1, 1], [0, 0, 0]], dtype=np.float32))
     model.material(baseColorFactor=[1, 0.2, 0, 1])
-    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 51, 0], [128, 51, 0], [0, 0, 0]]]
+    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 124, 0], [188, 124, 0], [0, 0, 0]]]
 
 
 def test_texture_is_sampled_from_its_top(tmp_path: Path) -> None:
@@ -292,7 +292,7 @@ def test_diffuse_color_of_the_older_material(tmp_path: Path) -> None:
     model.material()
     glossiness = {"diffuseFactor": [0, 0.2, 1, 1]}
     model.document["materials"][0]["extensions"] = {"KHR_materials_pbrSpecularGlossiness": glossiness}
-    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[0, 51, 255]] * 3]
+    assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[0, 124, 255]] * 3]
 
 
 def refusal(folder: Path, model: Gltf) -> str:

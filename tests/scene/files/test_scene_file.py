@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, load
+from shackled import Background, Camera, Fog, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, load
 from shackled.errors import InputError
 from shackled.scene import BACKGROUND, DEFAULT_HALF_HEIGHT, rotate, write_scene
 
@@ -16,6 +16,10 @@ size = [320, 200]
 invert = true
 antialias = true
 ambient_light = "#102030"
+hemisphere = { sky = "#010203", ground = [4, 5, 6] }
+rim = { color = "white", power = 5 }
+fog = { color = "gray", near = 2, far = 9.5 }
+tone = { exposure = 1.5, filmic = true, gamma = true }
 
 [background]
 top = [1, 2, 3]
@@ -82,6 +86,8 @@ def test_every_key_in_toml(folder: Path) -> None:
     scene = load(folder / "scene.toml")
     assert (scene.width, scene.height, scene.ambient_light) == (320, 200, (16, 32, 48))
     assert (scene.invert, scene.antialias) == (True, True)
+    assert (scene.hemisphere, scene.rim) == (Hemisphere((1, 2, 3), (4, 5, 6)), Rim("white", 5))
+    assert (scene.fog, scene.tone) == (Fog("gray", 2, 9.5), Tone(1.5, True, True))
     assert (scene.background.top, scene.background.bottom) == ((1, 2, 3), (255, 255, 255))
     camera = scene.camera
     assert [v.tolist() for v in (camera.eye, camera.target, camera.up)] == [
@@ -135,6 +141,10 @@ def test_what_is_written_loads_as_the_same(tmp_path: Path) -> None:
         17,
         19,
         True,
+        Hemisphere("red"),
+        Rim("green", 16),
+        Fog("blue", 0, 1e-9),
+        Tone(0, True),
     )
     write_scene(scene, tmp_path / "scene.json")
     assert load(tmp_path / "scene.json") == scene
@@ -180,7 +190,18 @@ def test_rotation_as_quaternion(folder: Path) -> None:
     ("document", "message"),
     [
         ({"object": []},
-         "unknown key 'object'; known are size, camera, objects, background, invert, antialias, lights, ambient_light"),
+         "unknown key 'object'; known are size, camera, objects, tone, background, invert, antialias, lights, "
+         "ambient_light, hemisphere, rim, fog"),
+        ({"hemisphere": "white"}, "hemisphere must be a table with keys of sky, ground, not 'white'"),
+        ({"hemisphere": {"ground": "white"}}, "hemisphere.sky must be red, green and blue from 0 to 255, or #rrggbb, "
+         "not None"),
+        ({"rim": {"color": "white", "power": 17}},
+         "rim: the power of a rim must be a whole number from 1 to 16, not 17"),
+        ({"fog": {"color": "white", "near": 2}}, "fog.far must be a number, not None"),
+        ({"fog": {"color": "white", "near": 2, "far": 1}},
+         "fog: the near distance of the fog, 2, must be below its far distance, 1"),
+        ({"tone": {"exposure": 65}}, "tone.exposure must be a finite number from 0 to 64, not 65.0"),
+        ({"tone": {"gamma": 2.2}}, "tone.gamma must be true or false, not 2.2"),
         ({"antialias": 4}, "antialias must be true or false, not 4"),
         ({"objects": {}}, "objects must be a list, not {}"),
         ({"objects": [3]},
@@ -205,7 +226,8 @@ def test_rotation_as_quaternion(folder: Path) -> None:
         ({"objects": [thing(rotation={"quaternion": [0, 0, 0, 0]})]},
          "objects[0]: the rotation of an object must not be the zero quaternion; the identity is (0, 0, 0, 1)"),
         ({"objects": [thing(), thing(material={"shine": 3})]},
-         "unknown key 'shine' in objects[1].material; known are shading, ambient, diffuse, specular, shininess"),
+         "unknown key 'shine' in objects[1].material; known are texture, shading, ambient, diffuse, specular, "
+         "shininess"),
         ({"objects": [thing(material={"shading": "gouraud"})]},
          "objects[0].material.shading must be one of unlit, flat, smooth, not 'gouraud'"),
         ({"objects": [thing(material={"diffuse": 5})]},

@@ -17,6 +17,8 @@ export const RENDERER = [
     "FragmentEngine",
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
+    "EffectsEngine",
+    "Shadows",
     "Renderer",
 ] as const;
 export type ContractName = (typeof RENDERER)[number] | "Studio";

@@ -28,26 +28,53 @@ const SCENE = [
     "ambientLight",
     "invert",
     "antialias",
+    "hemisphere",
+    "rim",
+    "fog",
+    "tone",
+    "ground",
     "width",
     "height",
 ] as const;
 const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
 const BACKGROUND = ["top", "bottom"] as const;
+const HEMISPHERE = ["sky", "ground"] as const;
+const RIM = ["color", "power"] as const;
+const FOG = ["color", "near", "far"] as const;
+const TONE = ["exposure", "filmic", "gamma"] as const;
+const GROUND = ["color", "height", "radius"] as const;
 const LIGHTS = {
-    directional: ["kind", "direction", "color"],
-    point: ["kind", "position", "color"],
-    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle"],
+    directional: ["kind", "direction", "color", "shadow"],
+    point: ["kind", "position", "color", "shadow"],
+    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
-const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity"] as const;
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"] as const;
-const MESH = ["positions", "faces", "colors", "normals"] as const;
+const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
+const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture"] as const;
+const MESH = ["positions", "faces", "colors", "normals", "uvs"] as const;
+const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
+export const FILTERS = ["nearest", "bilinear"] as const;
+export const WRAPS = ["repeat", "clamp"] as const;
+const MAX_TEXTURE_SIDE = 256;
 
-/** Positions and normals have three numbers for each vertex, colours three bytes; faces three vertex numbers each. */
+/**
+ * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers; faces three vertex
+ * numbers each.
+ */
 export interface Mesh {
     positions: Float64Array;
     faces: Uint32Array;
     colors: Uint8Array;
     normals: Float64Array | undefined;
+    uvs: Float64Array | undefined;
+}
+
+/** `pixels` has three bytes for each texel. */
+export interface Texture {
+    width: number;
+    height: number;
+    pixels: Uint8Array;
+    filter: (typeof FILTERS)[number];
+    wrap: (typeof WRAPS)[number];
 }
 
 export interface Material {
@@ -56,6 +83,7 @@ export interface Material {
     diffuse: number;
     specular: number;
     shininess: number;
+    texture: Texture | undefined;
 }
 
 export interface SceneObject {
@@ -67,6 +95,7 @@ export interface SceneObject {
     cull: boolean;
     wireframe: boolean;
     opacity: number;
+    fade: readonly [number, number] | undefined;
 }
 
 export interface Camera {
@@ -84,6 +113,35 @@ export interface Light {
     vector: Vector;
     color: Rgb;
     cone: { direction: Vector; innerAngle: number; outerAngle: number } | undefined;
+    shadow: boolean;
+}
+
+export interface Hemisphere {
+    sky: Rgb;
+    ground: Rgb;
+}
+
+export interface Rim {
+    color: Rgb;
+    power: number;
+}
+
+export interface Fog {
+    color: Rgb;
+    near: number;
+    far: number;
+}
+
+export interface Tone {
+    exposure: number;
+    filmic: boolean;
+    gamma: boolean;
+}
+
+export interface Ground {
+    color: Rgb;
+    height: number | undefined;
+    radius: number | undefined;
 }
 
 export interface Scene {
@@ -94,6 +152,11 @@ export interface Scene {
     ambientLight: Rgb;
     invert: boolean;
     antialias: boolean;
+    hemisphere: Hemisphere | undefined;
+    rim: Rim | undefined;
+    fog: Fog | undefined;
+    tone: Tone | undefined;
+    ground: Ground | undefined;
     width: number;
     height: number;
 }
@@ -119,6 +182,11 @@ export function checkedScene(scene: given.Scene): Scene {
         ambientLight: check.color(scene.ambientLight ?? WHITE, "ambientLight"),
         invert: check.flag(scene.invert ?? false, "invert"),
         antialias: check.flag(scene.antialias ?? false, "antialias"),
+        hemisphere: scene.hemisphere && checkedHemisphere(scene.hemisphere),
+        rim: scene.rim && checkedRim(scene.rim),
+        fog: scene.fog && checkedFog(scene.fog),
+        tone: scene.tone && checkedTone(scene.tone),
+        ground: scene.ground && checkedGround(scene.ground),
         width,
         height,
     };
@@ -126,16 +194,29 @@ export function checkedScene(scene: given.Scene): Scene {
 
 export function checkedObject(object: given.SceneObject, where: string): SceneObject {
     check.fields(object, where, OBJECT);
+    const mesh = checkedMesh(object.mesh, `${where}.mesh`);
+    const material = checkedMaterial(object.material ?? {}, `${where}.material`);
+    if (material.texture && !mesh.uvs) {
+        throw new InputError(`${where}.mesh needs uvs, as its material has a texture`);
+    }
     return {
-        mesh: checkedMesh(object.mesh, `${where}.mesh`),
+        mesh,
         position: check.vector(object.position ?? [0, 0, 0], `${where}.position`),
         rotation: checkedRotation(object.rotation ?? [0, 0, 0, 1], `${where}.rotation`),
         scale: check.number(object.scale ?? 1, `${where}.scale`, 0),
-        material: checkedMaterial(object.material ?? {}, `${where}.material`),
+        material,
         cull: check.flag(object.cull ?? true, `${where}.cull`),
         wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
         opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
+        fade: object.fade && checkedFade(object.fade, `${where}.fade`),
     };
+}
+
+function checkedFade(value: readonly [number, number], where: string): readonly [number, number] {
+    if (!check.isList(value) || value.length !== 2) throw new InputError(`${where} must be two distances`);
+    const [inner, outer] = [check.number(value[0], where, 0), check.number(value[1], where, 0)];
+    if (inner < outer) return [inner, outer];
+    throw new InputError(`the first distance of ${where}, ${inner}, must be below the second, ${outer}`);
 }
 
 function checkedRotation(value: given.Rotation, where: string): Quaternion {
@@ -150,6 +231,33 @@ function checkedMaterial(material: given.Material, where: string): Material {
         diffuse: check.number(material.diffuse ?? 0.75, `${where}.diffuse`, 0, 4),
         specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
         shininess: rint(check.number(material.shininess ?? 24, `${where}.shininess`, 1, 128)),
+        texture: material.texture && checkedTexture(material.texture, `${where}.texture`),
+    };
+}
+
+function checkedTexture(texture: given.Texture, where: string): Texture {
+    check.fields(texture, where, TEXTURE);
+    const width = check.whole(texture.width, `${where}.width`, 1, MAX_TEXTURE_SIDE);
+    const height = check.whole(texture.height, `${where}.height`, 1, MAX_TEXTURE_SIDE);
+    const { pixels } = texture;
+    const count = width * height;
+    const channels = check.isList(pixels) ? pixels.length / count : 0;
+    if (channels !== 3 && channels !== 4) {
+        throw new InputError(`${where}.pixels must be three or four bytes for each of ${count} texels`);
+    }
+    const bad = Array.prototype.findIndex.call(pixels, (level: unknown) => !check.isLevel(level as number));
+    if (bad >= 0) {
+        throw new InputError(`${where}.pixels[${bad}] must be a whole number from 0 to 255, not ${show(pixels[bad])}`);
+    }
+    return {
+        width,
+        height,
+        pixels: Uint8Array.from(
+            { length: 3 * count },
+            (_, at) => pixels[channels * Math.floor(at / 3) + (at % 3)] as number,
+        ),
+        filter: check.choice(texture.filter ?? "bilinear", `${where}.filter`, FILTERS),
+        wrap: check.choice(texture.wrap ?? "repeat", `${where}.wrap`, WRAPS),
     };
 }
 
@@ -177,7 +285,21 @@ function checkedMesh(mesh: given.Mesh, where: string): Mesh {
         faces: Uint32Array.from(faces),
         colors: colorsOf(mesh.colors, count, `${where}.colors`),
         normals,
+        uvs: mesh.uvs && uvsOf(mesh.uvs, count, `${where}.uvs`),
     };
+}
+
+function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: string): Float64Array {
+    if (!check.isList(value)) throw new InputError(`${where} must be rows of two numbers, not ${show(value)}`);
+    const flat = Array.from<unknown>(value).flatMap((row) => (check.isList(row) ? Array.from(row) : [row]));
+    const bad = flat.findIndex((x) => !Number.isFinite(x));
+    if (bad >= 0) {
+        throw new InputError(`${where}[${Math.floor(bad / 2)}] must be two finite numbers, not ${show(flat[bad])}`);
+    }
+    if (flat.length !== 2 * count) {
+        throw new InputError(`${where} must be two numbers for each of ${count} vertices, not ${flat.length} in all`);
+    }
+    return Float64Array.from(flat as number[]);
 }
 
 function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Uint8Array {
@@ -236,25 +358,28 @@ export function checkedCamera(camera: given.Camera): Camera {
 function checkedLights(lights: readonly given.Light[]): Light[] {
     if (!Array.isArray(lights)) throw new InputError(`lights must be a list, not ${show(lights)}`);
     if (lights.length > MAX_LIGHTS) throw new InputError(`lights must be up to ${MAX_LIGHTS}, not ${lights.length}`);
-    return lights.map((light: given.Light, index) => checkedLight(light, `lights[${index}]`));
+    const found = lights.map((light: given.Light, index) => checkedLight(light, `lights[${index}]`));
+    if (found.filter((light) => light.shadow).length < 2) return found;
+    throw new InputError("one of the lights may cast shadows, not several");
 }
 
 function checkedLight(light: given.Light, where: string): Light {
     const kind = check.choice((light as given.Light | null)?.kind, `${where}.kind`, LIGHT_KINDS);
     check.fields(light as given.SpotLight, where, LIGHTS[kind]);
     const color = check.color(light.color ?? WHITE, `${where}.color`);
+    const shadow = check.flag(light.shadow ?? false, `${where}.shadow`);
     if (light.kind === "directional") {
-        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined };
+        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined, shadow };
     }
     const place = check.vector(light.position, `${where}.position`);
-    if (light.kind === "point") return { kind, vector: place, color, cone: undefined };
+    if (light.kind === "point") return { kind, vector: place, color, cone: undefined, shadow };
     const direction = nonzero(light.direction, `${where}.direction`);
     const innerAngle = check.number(light.innerAngle ?? 0, `${where}.innerAngle`, 0, 180);
     const outerAngle = check.number(light.outerAngle ?? 45, `${where}.outerAngle`, 0, 180);
     if (innerAngle > outerAngle) {
         throw new InputError(`${where}.innerAngle, ${innerAngle}, must not be above its outerAngle, ${outerAngle}`);
     }
-    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle } };
+    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle }, shadow };
 }
 
 function nonzero(value: unknown, where: string): Vector {
@@ -270,6 +395,50 @@ function checkedBackground(value: given.Background | given.Color): { top: Rgb; b
             : check.fields(value as given.Background, "background", BACKGROUND);
     const found = check.color(top ?? [0, 0, 0], "background.top");
     return { top: found, bottom: bottom === undefined ? found : check.color(bottom, "background.bottom") };
+}
+
+function checkedHemisphere(value: given.Hemisphere): Hemisphere {
+    const { sky, ground } = check.fields(value, "hemisphere", HEMISPHERE);
+    return {
+        sky: check.color(sky, "hemisphere.sky"),
+        ground: check.color(ground ?? [0, 0, 0], "hemisphere.ground"),
+    };
+}
+
+function checkedRim(value: given.Rim): Rim {
+    const { color, power } = check.fields(value, "rim", RIM);
+    return { color: check.color(color, "rim.color"), power: check.whole(power ?? 3, "rim.power", 1, 16) };
+}
+
+function checkedFog(value: given.Fog): Fog {
+    const { color, near, far } = check.fields(value, "fog", FOG);
+    const fog = {
+        color: check.color(color, "fog.color"),
+        near: check.number(near, "fog.near", 0),
+        far: check.number(far, "fog.far", 0),
+    };
+    if (fog.near < fog.far) return fog;
+    throw new InputError(`fog.near, ${fog.near}, must be below fog.far, ${fog.far}`);
+}
+
+function checkedGround(value: given.Ground): Ground {
+    const { color, height, radius } = check.fields(value, "ground", GROUND);
+    const ground = {
+        color: check.color(color, "ground.color"),
+        height: height === undefined ? undefined : check.number(height, "ground.height"),
+        radius: radius === undefined ? undefined : check.number(radius, "ground.radius", 0),
+    };
+    if (ground.radius === 0) throw new InputError("ground.radius must be above 0");
+    return ground;
+}
+
+function checkedTone(value: given.Tone): Tone {
+    const { exposure, filmic, gamma } = check.fields(value, "tone", TONE);
+    return {
+        exposure: check.number(exposure ?? 1, "tone.exposure", 0, 64),
+        filmic: check.flag(filmic ?? false, "tone.filmic"),
+        gamma: check.flag(gamma ?? false, "tone.gamma"),
+    };
 }
 
 /** Return the vertices of an object in the world. */

@@ -8,7 +8,9 @@ import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject 
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
+import { shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
+import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
 
 /** The functions of the Renderer that draw a scene, and their selectors. Those of a tile take a Rectangle too. */
@@ -27,14 +29,29 @@ export const WORD = 32;
 export const SPOT = 1;
 const OPACITY = 2;
 const ANTIALIAS = 3;
+const HEMISPHERE = 4;
+const RIM = 5;
+const FOG = 6;
+const TONE = 7;
+const TEXTURE = 8;
+const SHADOW = 10;
+const GROUND = 11;
+/** Records from this kind on have a size in words of 32 bytes, others in bytes. */
+export const FIRST_IN_WORDS = 8;
+/** The largest radius of a ground, Q32. */
+const MAX_FADE = 2n ** 58n;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
+/** One, in exposures. */
+const EXPOSURE = 2 ** 16;
 
 const PROJECTION_NUMBERS = { perspective: 0, orthographic: 1 } as const;
 const LIGHT_NUMBERS = { directional: 0, point: 1, spot: 1 } as const;
 const SHADING_NUMBERS = { unlit: 0, flat: 1, smooth: 2 } as const;
 const CULL_BACKFACES = 1;
 const WIREFRAME = 2;
+const FILMIC = 1;
+const GAMMA = 2;
 
 /**
  * Return the bytes of the call that draws a scene: the calldata for `eth_call`.
@@ -110,17 +127,58 @@ function extensions(scene: CheckedScene): Uint8Array {
         records.push(record(OPACITY, index, content));
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
+    records.push(...effects(scene));
+    scene.objects.forEach(({ mesh, material: { texture } }, index) => {
+        if (!texture || !mesh.uvs) return;
+        const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
+        records.push(record(TEXTURE, index, new DataView(content.buffer)));
+    });
+    scene.lights.forEach(({ shadow }, index) => {
+        if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
+    });
+    scene.objects.forEach(({ fade }, index) => {
+        if (!fade) return;
+        const content = new DataView(new ArrayBuffer(WORD));
+        const [inner, outer] = fade.map((each) => (q32(each) < MAX_FADE ? q32(each) : MAX_FADE)) as [bigint, bigint];
+        content.setBigInt64(0, inner < MAX_FADE ? inner : MAX_FADE - 1n);
+        content.setBigInt64(8, outer > inner ? outer : inner + 1n);
+        records.push(record(GROUND, index, content));
+    });
     return joined(records);
+}
+
+function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
+    const records: Uint8Array[] = [];
+    const add = (kind: number, ...bytes: number[]): void => {
+        records.push(record(kind, 0, new DataView(Uint8Array.from(bytes).buffer)));
+    };
+    if (hemisphere) add(HEMISPHERE, ...hemisphere.sky, ...hemisphere.ground);
+    if (rim) add(RIM, ...rim.color, rim.power);
+    if (fog) {
+        const distances = new DataView(new ArrayBuffer(16));
+        const [near, far] = [q32(fog.near), q32(fog.far)];
+        distances.setBigInt64(0, near);
+        distances.setBigInt64(8, far > near ? far : near + 1n);
+        add(FOG, ...fog.color, ...new Uint8Array(distances.buffer));
+    }
+    if (tone) {
+        const exposure = new DataView(new ArrayBuffer(4));
+        exposure.setUint32(0, Math.max(rint(tone.exposure * EXPOSURE), 1));
+        add(TONE, ...new Uint8Array(exposure.buffer), (tone.filmic ? FILMIC : 0) | (tone.gamma ? GAMMA : 0));
+    }
+    return records;
 }
 
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
-        throw new InputError(`transparent objects must be among the first 65,536 of a scene, not number ${index}`);
+        throw new InputError(
+            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
+        );
     }
     const head = new DataView(new ArrayBuffer(5));
     head.setUint8(0, kind);
     head.setUint16(1, index);
-    head.setUint16(3, content.byteLength);
+    head.setUint16(3, kind < FIRST_IN_WORDS ? content.byteLength : content.byteLength / WORD);
     return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
 }
 

@@ -4,10 +4,12 @@ import { InputError, about, show } from "../errors.js";
 import { fromAxisAngle, rint, type Vector } from "./arithmetic.js";
 import {
     DEFAULT_SIDE,
+    FILTERS,
     LIGHT_KINDS,
     MAX_SIDE,
     SHADINGS,
     STAGED_BACKGROUND,
+    WRAPS,
     checkedCamera,
     checkedObject,
     worldPositions,
@@ -18,13 +20,28 @@ import { isOriginal, originalScene } from "./original.js";
 import { Table } from "./table.js";
 import type * as given from "./types.js";
 
-const SCENE = ["background", "invert", "antialias", "lights", "ambient_light", "size", "camera", "objects"];
+const SCENE = [
+    "background",
+    "invert",
+    "antialias",
+    "lights",
+    "ambient_light",
+    "hemisphere",
+    "rim",
+    "fog",
+    "tone",
+    "ground",
+    "size",
+    "camera",
+    "objects",
+];
 const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
-const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle"];
-const OBJECT = ["color", "cull", "wireframe", "opacity", "mesh", "position", "rotation", "scale", "material"];
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"];
+const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
+const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
+const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess"];
+const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
 
 /**
  * Return the scene of a scene file: its JSON as text, or as `JSON.parse` returns it.
@@ -50,13 +67,18 @@ export function parseScene(json: string | object): given.Scene {
         ambientLight: table.read("ambient_light", check.color),
         invert: table.read("invert", check.flag),
         antialias: table.read("antialias", check.flag),
+        hemisphere: table.has("hemisphere") ? hemisphereOf(table.table("hemisphere", ["sky", "ground"])) : undefined,
+        rim: table.has("rim") ? rimOf(table.table("rim", ["color", "power"])) : undefined,
+        fog: table.has("fog") ? fogOf(table.table("fog", ["color", "near", "far"])) : undefined,
+        tone: table.has("tone") ? toneOf(table.table("tone", ["exposure", "filmic", "gamma"])) : undefined,
+        ground: table.has("ground") ? groundOf(table.table("ground", ["color", "height", "radius"])) : undefined,
         width,
         height,
     };
 }
 
 /** The arrays of colours in a text; a quote inside of a string has a backslash before it. */
-const COLORS = /"(?:color|background|top|bottom|ambient_light)"\s*:\s*\[([^\]"{}[]*)\]/g;
+const COLORS = /"(?:color|background|top|bottom|ambient_light|sky|ground)"\s*:\s*\[([^\]"{}[]*)\]/g;
 
 function parse(text: string): unknown {
     const whole = text.replace(COLORS, (found, content: string) => {
@@ -85,6 +107,35 @@ function backgroundOf(table: Table): given.Background | given.Color {
     if (typeof value !== "object" || Array.isArray(value)) return check.color(value, "background");
     const inside = table.table("background", ["top", "bottom"]);
     return { top: inside.read("top", check.color), bottom: inside.read("bottom", check.color) };
+}
+
+function hemisphereOf(keys: Table): given.Hemisphere {
+    return { sky: check.color(keys.get("sky"), keys.place("sky")), ground: keys.read("ground", check.color) };
+}
+
+function rimOf(keys: Table): given.Rim {
+    return { color: check.color(keys.get("color"), keys.place("color")), power: keys.number("power", 1, 16) };
+}
+
+function fogOf(keys: Table): given.Fog {
+    const [near, far] = ["near", "far"].map((key) => check.number(keys.get(key), keys.place(key), 0));
+    return { color: check.color(keys.get("color"), keys.place("color")), near: near as number, far: far as number };
+}
+
+function groundOf(keys: Table): given.Ground {
+    return {
+        color: check.color(keys.get("color"), keys.place("color")),
+        height: keys.number("height"),
+        radius: keys.number("radius", 0),
+    };
+}
+
+function toneOf(keys: Table): given.Tone {
+    return {
+        exposure: keys.number("exposure", 0, 64),
+        filmic: keys.read("filmic", check.flag),
+        gamma: keys.read("gamma", check.flag),
+    };
 }
 
 function cameraOf(
@@ -162,25 +213,28 @@ function lightOf(value: unknown, where: string): given.Light {
         Vector,
         Vector,
     ];
-    if (kind === "directional") return { kind, direction, color };
-    if (kind === "point") return { kind, position, color };
+    const shadow = keys.read("shadow", check.flag);
+    if (kind === "directional") return { kind, direction, color, shadow };
+    if (kind === "point") return { kind, position, color, shadow };
     const [innerAngle, outerAngle] = ["inner_angle", "outer_angle"].map((key) => keys.number(key, 0, 180));
-    return { kind, position, direction, color, innerAngle, outerAngle };
+    return { kind, position, direction, color, innerAngle, outerAngle, shadow };
 }
 
 function objectOf(value: unknown, where: string): given.SceneObject {
     const keys = new Table(value, where, OBJECT);
     const color = keys.read("color", check.color);
     const mesh = meshOf(keys);
+    const material = materialOf(keys.table("material", MATERIAL));
     return {
         mesh: color ? { ...mesh, colors: color } : mesh,
         position: keys.read("position", check.vector),
         rotation: rotationOf(keys),
         scale: keys.number("scale", 0),
-        material: materialOf(keys.table("material", MATERIAL)),
+        material: color ? { ...material, texture: undefined } : material,
         cull: keys.read("cull", check.flag),
         wireframe: keys.read("wireframe", check.flag),
         opacity: keys.number("opacity", 0, 1),
+        fade: keys.get("fade") as [number, number] | undefined,
     };
 }
 
@@ -191,6 +245,29 @@ function materialOf(keys: Table): given.Material {
         diffuse: keys.number("diffuse", 0, 4),
         specular: keys.number("specular", 0, 4),
         shininess: keys.number("shininess", 1, 128),
+        texture: keys.has("texture") ? textureOf(keys) : undefined,
+    };
+}
+
+function textureOf(material: Table): given.Texture {
+    const place = material.place("texture");
+    const keys = typeof material.get("texture") === "string" ? undefined : material.table("texture", TEXTURE);
+    const pixels = keys?.get("pixels");
+    if (keys === undefined || typeof pixels !== "string") {
+        throw new InputError(`${place} must have width, height and pixels, in base64: no files are read here`);
+    }
+    let bytes: string;
+    try {
+        bytes = atob(pixels);
+    } catch {
+        throw new InputError(`${place}.pixels must be red, green and blue bytes in base64`);
+    }
+    return {
+        width: check.whole(keys.get("width"), keys.place("width"), 1, 256),
+        height: check.whole(keys.get("height"), keys.place("height"), 1, 256),
+        pixels: Uint8Array.from(bytes, (character) => character.charCodeAt(0)),
+        filter: keys.read("filter", (value, where) => check.choice(value, where, FILTERS)),
+        wrap: keys.read("wrap", (value, where) => check.choice(value, where, WRAPS)),
     };
 }
 
@@ -198,12 +275,13 @@ function meshOf(keys: Table): given.Mesh {
     if (!keys.has("mesh") || typeof keys.get("mesh") === "string") {
         throw new InputError(`${keys.place("mesh")} must be a table with positions and faces: no files are read here`);
     }
-    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals"]);
+    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals", "uvs"]);
     return {
         positions: inside.rows("positions"),
         faces: inside.rows("faces"),
         colors: inside.has("colors") ? inside.rows("colors") : undefined,
         normals: inside.has("normals") ? inside.rows("normals") : undefined,
+        uvs: inside.has("uvs") ? (inside.list("uvs") as number[][]) : undefined,
     };
 }
 

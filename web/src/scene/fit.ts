@@ -18,7 +18,17 @@ import {
     type Quaternion,
     type Vector,
 } from "./arithmetic.js";
-import { rowOf, worldPositions, type Camera, type Light, type Mesh, type Scene, type SceneObject } from "./checked.js";
+import {
+    rowOf,
+    worldPositions,
+    type Camera,
+    type Fog,
+    type Light,
+    type Mesh,
+    type Scene,
+    type SceneObject,
+} from "./checked.js";
+import { withGround } from "./ground.js";
 import { MAX_SHORT, MAX_WIDE, fits, isIntegral, vertexNormals } from "./mesh.js";
 
 /** Limits of the contracts, in world units. */
@@ -44,8 +54,8 @@ export type FittedScene = Scene & { camera: { near: number } };
 /** Return the scene in the number ranges of the contracts, with integer coordinates and a near plane. */
 export function fit(scene: Scene): FittedScene {
     checkView(scene.camera);
-    const prepared = { ...scene, objects: scene.objects.map(prepare) };
-    let { camera, lights, objects } = prepared;
+    const prepared = { ...scene, objects: withGround(scene).map(prepare), ground: undefined };
+    let { camera, lights, objects, fog } = prepared;
     let near: number;
     if (isExact(prepared)) {
         near = nearPlane(prepared, 1, 1);
@@ -55,11 +65,13 @@ export function fit(scene: Scene): FittedScene {
         camera = moveCamera(camera, factor);
         lights = lights.map((light) => moveLight(light, scene.camera.eye, factor));
         objects = objects.map((object) => moveObject(object, prepared, factor));
+        fog = fog && moveFog(fog, factor);
     }
     return {
         ...prepared,
         camera: { ...camera, up: direction(camera.up), near },
         lights: lights.map(pointed),
+        fog,
         objects: objects.map((object) => ({ ...object, rotation: direction(object.rotation) })),
     };
 }
@@ -90,8 +102,8 @@ function prepare(object: SceneObject): SceneObject {
     let used = 0;
     for (let vertex = 0; vertex < count; vertex++) if (numbers[vertex] === 0) numbers[vertex] = used++;
     if (used === count) return { ...object, mesh: { ...mesh, normals } };
-    const kept = <T extends Float64Array | Uint8Array>(table: T): T =>
-        table.filter((_, index) => (numbers[Math.floor(index / 3)] as number) >= 0) as T;
+    const kept = <T extends Float64Array | Uint8Array>(table: T, width = 3): T =>
+        table.filter((_, index) => (numbers[Math.floor(index / width)] as number) >= 0) as T;
     return {
         ...object,
         mesh: {
@@ -99,6 +111,7 @@ function prepare(object: SceneObject): SceneObject {
             faces: mesh.faces.map((vertex) => numbers[vertex] as number),
             colors: kept(mesh.colors),
             normals: normals && kept(normals),
+            uvs: mesh.uvs && kept(mesh.uvs, 2),
         },
     };
 }
@@ -111,7 +124,7 @@ function computedNormals({ positions, faces }: Mesh): Float64Array {
 }
 
 /** Return whether the contracts represent the scene exactly, well within their ranges. */
-function isExact({ camera, lights, objects }: Scene): boolean {
+function isExact({ camera, lights, objects, fog }: Scene): boolean {
     const lengths = [...camera.eye, ...camera.target, camera.near ?? 0];
     if (camera.projection === "orthographic") lengths.push(camera.halfHeight);
     for (const light of lights) if (light.kind !== "directional") lengths.push(...light.vector);
@@ -130,7 +143,8 @@ function isExact({ camera, lights, objects }: Scene): boolean {
         (reach <= EXACT_SIZES[1] || (isMoved && largest(lengths) <= MAX_COORDINATE)) &&
         lengths.every((each) => each % STEP === 0) &&
         (camera.projection === "perspective" || camera.halfHeight >= MIN_HALF_HEIGHT) &&
-        length(view) >= DIRECTION_LENGTHS[0]
+        length(view) >= DIRECTION_LENGTHS[0] &&
+        (fog === undefined || fog.far <= MAX_COORDINATE)
     );
 }
 
@@ -146,6 +160,8 @@ function factorOf(scene: Scene): number {
             reach = Math.max(reach, Math.min(distance, 1024 * reach));
         }
     }
+    // what is so near to the eye is clear in fog that ends beyond
+    if (scene.fog) reach = Math.max(reach, Math.min(scene.fog.far, 1024 * reach));
     let exponent = reach ? REACH_EXPONENT - exponentOf(reach) : 0;
     if (size) exponent = Math.min(exponent, SIZE_EXPONENT - exponentOf(size));
     return powerOfTwo(Math.min(Math.max(exponent, -1000), 1000));
@@ -207,6 +223,12 @@ function moveLight(light: Light, eye: Vector, factor: number): Light {
     return { ...light, vector: distance ? times(Math.min(1, 2 ** REACH_EXPONENT / distance), place) : place };
 }
 
+function moveFog(fog: Fog, factor: number): Fog {
+    // nothing is as far away as the largest distances
+    const far = Math.min(Math.max(fog.far * factor, STEP), MAX_COORDINATE);
+    return { ...fog, near: Math.min(fog.near * factor, MAX_COORDINATE - 1), far };
+}
+
 function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObject {
     let { mesh } = object;
     let center: Vector = [0, 0, 0];
@@ -220,7 +242,8 @@ function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObj
     }
     const turned = rotation(object.rotation)(times(object.scale, center));
     const place = subtract(add(object.position, turned), scene.camera.eye);
-    return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor };
+    const fade = object.fade && ([object.fade[0] * factor, object.fade[1] * factor] as const);
+    return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor, fade };
 }
 
 /** Return how many steps the grid of an object has across half its largest side. */

@@ -25,6 +25,24 @@ export interface Mesh {
     colors?: Rows | Color | undefined;
     /** The normal of each vertex; computed for smooth shading where there are none. */
     normals?: Rows | undefined;
+    /**
+     * Where each vertex is on the texture of the material, two numbers each: from its upper left corner (0, 0) to its
+     * lower right one (1, 1), as in glTF.
+     */
+    uvs?: ArrayLike<number> | readonly ArrayLike<number>[] | undefined;
+}
+
+/** An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives. */
+export interface Texture {
+    /** Texels of a row, and rows: 1..256. */
+    width: number;
+    height: number;
+    /** Red, green and blue of each texel, 0..255, rows from the top; also with an alpha, as `ImageData` has them. */
+    pixels: ArrayLike<number>;
+    /** Whether colours are those of texels, or interpolated between four; "bilinear" by default. */
+    filter?: "nearest" | "bilinear" | undefined;
+    /** Whether the image repeats outside of 0..1, or its border goes on; "repeat" by default. */
+    wrap?: "repeat" | "clamp" | undefined;
 }
 
 export type Shading = "unlit" | "flat" | "smooth";
@@ -36,6 +54,8 @@ export interface Material {
     diffuse?: number | undefined;
     specular?: number | undefined;
     shininess?: number | undefined;
+    /** Needs a mesh with `uvs`. */
+    texture?: Texture | undefined;
 }
 
 /** A mesh in the world: a vertex v is at position + rotation(scale * v). */
@@ -51,6 +71,11 @@ export interface SceneObject {
     wireframe?: boolean | undefined;
     /** 0..1. Objects below 1 are drawn after the others, in their order. */
     opacity?: number | undefined;
+    /**
+     * Of a ground, which casts no shadow: the distances from its position at which it begins to fade into what is behind
+     * it, and at which nothing is left of it.
+     */
+    fade?: readonly [number, number] | undefined;
 }
 
 export type Projection = "perspective" | "orthographic";
@@ -72,6 +97,8 @@ export interface DirectionalLight {
     kind: "directional";
     direction: Vector3;
     color?: Color | undefined;
+    /** Whether objects cast shadows in its light; of one light at most. */
+    shadow?: boolean | undefined;
 }
 
 /** A light that shines in all directions, and does not fade. */
@@ -79,6 +106,7 @@ export interface PointLight {
     kind: "point";
     position: Vector3;
     color?: Color | undefined;
+    shadow?: boolean | undefined;
 }
 
 /** A light that shines into a cone about `direction`; its angles are in degrees, 0..180. */
@@ -91,6 +119,7 @@ export interface SpotLight {
     innerAngle?: number | undefined;
     /** At which its light ends; 45 by default. */
     outerAngle?: number | undefined;
+    shadow?: boolean | undefined;
 }
 
 export type Light = DirectionalLight | PointLight | SpotLight;
@@ -99,6 +128,44 @@ export type Light = DirectionalLight | PointLight | SpotLight;
 export interface Background {
     top?: Color | undefined;
     bottom?: Color | undefined;
+}
+
+/** Light from above (+y) and below, in proportion to the ambient coefficients; `ground` is black by default. */
+export interface Hemisphere {
+    sky: Color;
+    ground?: Color | undefined;
+}
+
+/** Light along the outlines of objects; `power` is a whole number from 1, wide, to 16, narrow, by default 3. */
+export interface Rim {
+    color: Color;
+    power?: number | undefined;
+}
+
+/** Fog between two distances along the line of sight: where it begins, and where it hides everything. */
+export interface Fog {
+    color: Color;
+    near: number;
+    far: number;
+}
+
+/** How the light of surfaces becomes colours. */
+export interface Tone {
+    /** A factor of all light, 0..64; 1 by default. */
+    exposure?: number | undefined;
+    /** Whether bright light is compressed as on film. */
+    filmic?: boolean | undefined;
+    /** Whether light is added in linear space. */
+    gamma?: boolean | undefined;
+}
+
+/** A level, matte disc under the objects, which catches shadows and fades into the background. */
+export interface Ground {
+    color: Color;
+    /** Its y in the world; just below the lowest vertex by default. */
+    height?: number | undefined;
+    /** Where nothing is left of it, above 0; a multiple of the size of the objects by default. */
+    radius?: number | undefined;
 }
 
 /**
@@ -119,6 +186,12 @@ export interface Scene {
     invert?: boolean | undefined;
     /** Whether edges are smoothed, by four samples per pixel. */
     antialias?: boolean | undefined;
+    /** Scenes with one of the following are always antialiased. */
+    hemisphere?: Hemisphere | undefined;
+    rim?: Rim | undefined;
+    fog?: Fog | undefined;
+    tone?: Tone | undefined;
+    ground?: Ground | undefined;
     /** In pixels, 1..2048; 128 by default. */
     width?: number | undefined;
     height?: number | undefined;

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
-from pathlib import Path
-from typing import IO
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from ...errors import InputError
-
-#: The warning for a mesh whose textures have more than one colour.
-TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
 
 
 def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.float64]:
@@ -32,23 +25,11 @@ def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.floa
     return np.clip(np.rint(channels * (255 / largest)), 0, 255)
 
 
-def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
-    """Return the image, as RGB. InputError, with its name, if there is none."""
-    try:
-        with (
-            warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
-            Image.open(source) as image,
-        ):
-            return image.convert("RGB")
-    except FileNotFoundError:
-        raise InputError(f"{name} does not exist") from None
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
-        raise InputError(f"{name} is not an image that can be read") from None
-
-
-def is_varied(image: Image.Image) -> bool:
-    """Return whether an RGB image has more than one colour."""
-    return any(np.ptp(np.asarray(image), axis=(0, 1)))
+def to_srgb(linear: ArrayLike) -> NDArray[np.float64]:
+    """Return linear colours 0..1 as whole numbers 0..255, encoded as sRGB."""
+    values = np.clip(np.asarray(linear, dtype=np.float64), 0, 1)
+    encoded = np.where(values <= 0.0031308, 12.92 * values, 1.055 * values ** (1 / 2.4) - 0.055)
+    return np.asarray(np.rint(255 * encoded))
 
 
 def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:

@@ -10,8 +10,8 @@ import binascii
 import io
 import math
 import struct
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes
@@ -23,17 +23,16 @@ from PIL import Image
 from ...errors import InputError
 from .._crease import filled
 from .._material import EXPONENTS
-from .._mesh import DEFAULT_COLOR, Mesh
+from .._mesh import DEFAULT_COLOR
 from .._rotation import rotate
-from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
+from .._texture import Filter, open_image
+from .colors import to_srgb
 from .content import parse, read_bytes, warn
+from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
 from .table import Table, about
 from .weld import weld
 
 Array = NDArray[np.float64]
-
-#: Positions, faces, colours and normals (zeros if there are none).
-_Part = tuple[Array, NDArray[np.int64], Array, Array]
 
 #: How many triangles are read, each mesh as often as it is shown, and how long an accessor without data may be.
 MAX_TRIANGLES = 1 << 24
@@ -56,34 +55,47 @@ _Surface = tuple[float, float, bool] | None
 #: The exponent of the widest highlights; even wider ones only fade the colours.
 _WIDEST = 10
 
+#: Filters and wraps of samplers, by their numbers in OpenGL.
+_NEAREST = 9728
+_FILE_WRAPS: dict[int, FileWrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
+
 _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
-@np.errstate(all="ignore")
-def read_gltf(path: Path) -> tuple[Mesh, dict[str, Any]]:
-    """Return the mesh of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
+@dataclass(frozen=True)
+class _Piece:
+    """A primitive with triangles. normals: zeros if there are none. picture, uvs: of its texture, or None."""
 
-    The colour of a vertex is the product of the base colour of its material, the base colour texture there, and the
-    colour of the vertex, as far as they are given; light grey if none is. Colours are taken as they are written,
-    without gamma. Points and lines are left out, and textures that cannot be read, of which an InputWarning tells.
-    Also return what the materials say about a `Material`, by the names of its fields: the mean of all triangles.
+    positions: Array
+    faces: NDArray[np.int64]
+    colors: Array
+    normals: Array
+    surface: _Surface
+    picture: Picture | None
+    uvs: Array
+
+
+@np.errstate(all="ignore")
+def read_gltf(path: Path) -> list[MeshPart]:
+    """Return the meshes of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
+
+    There is one for each base colour texture, and one for all that has none. The colour of a vertex is the product of
+    the base colour of its material and the colour of the vertex, as far as they are given; light grey if none is. Both
+    are linear in the file, and encoded as sRGB here. Points and lines are left out, and textures that cannot be read,
+    of which an InputWarning tells. What materials say of roughness becomes the mean of the triangles of a mesh.
     """
     gltf = _Gltf(path)
-    parts: list[_Part] = []
-    surfaces: list[_Surface] = []
+    groups: dict[int, list[_Piece]] = {}
     triangles = 0
     for node, matrix in _nodes(gltf):
-        for part, surface in _primitives(gltf, gltf.item(node, "mesh", "meshes")) if "mesh" in node else ():
-            triangles += len(part[1])
+        for piece in _primitives(gltf, gltf.item(node, "mesh", "meshes")) if "mesh" in node else ():
+            triangles += len(piece.faces)
             if triangles > MAX_TRIANGLES:
                 raise InputError(f"it shows more than {MAX_TRIANGLES:,} triangles, the most that are read")
-            parts.append(_place(part, matrix))
-            surfaces.append(surface)
-    if not parts:
+            groups.setdefault(id(piece.picture) if piece.picture else 0, []).append(_place(piece, matrix))
+    if not groups:
         raise InputError("it has no triangles")
-    if gltf.textured:
-        warn(f"{path}: {TEXTURED}")
-    return _join(parts), _material(parts, surfaces)
+    return [_join(pieces, len(groups.keys() - {0})) for pieces in groups.values()]
 
 
 class _Gltf:
@@ -99,7 +111,7 @@ class _Gltf:
             text = data
         self.keys = Table(parse(path, text.decode("utf-8-sig", errors="replace"), ".json"), "")
         self.images: dict[str, Image.Image | None] = {}
-        self.textured = False
+        self.pictures: dict[str, Picture | None] = {}
         self.buffers: dict[str, bytes] = {}
         self._check()
 
@@ -207,6 +219,18 @@ class _Gltf:
         with about(place):
             return read_bytes(self.path.parent.joinpath(*name.parts))
 
+    def picture(self, texture: Table) -> Picture | None:
+        """Return the image of a texture with its sampler; None, with a warning, if it cannot be had."""
+        key = texture.where
+        if key not in self.pictures:
+            image = self.image(texture)
+            sampler = self.item(texture, "sampler", "samplers") if "sampler" in texture else Table({}, "")
+            filter: Filter = "nearest" if sampler.whole("magFilter", 0) == _NEAREST else "bilinear"
+            u, v = (_FILE_WRAPS.get(sampler.whole(name, 0), "repeat") for name in ("wrapS", "wrapT"))
+            name = f"{self.path}: {texture.where}"
+            self.pictures[key] = None if image is None else Picture(image, name, filter, (u, v))
+        return self.pictures[key]
+
     def image(self, texture: Table) -> Image.Image | None:
         """Return the image of a texture; None, with a warning, if it cannot be had."""
         webp = texture.table("extensions").table("EXT_texture_webp")
@@ -287,8 +311,8 @@ def _matrix(node: Table) -> Array:
     return matrix
 
 
-def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[tuple[_Part, _Surface]]:
-    """Return the parts of a mesh that have triangles, each with what its material says."""
+def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Piece]:
+    """Return the primitives of a mesh that have triangles."""
     for where, value in mesh.rows("primitives"):
         keys = Table(value, where)
         attributes = keys.table("attributes")
@@ -313,13 +337,18 @@ def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[tuple[_Part, _Surface]]:
             normals = vertices.values("NORMAL", "VEC3")
             colors = _colors(vertices, keys)
             surface = _surface(gltf, keys)
-        part = (
+            picture, uvs = _picture(vertices, keys)
+        if picture is not None and not picture.is_varied:
+            colors, picture = tinted(colors, picture, uvs), None
+        yield _Piece(
             positions[used].astype(np.float64),
             numbers.reshape(-1, 3),
             colors,
             np.zeros((len(used), 3)) if normals is None else normals.astype(np.float64),
+            surface,
+            picture,
+            uvs,
         )
-        yield part, surface
 
 
 def _corners(mode: int, count: int, place: str) -> NDArray[np.int64]:
@@ -375,14 +404,14 @@ def _surface(gltf: _Gltf, primitive: Table) -> _Surface:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1), True
 
 
-def _material(parts: list[_Part], surfaces: list[_Surface]) -> dict[str, Any]:
-    """Return the fields of a Material: the mean of all parts that have a surface, by area."""
-    known = [(part, surface) for part, surface in zip(parts, surfaces, strict=True) if surface is not None]
-    if len(known) == len(parts) and not any(lit for _, (_, _, lit) in known):
+def _material(pieces: Sequence[_Piece]) -> dict[str, Any]:
+    """Return the fields of a Material: the mean of all pieces that have a surface, by area."""
+    known = [(piece, piece.surface) for piece in pieces if piece.surface is not None]
+    if len(known) == len(pieces) and not any(lit for _, (_, _, lit) in known):
         return {"shading": "unlit"}
     areas = []
-    for (positions, faces, _, _), _ in known:
-        a, b, c = positions[faces].transpose(1, 0, 2)
+    for piece, _ in known:
+        a, b, c = piece.positions[piece.faces].transpose(1, 0, 2)
         areas.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()))
     if not 0 < sum(areas) < math.inf:
         return {}
@@ -394,65 +423,81 @@ def _material(parts: list[_Part], surfaces: list[_Surface]) -> dict[str, Any]:
     }
 
 
+def _base_color(gltf: _Gltf, primitive: Table) -> tuple[Table, str, str]:
+    """Return the table with the base colour of a material, and the names of its factor and its texture."""
+    material = gltf.item(primitive, "material", "materials")
+    extensions = material.table("extensions")
+    if _GLOSSINESS in extensions:
+        return extensions.table(_GLOSSINESS), "diffuseFactor", "diffuseTexture"
+    return material.table("pbrMetallicRoughness"), "baseColorFactor", "baseColorTexture"
+
+
 def _colors(vertices: _Vertices, primitive: Table) -> Array:
-    """Return the colours of vertices, (n, 3), 0..255."""
+    """Return the colours of vertices, (n, 3), 0..255, without those of a texture."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if "material" not in primitive and vertex_colors is None:
         return np.full((len(vertices.used), 3), DEFAULT_COLOR, dtype=np.float64)
-    colors = np.full((len(vertices.used), 3), 255.0)
+    linear = np.ones((len(vertices.used), 3))
     if "material" in primitive:
-        material = vertices.gltf.item(primitive, "material", "materials")
-        extensions = material.table("extensions")
-        if _GLOSSINESS in extensions:
-            keys, factor, texture = extensions.table(_GLOSSINESS), "diffuseFactor", "diffuseTexture"
-        else:
-            keys, factor, texture = material.table("pbrMetallicRoughness"), "baseColorFactor", "baseColorTexture"
-        colors *= to_bytes(keys.numbers(factor, (1, 1, 1, 1)), 1) / 255
-        if texture in keys:
-            colors *= _texture_colors(vertices, keys.table(texture)) / 255
+        keys, factor, _ = _base_color(vertices.gltf, primitive)
+        linear *= np.clip(keys.numbers(factor, (1, 1, 1, 1))[:3], 0, 1)
     if vertex_colors is not None:
-        whole = vertex_colors.dtype.kind in "iu"
-        colors *= to_bytes(vertex_colors, np.iinfo(vertex_colors.dtype).max if whole else 1) / 255
-    return np.asarray(np.rint(colors))
+        most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
+        own = vertex_colors[:, :3].astype(np.float64) / most
+        bad = np.flatnonzero(~np.isfinite(own).all(axis=1))
+        if len(bad):
+            raise InputError(f"colour {bad[0]} must be three finite numbers, not {own[bad[0]].tolist()}")
+        linear *= np.clip(own, 0, 1)
+    return to_srgb(linear)
 
 
-def _texture_colors(vertices: _Vertices, info: Table) -> Array:
-    """Return the colours of a texture, (n, 3), 0..255; white without an image or coordinates."""
+def _picture(vertices: _Vertices, primitive: Table) -> tuple[Picture | None, Array]:
+    """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
+    nowhere = np.zeros((len(vertices.used), 2))
+    if "material" not in primitive:
+        return None, nowhere
+    keys, _, texture = _base_color(vertices.gltf, primitive)
+    if texture not in keys:
+        return None, nowhere
+    info = keys.table(texture)
     transform = info.table("extensions").table("KHR_texture_transform")
     number = transform.whole("texCoord", info.whole("texCoord", 0))
     coordinates = vertices.values(f"TEXCOORD_{number}", "VEC2")
-    image = vertices.gltf.image(vertices.gltf.item(info, "index", "textures"))
-    if image is None or coordinates is None:
-        return np.full((len(vertices.used), 3), 255.0)
-    vertices.gltf.textured |= is_varied(image)
+    picture = vertices.gltf.picture(vertices.gltf.item(info, "index", "textures"))
+    if picture is None or coordinates is None:
+        return None, nowhere
     u, v = (coordinates * np.array(transform.numbers("scale", (1, 1)))).T
     angle, (right, down) = transform.number("rotation", 0), transform.numbers("offset", (0, 0))
     sine, cosine = math.sin(angle), math.cos(angle)
     u, v = right + cosine * u + sine * v, down - sine * u + cosine * v
-    return sample(image, np.stack([u, 1 - v], axis=1))
+    return picture, finite_uvs(np.stack([u, v], axis=1), picture.name)
 
 
-def _place(part: _Part, matrix: Array) -> _Part:
-    """Return a part where its node puts it."""
-    positions, faces, colors, normals = part
-    linear = matrix[:3, :3]
+def _place(piece: _Piece, matrix: Array) -> _Piece:
+    """Return a piece where its node puts it."""
+    faces, linear = piece.faces, matrix[:3, :3]
     # the matrix of the cofactors turns normals right under any scale; its sign follows that of a mirror
     cofactors = np.stack(
         [np.cross(linear[1], linear[2]), np.cross(linear[2], linear[0]), np.cross(linear[0], linear[1])]
     )
     if np.linalg.det(linear) < 0:
         faces, cofactors = faces[:, ::-1], -cofactors
-    normals = normals @ cofactors.T
+    normals = piece.normals @ cofactors.T
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     normals = np.asarray(np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0))
-    return positions @ linear.T + matrix[:3, 3], faces, colors, normals
+    return replace(piece, positions=piece.positions @ linear.T + matrix[:3, 3], faces=faces, normals=normals)
 
 
-def _join(parts: list[_Part]) -> Mesh:
-    starts = np.cumsum([0, *(len(part[0]) for part in parts)])
-    corners = np.concatenate([part[1] + start for part, start in zip(parts, starts, strict=False)])
-    colors = np.concatenate([part[2] for part in parts])
-    positions, normals = (np.concatenate([part[column] for part in parts]) for column in (0, 3))
-    return weld(
-        positions, corners, colors[corners], filled(positions, corners, normals[corners]) if normals.any() else None
+def _join(pieces: Sequence[_Piece], count: int) -> MeshPart:
+    """Return pieces with one texture, or with none, as one. count: how many textures the file has."""
+    starts = np.cumsum([0, *(len(piece.positions) for piece in pieces)])
+    corners = np.concatenate([piece.faces + start for piece, start in zip(pieces, starts, strict=False)])
+    positions, colors, normals, uvs = (
+        np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("positions", "colors", "normals", "uvs")
     )
+    material = _material(pieces)
+    corner_uvs = None
+    if (picture := pieces[0].picture) is not None:
+        material["texture"], corner_uvs = picture.texture(uvs[corners], count)
+    found = filled(positions, corners, normals[corners]) if normals.any() else None
+    return MeshPart(weld(positions, corners, colors[corners], found, corner_uvs), material)

@@ -5,44 +5,45 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from ...errors import InputError, InputWarning
 from .._mesh import Mesh
+from .content import warn
 from .gltf import read_gltf
+from .model import TEXTURED, MeshPart, baked
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
 from .stl import read_stl
 
-#: A mesh, and fields of a `Material` that the file gives, by their names.
-_Model = tuple[Mesh, dict[str, Any]]
+
+def _alone(read: Callable[[Path], Mesh]) -> Callable[[Path], list[MeshPart]]:
+    return lambda path: [MeshPart(read(path), {})]
 
 
-def _without_material(read: Callable[[Path], Mesh]) -> Callable[[Path], _Model]:
-    return lambda path: (read(path), {})
-
-
-READERS: dict[str, Callable[[Path], _Model]] = {
-    ".obj": _without_material(read_obj),
-    ".ply": _without_material(read_ply),
-    ".stl": _without_material(read_stl),
+READERS: dict[str, Callable[[Path], list[MeshPart]]] = {
+    ".obj": read_obj,
+    ".ply": _alone(read_ply),
+    ".stl": _alone(read_stl),
     ".glb": read_gltf,
     ".gltf": read_gltf,
-    ".off": _without_material(read_off),
+    ".off": _alone(read_off),
 }
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
-    """Return the mesh of a file; see `read_model`."""
-    return read_model(path)[0]
+    """Return all of a mesh file as one mesh, with the colours of textures at its vertices; see `read_model`."""
+    mesh, loses = baked(read_model(path))
+    if loses:
+        warn(f"{path}: {TEXTURED}")
+    return mesh
 
 
-def read_model(path: str | os.PathLike[str]) -> _Model:
-    """Return the mesh of a file, by its extension, and fields of a `Material` that the file gives, by their names.
+def read_model(path: str | os.PathLike[str]) -> list[MeshPart]:
+    """Return the meshes of a file, by its extension: one for each texture, and one for all that has none.
 
-    Vertices that are equal in position, colour and normal are one. An InputWarning tells what of the file is left out.
-    InputError, one line that begins with the path, for anything that is wrong with the file.
+    Vertices that are equal in position, colour, normal and texture coordinates are one. An InputWarning tells what of
+    the file is left out. InputError, one line that begins with the path, for anything that is wrong with the file.
     """
     path = Path(path)
     extension = path.suffix.lower()

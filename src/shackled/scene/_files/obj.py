@@ -9,30 +9,32 @@ from __future__ import annotations
 import io
 from array import array
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from ...errors import InputError
 from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR, Mesh
-from .colors import TEXTURED, is_varied, open_image, sample, to_bytes
+from .._texture import open_image
+from .colors import to_bytes
 from .content import read_text, warn
+from .model import FileWrap, MeshPart, Picture, finite_uvs, tinted
 from .polygons import cut
 from .weld import weld
 
 ABSENT = -1
 
 
-def read_obj(path: Path) -> Mesh:
-    """Return the mesh of an OBJ file, all its groups and objects in one.
+def read_obj(path: Path) -> list[MeshPart]:
+    """Return the meshes of an OBJ file, all its groups and objects: one for each texture, and one for what has none.
 
-    The colour of a corner is that of its vertex (`v x y z r g b`), else the texture (`map_Kd`), else the diffuse colour
-    (`Kd`) of its material, else light grey. Its normal is that of the file (`vn`), else that of its smoothing group
-    (`s`), if the file has any. Materials and textures that cannot be read are left out, of which an InputWarning tells.
+    The colour of a corner is that of its vertex (`v x y z r g b`), else white where it has a texture (`map_Kd`), else
+    the diffuse colour (`Kd`) of its material, else light grey. Its normal is that of the file (`vn`), else that of its
+    smoothing group (`s`), if the file has any. Materials and textures that cannot be read are left out, of which an
+    InputWarning tells.
     """
     obj = _parse(path)
     vertex, texcoord, normal = (np.array(column, dtype=np.int64) for column in (obj.vertex, obj.texcoord, obj.normal))
@@ -41,14 +43,22 @@ def read_obj(path: Path) -> Mesh:
     corners, face = triangles[:, :3], triangles[:, 3]
     faces = vertex[corners]
     material, group = (np.array(column, dtype=np.int64)[face] for column in (obj.face_materials, obj.face_groups))
-    corner_colors = _colors(obj, vertex, texcoord, corners, material)
+    colors, uvs, pictures, picture = _surfaces(obj, vertex, texcoord, corners, material)
     found = None
     if (normal != ABSENT).any():
         given = normal[corners]
         found = filled(positions, faces, np.where((given == ABSENT)[:, :, None], 0, normals[given]))
     elif group.any():
         found = corner_normals(positions, faces, groups=group)
-    return weld(positions, faces, corner_colors, found)
+    parts = []
+    for number in np.unique(picture).tolist():
+        own = np.flatnonzero(picture == number)
+        own_normals = None if found is None else found[own]
+        fields, own_uvs = {}, None
+        if number != ABSENT:
+            fields["texture"], own_uvs = pictures[number].texture(uvs[own], len(pictures))
+        parts.append(MeshPart(weld(positions, faces[own], colors[own], own_normals, own_uvs), fields))
+    return parts
 
 
 def write_obj(mesh: Mesh, path: str | Path) -> None:
@@ -69,7 +79,8 @@ def write_obj(mesh: Mesh, path: str | Path) -> None:
 @dataclass(frozen=True)
 class _Material:
     color: tuple[float, float, float]
-    texture: Path | None
+    texture: Path | None = None
+    wrap: FileWrap = "repeat"
 
 
 class _Obj:
@@ -187,40 +198,48 @@ def _check_numbers(obj: _Obj) -> None:
         )
 
 
-def _colors(
+def _surfaces(
     obj: _Obj,
     vertex: NDArray[np.int64],
     texcoord: NDArray[np.int64],
     corners: NDArray[np.int64],
     material: NDArray[np.int64],
-) -> NDArray[np.float64]:
-    """Return a colour for each corner of each triangle, (m, 3, 3)."""
+) -> tuple[NDArray[np.float64], NDArray[np.float64], list[Picture], NDArray[np.int64]]:
+    """Return a colour and texture coordinates for each corner of each triangle, (m, 3, 3) and (m, 3, 2); the images of
+    textures, and the number of that of each triangle, (m,), or ABSENT.
+    """
     colors = np.empty((len(corners), 3, 3))
     colors[:] = DEFAULT_COLOR
-    textured = False
+    uvs = np.zeros((len(corners), 3, 2))
+    pictures: dict[tuple[Path, FileWrap], tuple[int, Picture]] = {}
+    picture = np.full(len(corners), ABSENT)
+    has_own = np.zeros(corners.shape, dtype=bool)
+    if obj.vertex_colors:
+        colored = np.zeros(len(obj.positions) // 3, dtype=bool)
+        colored[list(obj.vertex_colors)] = True
+        has_own = colored[vertex[corners]]
     for name, number in obj.material_numbers.items():
         if name not in obj.materials:
             continue
         found = obj.materials[name]
         faces = np.flatnonzero(material == number)
         colors[faces] = to_bytes(found.color, largest=1)
-        texture = None if found.texture is None or not len(faces) else _open_texture(obj.path, found.texture)
-        if texture is not None:
-            faces = faces[(texcoord[corners[faces]] != ABSENT).all(axis=1)]
-            coordinates = _table(obj.texcoords, 2)[texcoord[corners[faces]]]
-            textured |= len(faces) > 0 and is_varied(texture)
-            colors[faces] = sample(texture, coordinates.reshape(-1, 2)).reshape(-1, 3, 3)
-    if textured:
-        warn(f"{obj.path}: {TEXTURED}")
+        opened = None if found.texture is None or not len(faces) else _open_texture(obj.path, found)
+        if opened is not None and found.texture is not None:
+            faces = faces[(texcoord[corners[faces]] != ABSENT).all(axis=1) & ~has_own[faces].any(axis=1)]
+            uvs[faces] = _table(obj.texcoords, 2)[texcoord[corners[faces]]] * (1, -1) + (0, 1)
+            uvs[faces] = finite_uvs(uvs[faces], opened.name)
+            colors[faces] = 255
+            if not opened.is_varied:
+                colors[faces] = tinted(colors[faces], opened, uvs[faces])
+            elif len(faces):
+                picture[faces] = pictures.setdefault((found.texture, found.wrap), (len(pictures), opened))[0]
     if obj.vertex_colors:
-        colored = np.zeros(len(obj.positions) // 3, dtype=bool)
-        colored[list(obj.vertex_colors)] = True
         vertex_colors = np.zeros((len(obj.positions) // 3, 3))
         vertex_colors[list(obj.vertex_colors)] = list(obj.vertex_colors.values())
         vertex_colors = to_bytes(vertex_colors)
-        has_own = colored[vertex[corners]]
         colors[has_own] = vertex_colors[vertex[corners]][has_own]
-    return colors
+    return colors, uvs, [each for _, each in pictures.values()], picture
 
 
 def _read_materials(path: Path, names: str) -> dict[str, _Material]:
@@ -251,23 +270,26 @@ def _parse_materials(folder: Path, lines: Iterable[str]) -> dict[str, _Material]
         rest = rest.strip()
         if keyword == "newmtl":
             name = " ".join(rest.split())
-            materials[name] = _Material((1.0, 1.0, 1.0), None)
+            materials[name] = _Material((1.0, 1.0, 1.0))
         elif keyword == "Kd" and name in materials:
             try:
                 red, green, blue = (float(word) for word in rest.split())
             except ValueError:
                 continue
-            materials[name] = _Material((red, green, blue), materials[name].texture)
+            materials[name] = replace(materials[name], color=(red, green, blue))
         elif keyword.lower() == "map_kd" and rest and name in materials:
             # options stand before the name: -s 1 1 1 wood.png
             image = rest.split()[-1] if rest.startswith("-") else rest
-            materials[name] = _Material(materials[name].color, folder / image.replace("\\", "/"))
+            wrap: FileWrap = "clamp" if "-clamp on" in " ".join(rest.split()[:-1]) else "repeat"
+            materials[name] = replace(materials[name], texture=folder / image.replace("\\", "/"), wrap=wrap)
     return materials
 
 
-def _open_texture(path: Path, texture: Path) -> Image.Image | None:
+def _open_texture(path: Path, material: _Material) -> Picture | None:
+    assert material.texture is not None
     try:
-        return open_image(texture, str(texture))
+        image = open_image(material.texture, str(material.texture))
     except InputError as error:
         warn(f"{path}: a texture is left out: {error}")
         return None
+    return Picture(image, f"{path}: {material.texture.name}", wraps=(material.wrap, material.wrap))

@@ -5,6 +5,7 @@ Keys that are settings of a look come from its table, with their kinds and range
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 from collections.abc import Callable, Mapping
@@ -12,13 +13,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import evolve
+from attrs import asdict, evolve
 from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
+from .._effects import Fog, Hemisphere, Rim, Tone
+from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
 from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, view_of
 from .._material import Material
@@ -26,9 +29,11 @@ from .._mesh import Mesh
 from .._object import Object
 from .._rotation import IDENTITY, from_axis_angle, from_euler
 from .._scene import DEFAULT_SIDE, Scene
-from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted
+from .._staging import BACKGROUND, Viewpoint, frame, key_light, painted_object
+from .._texture import FILTERS, WRAPS, Texture
 from .content import parse, read_text
-from .mesh_file import READERS, read_mesh
+from .mesh_file import READERS, read_model
+from .model import MeshPart
 from .original import is_original, original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
@@ -40,12 +45,17 @@ def _keys(part: Part, *before: str) -> tuple[str, ...]:
     return (*before, *(setting.name for setting in settings_of(part)))
 
 
-_SCENE = _keys("scene", "size", "camera", "objects")
+_SCENE = _keys("scene", "size", "camera", "objects", "tone")
 _CAMERA = _keys("camera", "projection")
-_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material")
+_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material", "fade")
 _BACKGROUND = ("top", "bottom")
-_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle")
-_MESH = ("positions", "faces", "colors", "normals")
+_HEMISPHERE = ("sky", "ground")
+_RIM = ("color", "power")
+_FOG = ("color", "near", "far")
+_GROUND = ("color", "height", "radius")
+_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
+_MESH = ("positions", "faces", "colors", "normals", "uvs")
+_TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
 _ROTATION = ("quaternion", "axis", "angle")
 
 
@@ -75,9 +85,11 @@ def _scene(document: Mapping[str, Any], folder: Path) -> Scene:
     """Return the scene of a document whose meshes are files relative to `folder`."""
     table = Table(document, "", _SCENE)
     width, height = _size(table)
-    objects = [_object(part, where, folder) for where, part in table.rows("objects")]
+    objects = [each for where, part in table.rows("objects") for each in _objects(part, where, folder)]
     view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
     given = {"lights": [key_light(view)], "background": BACKGROUND, **_settings(table, "scene")}
+    if "tone" in table:
+        given["tone"] = Tone(**_settings(table.table("tone", _keys("tone")), "tone"))
     return Scene(objects, camera, width=width, height=height, **given)
 
 
@@ -98,6 +110,7 @@ def encode_scene_file(scene: Scene) -> bytes:
     document = {
         "size": [scene.width, scene.height],
         **_fields(scene, "scene"),
+        **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
         "camera": {
             **{name: getattr(camera, name) for name in ("eye", "target", "up", "projection", "half_height")},
             **({} if camera.near is None else {"near": camera.near}),
@@ -108,8 +121,9 @@ def encode_scene_file(scene: Scene) -> bytes:
                 "position": thing.position,
                 "rotation": {"quaternion": thing.rotation},
                 "scale": thing.scale,
-                "material": _fields(thing.material, "material"),
+                "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
                 **_fields(thing, "object"),
+                **({} if thing.fade is None else {"fade": list(thing.fade)}),
             }
             for thing in scene.objects
         ],
@@ -118,21 +132,32 @@ def encode_scene_file(scene: Scene) -> bytes:
 
 
 def _fields(value: object, part: Part) -> dict[str, Any]:
-    """Return the settings that are fields of a value; an object has no colour of its own."""
-    return {name: getattr(value, name) for name in _keys(part) if hasattr(value, name)}
+    """Return the settings that are fields of a value and not None; an object has no colour of its own."""
+    fields = {name: getattr(value, name, None) for name in _keys(part)}
+    return {name: found for name, found in fields.items() if found is not None}
+
+
+def _texture_keys(texture: Texture | None) -> dict[str, Any]:
+    if texture is None:
+        return {}
+    pixels = base64.b64encode(texture.pixels.tobytes()).decode("ascii")
+    sides = {"width": texture.width, "height": texture.height}
+    return {"texture": {**sides, "filter": texture.filter, "wrap": texture.wrap, "pixels": pixels}}
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON has for an array, a background or a light."""
-    if isinstance(value, Background):
-        return {"top": value.top, "bottom": value.bottom}
+    """Return what JSON has for an array, or for a background, a light or an effect."""
+    if isinstance(value, Background | Hemisphere | Rim | Fog):
+        return asdict(value)
+    if isinstance(value, Ground):
+        return {name: found for name, found in asdict(value).items() if found is not None}
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"
     keys = {"kind": value.kind, place: value.vector, "color": value.color}
     if value.kind == "spot":
         keys |= {name: getattr(value, name) for name in ("direction", "inner_angle", "outer_angle")}
-    return keys
+    return keys | ({"shadow": True} if value.shadow else {})
 
 
 # ---- reading ----
@@ -168,6 +193,32 @@ def _background(keys: Table, setting: Setting) -> Background:
     return Background(top, inside.color("bottom", top))
 
 
+def _hemisphere(keys: Table, setting: Setting) -> Hemisphere:
+    inside = keys.table(setting.name, _HEMISPHERE)
+    return Hemisphere(inside.color("sky"), inside.color("ground", (0, 0, 0)))
+
+
+def _rim(keys: Table, setting: Setting) -> Rim:
+    inside = keys.table(setting.name, _RIM)
+    color, power = inside.color("color"), inside.whole("power", 3)
+    with about(inside.where):
+        return Rim(color, power)
+
+
+def _fog(keys: Table, setting: Setting) -> Fog:
+    inside = keys.table(setting.name, _FOG)
+    color, near, far = inside.color("color"), inside.number("near"), inside.number("far")
+    with about(inside.where):
+        return Fog(color, near, far)
+
+
+def _ground(keys: Table, setting: Setting) -> Ground:
+    inside = keys.table(setting.name, _GROUND)
+    given = {name: inside.number(name) for name in ("height", "radius") if name in inside}
+    with about(inside.where):
+        return Ground(inside.color("color"), **given)
+
+
 #: How the values of kinds are read, besides the range.
 _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "whole": lambda keys, setting: round(keys.number(setting.name)),
@@ -178,6 +229,10 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "background": _background,
     "choice": lambda keys, setting: keys.choice(setting.name, setting.choices),
     "lights": lambda keys, setting: [_light(part, where) for where, part in keys.rows(setting.name)],
+    "hemisphere": _hemisphere,
+    "rim": _rim,
+    "fog": _fog,
+    "ground": _ground,
 }
 
 
@@ -228,38 +283,73 @@ def _light(value: object, where: str) -> Light:
         if name in keys and name not in (*vectors, *angles):
             raise InputError(f"{where} must have no {name}, as its kind is {kind}")
     place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
-    given = {name: keys.number(name) for name in angles if name in keys}
+    given: dict[str, Any] = {name: keys.number(name) for name in angles if name in keys}
+    if "shadow" in keys:
+        given["shadow"] = keys.flag("shadow")
     with about(where):
         return Light(kind, place, color, *direction, **given)
 
 
-def _object(value: object, where: str, folder: Path) -> Object:
+def _objects(value: object, where: str, folder: Path) -> list[Object]:
+    """Return the objects of a table: one, or one for each texture of the mesh file that it names."""
     keys = Table(value, where, _OBJECT)
-    mesh = _mesh(keys, where, folder)
+    parts = _parts(keys, where, folder)
     given = _settings(keys, "object")
-    if "color" in given:
-        mesh = painted(mesh, given.pop("color"))
-    material = Material(**_settings(keys.table("material", _keys("material")), "material"))
+    surface = keys.table("material", _keys("material", "texture"))
+    fields = _settings(surface, "material")
+    texture = _texture(surface, folder) if "texture" in surface else None
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
+    if "fade" in keys:
+        given["fade"] = keys.numbers("fade", (0, 0))
+    color = given.pop("color", None)
     with about(where):
-        return Object(mesh, position, rotation, scale, material, **given)
+        objects = []
+        for part in parts:
+            material = Material(**fields, texture=texture or part.material.get("texture"))
+            thing = Object(part.mesh, position, rotation, scale, material, **given)
+            objects.append(thing if color is None else painted_object(thing, color))
+        return objects
 
 
-def _mesh(keys: Table, where: str, folder: Path) -> Mesh:
+def _parts(keys: Table, where: str, folder: Path) -> list[MeshPart]:
     value = keys.get("mesh")
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
-            return read_mesh(folder / value)
+            return read_model(folder / value)
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     inside = keys.table("mesh", _MESH)
     with about(inside.where):
-        return Mesh(
+        mesh = Mesh(
             inside.matrix("positions"),
             inside.matrix("faces", whole=True),
             inside.matrix("colors", whole=True) if "colors" in inside else None,
             inside.matrix("normals") if "normals" in inside else None,
+            inside.matrix("uvs", width=2) if "uvs" in inside else None,
         )
+    return [MeshPart(mesh, {})]
+
+
+def _texture(surface: Table, folder: Path) -> Texture:
+    """Return a texture: the path of an image, relative to the scene file, or its pixels."""
+    keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
+    keys = keys or surface.table("texture", _TEXTURE)
+    filter, wrap = keys.choice("filter", FILTERS, FILTERS[1]), keys.choice("wrap", WRAPS, WRAPS[0])
+    keys.only_one_of("image", "pixels")
+    with about(surface.place("texture")):
+        if "pixels" not in keys:
+            image = keys.get("image")
+            if not isinstance(image, str) or not image:
+                raise InputError("a texture needs an image: the path of a file, relative to the scene file")
+            return Texture.open(folder / image, filter, wrap)
+        width, height = keys.whole("width"), keys.whole("height")
+        try:
+            data = base64.b64decode(keys.get("pixels"), validate=True)
+        except (TypeError, ValueError):
+            raise InputError("pixels must be red, green and blue bytes in base64") from None
+        if len(data) != 3 * width * height:
+            raise InputError(f"{width} x {height} pixels need {3 * width * height:,} bytes, not {len(data):,}")
+        return Texture(np.frombuffer(data, np.uint8).reshape(height, width, 3), filter, wrap)
 
 
 def _rotation(keys: Table) -> ArrayLike:

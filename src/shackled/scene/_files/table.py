@@ -78,16 +78,17 @@ class Table:
             raise InputError(f"{self.place(key)} must be {count} numbers, not {value!r:.60}")
         return tuple(float(part) for part in value)
 
-    def matrix(self, key: str, whole: bool = False) -> NDArray[Any]:
-        """Return rows of three numbers, (n, 3), none if the key is absent; integers if they must be whole."""
+    def matrix(self, key: str, whole: bool = False, width: int = 3) -> NDArray[Any]:
+        """Return rows of `width` numbers, (n, width), none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
+        count = {2: "two", 3: "three"}[width]
         for place, row in rows:
-            if not isinstance(row, list) or len(row) != 3 or not all(is_number(value) for value in row):
-                raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
+            if not isinstance(row, list) or len(row) != width or not all(is_number(value) for value in row):
+                raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
             if whole and not all(value % 1 == 0 and abs(value) < 2**53 for value in row):
-                raise InputError(f"{place} must be three {kind}, not {row!r:.60}")
+                raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")
         table: NDArray[Any] = np.array([row for _, row in rows], dtype=np.int64 if whole else np.float64)
-        return table.reshape(-1, 3)
+        return table.reshape(-1, width)
 
     def flag(self, key: str, default: bool | None = None) -> bool:
         """Return true or false."""

@@ -1,11 +1,11 @@
-"""From what files hold to a mesh: colours and normals belong to the corners of faces there, to vertices here."""
+"""From what files hold to a mesh: what belongs to the corners of faces there belongs to vertices here."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .._mesh import Mesh
 
@@ -14,22 +14,26 @@ _AT_ONCE = 1 << 16
 
 
 def weld(
-    positions: ArrayLike, faces: ArrayLike, colors: ArrayLike | None = None, normals: ArrayLike | None = None
+    positions: ArrayLike,
+    faces: ArrayLike,
+    colors: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    uvs: ArrayLike | None = None,
 ) -> Mesh:
-    """Return a mesh with one vertex for each distinct position, colour and normal that a face uses.
+    """Return a mesh with one vertex for each distinct position, colour, normal and texture coordinate that a face uses.
 
     positions: (n, 3) float. faces: (m, 3) int, numbers of positions. colors: (m, 3, 3), the colour 0..255 of each
-    corner of each face, or None for light grey. normals: (m, 3, 3) float likewise, or None for no normals. InputError
-    as in `Mesh`.
+    corner of each face, or None for light grey. normals: (m, 3, 3) float likewise, or None for no normals. uvs:
+    (m, 3, 2) float likewise. InputError as in `Mesh`.
     """
     checked = Mesh(positions, faces)
     points, corners = checked.positions, checked.faces
-    columns: list[NDArray[np.float64]] = [points[corners]]
-    if colors is not None:
-        columns.append(np.asarray(colors, dtype=np.float64))
-    if normals is not None:
-        columns.append(np.asarray(normals, dtype=np.float64))
-    rows = np.ascontiguousarray(np.concatenate(columns, axis=2).reshape(3 * len(corners), -1) + 0.0)  # + 0.0: no -0.0
+    parts = [
+        points[corners],
+        *(np.asarray(each, dtype=np.float64) for each in (colors, normals, uvs) if each is not None),
+    ]
+    # + 0.0: no -0.0
+    rows = np.ascontiguousarray(np.concatenate(parts, axis=2).reshape(3 * len(corners), -1) + 0.0)
     keys = rows.view(np.dtype((np.void, rows.itemsize * rows.shape[1]))).ravel()
     numbers: dict[Any, int] = {}
     welded = np.empty(len(rows), dtype=np.int64)
@@ -37,9 +41,11 @@ def weld(
         part = [numbers.setdefault(key, len(numbers)) for key in keys[start : start + _AT_ONCE].tolist()]
         welded[start : start + _AT_ONCE] = part
     unique = rows[np.unique(welded, return_index=True)[1]]
+    columns = iter(np.split(unique, np.cumsum([each.shape[2] for each in parts])[:-1], axis=1))
     return Mesh(
-        unique[:, :3],
+        next(columns),
         welded.reshape(-1, 3),
-        None if colors is None else unique[:, 3:6].astype(np.uint8),
-        None if normals is None else unique[:, -3:],
+        None if colors is None else next(columns).astype(np.uint8),
+        None if normals is None else next(columns),
+        None if uvs is None else next(columns),
     )

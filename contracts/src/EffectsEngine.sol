@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {EffectSamples} from "./pipeline/EffectSamples.sol";
+import {Effects} from "./pipeline/Effects.sol";
+import {Lighting} from "./pipeline/Lighting.sol";
+import {Pipeline} from "./pipeline/Pipeline.sol";
+import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
+import {SampleWires} from "./pipeline/SampleWires.sol";
+import {Rasterizer} from "./pipeline/Rasterizer.sol";
+import {ShadowRows} from "./pipeline/ShadowRows.sol";
+import {Texture} from "./pipeline/Texture.sol";
+import {Shading} from "./pipeline/Shading.sol";
+import {SmoothShading} from "./pipeline/SmoothShading.sol";
+import {WEIGHTED_BIAS} from "./pipeline/FragmentLight.sol";
+import {Rectangle} from "./scene/Scene.sol";
+import "./pipeline/Registers.sol";
+
+/// @title EffectsEngine: from vertices to pixels, for scenes with effects.
+/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone,
+/// a texture, a shadow or a ground, with four samples for each pixel, and lights every fragment for itself.
+contract EffectsEngine is SampleBuffer, SampleWires {
+    function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
+        internal
+        pure
+        override
+        returns (uint256)
+    {
+        Effects.setFrame();
+        assembly ("memory-safe") {
+            mstore(LISTS, lists)
+        }
+        Effects.setObject();
+        return super.openPicture(tile, image, bandRows, lists);
+    }
+
+    function readObject(uint256 position) internal pure override returns (uint256 next) {
+        if (load(SHADOWS) != 0 && load(SHADOW_ROW) == 0) {
+            // before the records of vertices
+            store(SHADOW_ROW, freeMemory());
+            setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
+        }
+        unchecked {
+            store(OBJECT_INDEX, position == load(OBJECTS) ? 0 : load(OBJECT_INDEX) + 1);
+        }
+        next = super.readObject(position);
+        Effects.setObject();
+    }
+
+    function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override(Rasterizer, SmoothShading) {
+        shadeExact(a, b, c, crossing);
+    }
+
+    function shadeExact(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override {
+        unchecked {
+            uint256 mode = load(OBJECT_MODE) & ~IS_QUADRATIC;
+            if (mode & IS_SMOOTH != 0) {
+                Shading.setNormals(a, b, c);
+            } else if (mode & IS_FLAT != 0) {
+                Lighting.setFace();
+                Lighting.setFacing();
+                setFaceUp();
+                mode |= IS_LIT | IS_DIFFUSE;
+            }
+            store(SHADOW_LIST, 0);
+            if (mode & IS_LIT != 0 && load(SHADOWS) != 0) ShadowRows.setFace();
+            (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
+            Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
+            // FragmentLight is to return highlights alone
+            store(ALBEDO_0, load(COLOR_0));
+            store(ALBEDO_1, load(COLOR_1));
+            store(ALBEDO_2, load(COLOR_2));
+            store(IS_UNIFORM, isUniform(mode) ? 1 : 0);
+            store(UNIFORM_SHARE, 0);
+            store(COLOR_0, WEIGHTED_BIAS);
+            store(COLOR_1, 0);
+            store(COLOR_2, 0);
+            if (load(TEXTURE) != 0 && mode & IS_DEPTH_PASS == 0) Texture.setTriangle(a, b, c, recordShift(mode));
+        }
+    }
+
+    /// @dev Whether nothing but shadows changes the colour from place to place.
+    function isUniform(uint256 mode) private pure returns (bool) {
+        unchecked {
+            if (mode & (IS_SMOOTH | HAS_SPECULAR) != 0) return false;
+            if (load(COLOR_1) | load(COLOR_2) | load(TEXTURE) | load(FOG_RANGE) | load(RIM_COLOR) != 0) return false;
+            for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
+                if (load(light + LIGHT_IS_POINT) != 0) return false;
+            }
+            return true;
+        }
+    }
+
+    function setFaceUp() private pure {
+        assembly ("memory-safe") {
+            // as the light of a direction: see Lighting
+            let up := sar(UPPER_86_AT, mul(mload(FACE_NORMAL), mload(UP_IN_MESH)))
+            mstore(FACE_UP, sdiv(shl(Q16, up), mload(FACE_LENGTH)))
+        }
+    }
+
+    function drawFragments(uint256 row, uint256 last) internal pure override {
+        drawSpans(row, last);
+    }
+
+    function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
+        EffectSamples.draw(left, right, column, end, row);
+    }
+
+    function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, SampleWires) {
+        SampleWires.drawWires(list, end);
+    }
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Gamma} from "../math/Gamma.sol";
+import {sqrt} from "../math/Roots.sol";
+import {TONE_FILMIC, TONE_GAMMA} from "./Effects.sol";
+import {FragmentLight} from "./FragmentLight.sol";
+import {Texture} from "./Texture.sol";
+import "./Registers.sol";
+
+// The fragment shader of scenes with effects. With albedo, light and highlights of FragmentLight:
+//
+//   radiance = albedo * (light + hemisphere) + highlights + rim * (1 - max(N.V, 0))^power
+//   hemisphere = ambient coefficient * (ground + (sky - ground) * (1 + N.up) / 2)
+//   colour = tone(radiance * exposure), mixed with that of the fog by the distance along the line of sight
+//
+// In linear light (gamma) the albedo is decoded from sRGB, and the colour is encoded; the colours of lights are decoded before.
+// The filmic tone is x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), the fit of the ACES curve by Krzysztof Narkowicz.
+
+/// @dev 255 levels, Q10.
+uint256 constant WHITE_10 = 0x3fc00;
+/// @dev Radiance above 2^30 levels, and values of the filmic curve above 64 (Q16), are as good as white.
+uint256 constant BRIGHTEST = 1 << 40;
+uint256 constant BRIGHTEST_FILMIC = 1 << 22;
+/// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
+uint256 constant FILMIC_59 = 59 << 16;
+uint256 constant FILMIC_3 = 3 << 16;
+uint256 constant FILMIC_14 = 14 << 32;
+/// @dev The end of the lanes of a colour.
+uint256 constant LANES_END = 3 * 56;
+uint256 constant LANES_85_END = 3 * 85;
+/// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to 255
+/// has not.
+uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
+uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
+uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;
+
+library SurfaceLight {
+    /// @notice The colour where the accumulator and the ray are these: signed lanes of 85 bits, Q10, not kept below 255.
+    /// @param attribute The accumulator of barycentric coordinates.
+    /// @param x, y As for FragmentLight.
+    function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
+        uint256 s;
+        uint256 t;
+        assembly ("memory-safe") {
+            s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
+            t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
+            attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
+        }
+        uint256 albedo = albedoAt(attribute, s, t);
+        bool isLit;
+        assembly ("memory-safe") {
+            isLit := and(mload(MODE), IS_LIT)
+        }
+        if (isLit) {
+            // the highlights alone; the light that modulates the albedo stays in FRAGMENT_LIGHT
+            color = FragmentLight.colorAt(attribute, s, t, x, y);
+            addHemisphere();
+            color = lit(albedo, color);
+            if (load(RIM_COLOR) != 0) color = withRim(color, rimAt(x, y));
+        } else {
+            assembly ("memory-safe") {
+                color := add(and(albedo, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, albedo), LANE_32)))
+                color := add(color, shl(UPPER_85_AT, shr(UPPER_AT, albedo)))
+            }
+        }
+        if (load(IS_TONED) != 0) color = toned(color);
+        if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
+    }
+
+    /// @dev The colour of the surface itself, lanes of Q10, 0..255.
+    function albedoAt(uint256 depth, uint256 s, uint256 t) private pure returns (uint256 albedo) {
+        assembly ("memory-safe") {
+            // as in FragmentLight
+            let mode := mload(MODE)
+            if iszero(and(mode, IS_ORTHOGRAPHIC)) {
+                s := sdiv(mul(s, mload(DEPTH_1)), depth)
+                t := sdiv(mul(t, mload(DEPTH_2)), depth)
+                if and(mode, IS_STEEP) {
+                    if sgt(s, ONE_24) { s := ONE_24 }
+                    if sgt(t, ONE_24) { t := ONE_24 }
+                }
+            }
+            albedo := shr(24, add(add(mload(ALBEDO_0), mul(mload(ALBEDO_1), s)), mul(mload(ALBEDO_2), t)))
+            albedo := and(albedo, LANES_32)
+            // each lane has 2^24 too much
+            albedo := xor(albedo, ALBEDO_BIAS)
+            if and(add(albedo, ALBEDO_SLACK), BEYOND_ALBEDO) {
+                // lanes that are below 0 have the bit that others have no more
+                let inside := 0
+                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
+                    let channel := and(shr(i, albedo), LANE_32)
+                    if gt(channel, WHITE_10) { channel := mul(WHITE_10, lt(channel, ONE_24)) }
+                    inside := or(inside, shl(i, channel))
+                }
+                albedo := inside
+            }
+        }
+        if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
+        if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+    }
+
+    /// @dev Lanes of Q10 times those of a texture, Q16.
+    function textured(uint256 color, uint256 texture) private pure returns (uint256 product) {
+        assembly ("memory-safe") {
+            product := shr(16, mul(and(color, LANE_32), and(texture, LANE_24)))
+            let channel := shr(16, mul(and(shr(MIDDLE_AT, color), LANE_32), and(shr(MIDDLE_AT, texture), LANE_24)))
+            product := or(product, shl(MIDDLE_AT, channel))
+            product := or(product, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, color), shr(UPPER_AT, texture)))))
+        }
+    }
+
+    /// @dev Lanes of Q10 as linear levels.
+    function decoded(uint256 color) private pure returns (uint256 linear) {
+        unchecked {
+            for (uint256 i; i != LANES_END; i += MIDDLE_AT) linear |= Gamma.decode((color >> i) & LANE_32) << i;
+        }
+    }
+
+    /// @dev Albedo times FRAGMENT_LIGHT (Q40), and highlights, both lanes of 85 bits, Q10.
+    function lit(uint256 albedo, uint256 highlights) private pure returns (uint256 color) {
+        assembly ("memory-safe") {
+            let light := mload(FRAGMENT_LIGHT)
+            color := shr(16, mul(and(albedo, LANE_32), and(shr(BLUE_Q40_AT, light), LANE_32)))
+            color := add(
+                color,
+                shl(MIDDLE_85_AT, shr(16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32))))
+            )
+            color := add(color, shl(UPPER_85_AT, shr(16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32)))))
+            color := add(color, highlights)
+        }
+    }
+
+    /// @dev A colour and the rim at this strength, Q24.
+    function withRim(uint256 color, uint256 strength) private pure returns (uint256) {
+        unchecked {
+            uint256 rim = load(RIM_COLOR);
+            for (uint256 i; i != 3; ++i) {
+                color += (((rim >> (MIDDLE_AT * i)) & LANE_32) * strength >> (Q24 - Q10)) << (MIDDLE_85_AT * i);
+            }
+            return color;
+        }
+    }
+
+    /// @dev A colour behind fog that hides so much of it, Q16.
+    function fogged(uint256 color, uint256 strength) private pure returns (uint256 mixed) {
+        assembly ("memory-safe") {
+            mixed := color
+            if strength {
+                mixed := 0
+                let fog := mload(FOG_COLOR)
+                for { let i := 0 } lt(i, LANES_85_END) { i := add(i, MIDDLE_85_AT) } {
+                    let channel := and(shr(i, color), LANE_85)
+                    if gt(channel, WHITE_10) { channel := WHITE_10 }
+                    channel := add(mul(channel, sub(ONE_16, strength)), mul(shl(Q10, and(fog, LANE_32)), strength))
+                    mixed := or(mixed, shl(i, shr(Q16, channel)))
+                    fog := shr(MIDDLE_AT, fog)
+                }
+            }
+        }
+    }
+
+    /// @dev Adds the light from above and below to FRAGMENT_LIGHT, lanes of Q40.
+    function addHemisphere() private pure {
+        assembly ("memory-safe") {
+            if or(mload(HEMISPHERE_SKY), mload(HEMISPHERE_GROUND)) {
+                // N.up, Q24
+                let up := mload(FACE_UP)
+                if and(mload(MODE), IS_SMOOTH) {
+                    up := add(mul(mload(FRAGMENT_NORMAL_X), mload(UP_X)), mul(mload(FRAGMENT_NORMAL_Y), mload(UP_Y)))
+                    up := sdiv(add(up, mul(mload(FRAGMENT_NORMAL_Z), mload(UP_Z))), mload(FRAGMENT_NORMAL_LENGTH))
+                }
+                if sgt(up, ONE_24) { up := ONE_24 }
+                if slt(up, sub(0, ONE_24)) { up := sub(0, ONE_24) }
+                up := shr(1, add(ONE_24, up))
+                up := add(mul(mload(HEMISPHERE_SKY), up), mul(mload(HEMISPHERE_GROUND), sub(ONE_24, up)))
+                mstore(FRAGMENT_LIGHT, add(mload(FRAGMENT_LIGHT), up))
+            }
+        }
+    }
+
+    /// @dev How strong the rim is at a fragment, Q24.
+    function rimAt(uint256 x, uint256 y) private pure returns (uint256 strength) {
+        unchecked {
+            uint256 normalRay = load(FRAGMENT_NORMAL_RAY);
+            uint256 length = load(FRAGMENT_NORMAL_LENGTH);
+            if (load(MODE) & IS_ORTHOGRAPHIC == 0) length *= sqrt(x * x + y * y + ONE_48);
+            else length <<= Q24;
+            uint256 part;
+            assembly ("memory-safe") {
+                // 1 - N.V, where V = -ray
+                part := add(ONE_24, sdiv(shl(24, normalRay), length))
+                if sgt(part, ONE_24) { part := ONE_24 }
+                part := mul(part, sgt(part, 0))
+            }
+            strength = ONE_24;
+            for (uint256 i = load(RIM_POWER); i != 0; --i) strength = (strength * part) >> Q24;
+        }
+    }
+
+    /// @dev How much the fog hides at a depth, Q16.
+    function fogAt(uint256 depth) private pure returns (uint256 strength) {
+        assembly ("memory-safe") {
+            let distance := shl(8, mload(DEPTH_SCALE))
+            switch and(mload(MODE), IS_ORTHOGRAPHIC)
+            case 0 { distance := div(distance, depth) }
+            default { distance := sub(distance, depth) }
+            distance := sub(distance, mload(FOG_NEAR))
+            distance := mul(distance, sgt(distance, 0))
+            strength := div(shl(16, distance), mload(FOG_RANGE))
+            if gt(strength, ONE_16) { strength := ONE_16 }
+        }
+    }
+
+    /// @dev A colour as it is shown, lanes of 85 bits, Q10, 0..255.
+    function toned(uint256 color) private pure returns (uint256 shown) {
+        unchecked {
+            (uint256 exposure, uint256 flags) = (load(EXPOSURE), load(TONE_FLAGS));
+            for (uint256 i; i != LANES_85_END; i += MIDDLE_85_AT) {
+                uint256 channel;
+                assembly ("memory-safe") {
+                    channel := and(shr(i, color), LANE_85)
+                    if gt(channel, BRIGHTEST) { channel := BRIGHTEST }
+                    channel := shr(Q16, mul(channel, exposure))
+                    switch flags
+                    case 0 { if gt(channel, WHITE_10) { channel := WHITE_10 } }
+                    default {
+                        // Q16, where 1 is white
+                        channel := div(shl(6, channel), 255)
+                        if and(flags, TONE_FILMIC) {
+                            if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
+                            let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
+                            channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
+                        }
+                        if gt(channel, ONE_16) { channel := ONE_16 }
+                    }
+                }
+                if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
+                else if (flags != 0) channel = (channel * 255) >> 6;
+                shown |= channel << i;
+            }
+        }
+    }
+}

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
+import {SCENE_OBJECTS} from "../scene/Scene.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
+import {Triangles} from "./Triangles.sol";
+import {VertexShader} from "./VertexShader.sol";
+import "./Registers.sol";
+
+// The colour of a texture at a fragment. The content of a record TEXTURE of an object, in words of 32 bytes, is
+//
+//   flags         1 byte    sum of TEXTURE_BILINEAR and TEXTURE_CLAMP
+//   sides         2 bytes   width - 1 and height - 1
+//   bits          1 byte    of a texel: 1, 2, 4, 8, or 24
+//   palette                 2^bits colours of 3 bytes, red, green, blue; none for texels of 24 bits, which are colours themselves
+//   texels                  rows from the top, one after the other; zeros up to a whole byte
+//   coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the image,
+//                           (1, 1) the lower right one
+//   zeros up to a whole word
+//
+// Texture coordinates are interpolated correctly in perspective, two lanes of 128 bits: u below, v above. Texels are found as in OpenGL:
+// with the coordinate x = u * width, the nearest texel is floor(x); between texels, whose centres lie at i + 0.5, colours are linear.
+
+/// @dev Flags: colours are interpolated; beyond the border its colours go on.
+uint256 constant TEXTURE_BILINEAR = 1;
+uint256 constant TEXTURE_CLAMP = 2;
+/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates.
+uint256 constant TEXTURE_HEADER = 4;
+uint256 constant TEXTURE_COLOR_BITS = 24;
+uint256 constant UV_SIZE = 6;
+/// @dev 2^bits of each number of bits that a texel may have.
+uint256 constant BITS_ALLOWED = 0x1000116;
+uint256 constant ONE_12 = 0x1000;
+uint256 constant BELOW_ONE_24 = 0xffffff;
+
+/// @dev The kind of the record.
+uint256 constant TEXTURE_OF = 8;
+
+library Texture {
+    /// @notice Checks a record.
+    function check(uint256 record, uint256 object) internal pure {
+        unchecked {
+            uint256 scene = 4 + FRAME_SIZE;
+            uint256 objects = scene + Extensions.word(scene + 32 * SCENE_OBJECTS);
+            uint256 count = Extensions.word(objects);
+            if (object >= count) revert SceneErrors.ExtensionIndex(TEXTURE_OF, object, count);
+            uint256 size = Extensions.sizeOf(record);
+            if (size == 0) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, 32, 0);
+            uint256 header = Extensions.word(record + RECORD_HEADER) >> 224;
+            (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
+            if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
+                revert SceneErrors.TextureFormat(object, flags, bits);
+            }
+            // the number of vertices stands behind the length and the format of the mesh
+            uint256 place = objects + 32 + Extensions.word(objects + 32 + 32 * object);
+            uint256 vertices = (Extensions.word(place + Extensions.word(place) + 32) >> 232) & 0xffff;
+            uint256 expected = (uvsOf(record + RECORD_HEADER) - record - RECORD_HEADER + UV_SIZE * vertices + 31) & ~uint256(31);
+            if (size != expected) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, expected, size);
+        }
+    }
+
+    /// @notice The registers of an object whose uniforms were read.
+    /// @param object Its number in the scene.
+    function setObject(uint256 object) internal pure {
+        unchecked {
+            store(TEXTURE, 0);
+            uint256 end = load(EFFECTS_END);
+            uint256 key = (TEXTURE_OF << 16) | object;
+            for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
+                if (Extensions.keyOf(record) != key) continue;
+                store(TEXTURE, record + RECORD_HEADER);
+                store(TEXTURE_UVS, uvsOf(record + RECORD_HEADER));
+            }
+        }
+    }
+
+    /// @dev Where the coordinates of vertices are.
+    function uvsOf(uint256 texture) private pure returns (uint256) {
+        unchecked {
+            uint256 header = Extensions.word(texture) >> 224;
+            uint256 bits = header & 0xff;
+            uint256 texels = (((header >> 16) & 0xff) + 1) * (((header >> 8) & 0xff) + 1);
+            return texture + TEXTURE_HEADER + (bits == TEXTURE_COLOR_BITS ? 0 : 3 << bits) + (texels * bits + 7) / 8;
+        }
+    }
+
+    /// @notice The coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
+    /// @param a, b, c The screen words of its vertices, which records of 2^shift bytes have.
+    function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+        unchecked {
+            uint256 first = coordinatesOf(a, shift);
+            store(UV_0, first << Q24);
+            store(UV_1, coordinatesOf(b, shift) - first);
+            store(UV_2, coordinatesOf(c, shift) - first);
+        }
+    }
+
+    /// @notice The colour at barycentric coordinates, Q24, that are correct in perspective: lanes of Q16, where 255 is one.
+    function colorAt(uint256 s, uint256 t) internal pure returns (uint256) {
+        assembly ("memory-safe") {
+            t := add(add(mload(UV_0), mul(mload(UV_1), s)), mul(mload(UV_2), t))
+            // Q24
+            s := sar(16, signextend(15, t))
+            t := sar(144, add(t, shl(127, 1)))
+        }
+        return sample(load(TEXTURE), s, t);
+    }
+
+    /// @notice The colour of the texture at this place of the call, lanes of Q16, where 255 is one.
+    /// @param u, v Q24, signed.
+    function sample(uint256 texture, uint256 u, uint256 v) internal pure returns (uint256 color) {
+        assembly ("memory-safe") {
+            // the n-th texel, lanes of Q10
+            function texel(texels, palette, bits, n) -> lanes {
+                n := mul(n, bits)
+                lanes := shr(sub(256, bits), shl(and(n, 7), calldataload(add(texels, shr(3, n)))))
+                if palette { lanes := shr(232, calldataload(add(palette, mul(3, lanes)))) }
+                lanes := and(mul(lanes, COLOR_SPREAD), BYTES_Q10)
+            }
+
+            function clamped(x) -> inside {
+                inside := mul(x, sgt(x, 0))
+                if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 }
+            }
+
+            // the texels along a side between whose centres a place (Q24) lies
+            function around(x, size, flags) -> first, second {
+                first := sar(24, x)
+                second := add(first, 1)
+                if slt(first, 0) { first := mul(iszero(and(flags, TEXTURE_CLAMP)), sub(size, 1)) }
+                if eq(second, size) { second := mul(gt(and(flags, TEXTURE_CLAMP), 0), first) }
+            }
+
+            let header := calldataload(texture)
+            let flags := byte(0, header)
+            if and(flags, TEXTURE_CLAMP) {
+                u := clamped(u)
+                v := clamped(v)
+            }
+            let width := add(byte(1, header), 1)
+            let height := add(byte(2, header), 1)
+            // in texels, Q24
+            u := mul(and(u, BELOW_ONE_24), width)
+            v := mul(and(v, BELOW_ONE_24), height)
+            let bits := byte(3, header)
+            let texels := add(texture, TEXTURE_HEADER)
+            let palette := 0
+            if lt(bits, TEXTURE_COLOR_BITS) {
+                palette := texels
+                texels := add(texels, mul(3, shl(bits, 1)))
+            }
+            switch and(flags, TEXTURE_BILINEAR)
+            case 0 { color := shl(24, texel(texels, palette, bits, add(mul(shr(24, v), width), shr(24, u)))) }
+            default {
+                u := sub(u, HALF_24)
+                v := sub(v, HALF_24)
+                let row, below := around(v, height, flags)
+                let column, right := around(u, width, flags)
+                // Q12
+                u := and(shr(12, u), 0xfff)
+                v := and(shr(12, v), 0xfff)
+                for { let isLast := 0 } 1 { isLast := 1 } {
+                    row := mul(row, width)
+                    let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column)))
+                    mixed := add(mixed, mul(u, texel(texels, palette, bits, add(row, right))))
+                    color := add(color, mul(sub(ONE_12, v), mixed))
+                    if isLast { break }
+                    row := below
+                    v := sub(ONE_12, v)
+                }
+            }
+            // Q34 levels times 257 / 2^16; from a half on one more, so that 255 is one
+            color := and(shr(34, mul(color, 257)), LANES_24)
+            color := add(color, and(shr(15, color), ONES))
+        }
+    }
+
+    /// @dev The coordinates of a vertex, Q16: those of the mesh, or where the vertex is new, since its face was clipped, those of that
+    /// place of the face.
+    function coordinatesOf(uint256 screen, uint256 shift) private pure returns (uint256) {
+        unchecked {
+            uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> shift;
+            return index < load(MESH_VERTEX_COUNT) ? readCoordinates(index) : cutCoordinates(screen);
+        }
+    }
+
+    function readCoordinates(uint256 index) private pure returns (uint256 uv) {
+        assembly ("memory-safe") {
+            uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE)))
+            uv := add(sar(232, uv), shl(128, sar(232, shl(24, uv))))
+        }
+    }
+
+    /// @dev With the clip coordinates P of the vertices of the face, (x, y, 1) of the place is a multiple of their sum with the weights
+    /// e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
+    function cutCoordinates(uint256 screen) private pure returns (uint256 uv) {
+        unchecked {
+            uint256 indices = Triangles.readIndices(load(FACE));
+            for (uint256 i; i != 3; ++i) {
+                uint256 corner = TEXTURE_CORNERS + CORNER_SIZE * i;
+                uint256 index = (indices >> (FACE_FIRST_AT - FACE_SECOND_AT * i)) & FACE_INDEX_MASK;
+                VertexShader.clipCoordinates(index, corner);
+                if (load(FRAME_IS_ORTHOGRAPHIC) != 0) store(corner + CORNER_W, ONE_32);
+                store(corner + CORNER_COLOR, readCoordinates(index));
+            }
+            int256 x = int256((screen >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
+            int256 y = int256(screen >> SCREEN_ROW_AT);
+            (int256 u, int256 v, int256 sum) = (0, 0, 0);
+            for (uint256 i; i != 3; ++i) {
+                int256 weight = determinant(x, y, (i + 1) % 3, (i + 2) % 3);
+                uint256 place = load(TEXTURE_CORNERS + CORNER_SIZE * i + CORNER_COLOR);
+                u += weight * int128(int256(place));
+                v += weight * (int256(place + (1 << 127)) >> 128);
+                sum += weight;
+            }
+            if (sum == 0) return 0;
+            return uint256(u / sum) + (uint256(v / sum) << 128);
+        }
+    }
+
+    function determinant(int256 x, int256 y, uint256 i, uint256 j) private pure returns (int256) {
+        unchecked {
+            uint256 p = TEXTURE_CORNERS + CORNER_SIZE * i;
+            uint256 q = TEXTURE_CORNERS + CORNER_SIZE * j;
+            (int256 px, int256 py, int256 pw) = (loadSigned(p), loadSigned(p + CORNER_Y), loadSigned(p + CORNER_W));
+            (int256 qx, int256 qy, int256 qw) = (loadSigned(q), loadSigned(q + CORNER_Y), loadSigned(q + CORNER_W));
+            return x * (py * qw - pw * qy) - y * (px * qw - pw * qx) + px * qy - py * qx;
+        }
+    }
+}

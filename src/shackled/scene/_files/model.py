@@ -1,0 +1,136 @@
+"""What a mesh file holds: meshes, each with what the file says of its material; and their textures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from PIL import Image
+
+from .._mesh import Mesh
+from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced
+from .colors import sample
+from .content import warn
+from .weld import weld
+
+#: The warning for a mesh whose textures have more than one colour, if only the mesh is read.
+TEXTURED = "its textures give their colours at the vertices only; what they show between them is lost"
+
+#: How an image goes on outside of 0..1 in files.
+FileWrap = Literal["repeat", "clamp", "mirror"]
+
+Array = NDArray[np.float64]
+
+#: Texture coordinates beyond this are moved by whole images.
+_FAR = 100
+#: Coordinates that are outside of 0..1 by less are taken as rounded.
+_ROUNDING = 1e-4
+#: How many textures of the full size a file may have; a quarter of the texels allows four times as many.
+_FULL_SIZE = 4
+
+
+@dataclass(frozen=True)
+class MeshPart:
+    """A mesh of a file, and fields of a `Material` that the file gives, by their names, such as its texture."""
+
+    mesh: Mesh
+    material: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An image of a file, and how it is to be sampled. name: for messages, with the path of the file.
+
+    wraps: along u and v.
+    """
+
+    image: Image.Image
+    name: str
+    filter: Filter = "bilinear"
+    wraps: tuple[FileWrap, FileWrap] = ("repeat", "repeat")
+
+    @property
+    def is_varied(self) -> bool:
+        """Whether it has more than one colour."""
+        return any(np.ptp(np.asarray(self.image), axis=(0, 1)))
+
+    def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
+        """Return the texture, and the coordinates of corners, (m, 3, 2), on it.
+
+        uvs: of corners, (m, 3, 2), finite. count: how many textures the file has. An InputWarning tells what changes.
+        """
+        image, uvs = self.image, uvs.copy()
+        outside = [bool((axis < -_ROUNDING).any() or (axis > 1 + _ROUNDING).any()) for axis in np.moveaxis(uvs, 2, 0)]
+        wraps: list[Wrap] = []
+        for axis, wrap in enumerate(self.wraps):
+            if wrap == "mirror" and outside[axis]:
+                image = _mirrored(image, axis)
+                uvs[:, :, axis] /= 2
+            wraps.append("clamp" if wrap == "clamp" or (wrap == "mirror" and not outside[axis]) else "repeat")
+        needed = {wrap for wrap, is_outside in zip(wraps, outside, strict=True) if is_outside} or set(wraps)
+        if len(needed) > 1 and all(outside):
+            warn(f"{self.name} repeats in one direction only; it is shown as repeating in both")
+        wrap = needed.pop() if len(needed) == 1 else "repeat" if any(outside) else "clamp"
+        if wrap == "repeat" and uvs.size and np.abs(uvs).max() > _FAR:
+            uvs -= np.floor(uvs.min(axis=1, keepdims=True))
+        smaller = reduced(image, _side(count))
+        if smaller.size != image.size:
+            (width, height), (old_width, old_height) = smaller.size, image.size
+            warn(f"{self.name} is reduced from {old_width} x {old_height} to {width} x {height} texels")
+        return Texture(np.asarray(smaller), self.filter, wrap), uvs
+
+
+def _mirrored(image: Image.Image, axis: int) -> Image.Image:
+    """Return an image beside, or above, its mirror image."""
+    pixels = np.asarray(image)
+    return Image.fromarray(np.concatenate([pixels, np.flip(pixels, 1 - axis)], axis=1 - axis))
+
+
+def _side(count: int) -> int:
+    side = MAX_TEXTURE_SIDE
+    while count > _FULL_SIZE:
+        side, count = side // 2, (count + 3) // 4
+    return max(side, 1)
+
+
+def finite_uvs(uvs: ArrayLike, name: str) -> Array:
+    """Return texture coordinates, with 0 in place of what is not a finite number, of which an InputWarning tells."""
+    found = np.asarray(uvs, dtype=np.float64)
+    if np.isfinite(found).all():
+        return found
+    warn(f"{name} has texture coordinates that are not finite numbers; they are taken as 0")
+    return np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
+
+
+def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:
+    """Return colours, (..., 3), times those of an image at texture coordinates, (..., 2): 0..255."""
+    places = uvs.reshape(-1, 2)
+    texels = sample(picture.image, np.stack([places[:, 0], 1 - places[:, 1]], axis=1))
+    return np.asarray(np.rint(colors * texels.reshape(colors.shape) / 255))
+
+
+def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
+    """Return all meshes as one, with the colours of their textures at the vertices, and whether that loses anything."""
+    textured = [part for part in parts if "texture" in part.material]
+    if len(parts) == 1 and not textured:
+        return parts[0].mesh, False
+    starts = np.cumsum([0, *(len(part.mesh.positions) for part in parts)])
+    faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, starts, strict=False)])
+    colors = np.concatenate([_baked_colors(part) for part in parts])
+    positions = np.concatenate([part.mesh.positions for part in parts])
+    normals = [part.mesh.normals for part in parts]
+    found = None
+    if all(each is not None for each in normals):
+        found = np.concatenate([each for each in normals if each is not None])[faces]
+    return weld(positions, faces, colors[faces], found), bool(textured)
+
+
+def _baked_colors(part: MeshPart) -> Array:
+    colors = part.mesh.colors.astype(np.float64)
+    texture: Texture | None = part.material.get("texture")
+    if texture is None or part.mesh.uvs is None:
+        return colors
+    return tinted(colors, Picture(Image.fromarray(texture.pixels), ""), part.mesh.uvs)

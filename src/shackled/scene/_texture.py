@@ -1,0 +1,131 @@
+"""Textures: images that are multiplied with the colours of a mesh."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Literal, cast
+
+import numpy as np
+from attrs import field, frozen
+from numpy.typing import ArrayLike, NDArray
+
+from ..checks import choice, fixed
+from ..errors import InputError
+from ..values import Value, array_key, with_names
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+Filter = Literal["nearest", "bilinear"]
+FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
+Wrap = Literal["repeat", "clamp"]
+WRAPS: tuple[Wrap, ...] = ("repeat", "clamp")
+
+#: The most texels along a side.
+MAX_TEXTURE_SIDE = 256
+#: The most pixels of an image that is read.
+MAX_PIXELS = 1 << 26
+
+
+def _pixels(values: ArrayLike) -> NDArray[np.uint8]:
+    try:
+        levels = np.asarray(values)
+        whole = levels.dtype.kind in "iu" or (levels.dtype.kind == "f" and bool((levels % 1 == 0).all()))
+    except (TypeError, ValueError, OverflowError):
+        raise InputError("the pixels of a texture must be an array of shape (height, width, 3)") from None
+    if levels.ndim != 3 or levels.shape[2] != 3:
+        raise InputError(f"the pixels of a texture must be of shape (height, width, 3), not {levels.shape}")
+    if not whole or (levels.size and not 0 <= levels.min() <= levels.max() <= 255):
+        raise InputError("the pixels of a texture must be whole numbers from 0 to 255")
+    height, width = levels.shape[:2]
+    if not (1 <= width <= MAX_TEXTURE_SIDE and 1 <= height <= MAX_TEXTURE_SIDE):
+        raise InputError(
+            f"a texture has from 1 to {MAX_TEXTURE_SIDE} texels along each side, not {width} x {height};"
+            " Texture.open reduces an image"
+        )
+    return fixed(levels, np.uint8)
+
+
+def _filter(value: str) -> Filter:
+    return cast(Filter, choice(value, "the filter of a texture", FILTERS))
+
+
+def _wrap(value: str) -> Wrap:
+    return cast(Wrap, choice(value, "the wrap of a texture", WRAPS))
+
+
+@frozen(field_transformer=with_names, repr=False)
+class Texture(Value):
+    """An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives.
+
+    pixels: (h, w, 3), rows from the top, 0..255; up to 256 x 256.
+    filter: "nearest" takes the colour of a texel, "bilinear" interpolates between four, as OpenGL does.
+    wrap: outside of 0..1 the image repeats, or the colours of its border go on ("clamp").
+    """
+
+    pixels: NDArray[np.uint8] = field(converter=_pixels, eq=array_key)
+    filter: Filter = field(default="bilinear", converter=_filter)
+    wrap: Wrap = field(default="repeat", converter=_wrap)
+
+    @classmethod
+    def open(
+        cls,
+        image: str | os.PathLike[str] | Image.Image,
+        filter: Filter = "bilinear",
+        wrap: Wrap = "repeat",
+        side: int = MAX_TEXTURE_SIDE,
+    ) -> Texture:
+        """Return the texture of an image, or of the file of one, reduced to at most `side` texels along each side.
+
+        InputError if the file does not exist or is not an image.
+        """
+        if isinstance(image, str | os.PathLike):
+            image = open_image(Path(image), str(image))
+        return cls(np.asarray(reduced(image.convert("RGB"), side)), filter, wrap)
+
+    @property
+    def width(self) -> int:
+        """Texels of a row."""
+        return int(self.pixels.shape[1])
+
+    @property
+    def height(self) -> int:
+        """Rows."""
+        return int(self.pixels.shape[0])
+
+    def __repr__(self) -> str:
+        """Count in one line."""
+        return f"<Texture {self.width}x{self.height}, {self.filter}, {self.wrap}>"
+
+
+def open_image(source: Path | IO[bytes], name: str) -> Image.Image:
+    """Return the image, as RGB. InputError, with its name, if there is none, or it is too large."""
+    from PIL import Image
+
+    try:
+        with (
+            warnings.catch_warnings(action="ignore", category=Image.DecompressionBombWarning),
+            Image.open(source) as image,
+        ):
+            if image.width * image.height > MAX_PIXELS:
+                raise InputError(f"{name} has {image.width} x {image.height} pixels; up to {MAX_PIXELS:,} are read")
+            return image.convert("RGB")
+    except FileNotFoundError:
+        raise InputError(f"{name} does not exist") from None
+    except InputError:
+        raise
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
+        raise InputError(f"{name} is not an image that can be read") from None
+
+
+def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
+    """Return the image with at most `side` pixels along each side; it keeps its shape."""
+    largest = max(image.size)
+    if largest <= side:
+        return image
+    width, height = (max(1, round(length * side / largest)) for length in image.size)
+    from PIL.Image import Resampling
+
+    return image.resize((width, height), Resampling.LANCZOS)
