@@ -258,7 +258,13 @@ def rocket() -> Scene:
     """Return the icon of a rocket; the Turntable contract makes the frames."""
     return look_at(
         require("icons/rocket").make(),
-        {"size": (180, 135), "antialias": True, "margin": 0.16, "rim": Rim("#6f8cff", 3), "ambient_light": (200, 205, 255)},
+        {
+            "size": (180, 135),
+            "antialias": True,
+            "margin": 0.16,
+            "rim": Rim("#6f8cff", 3),
+            "ambient_light": (200, 205, 255),
+        },
     )
 
 
