@@ -8,6 +8,7 @@ import {Pipeline} from "./pipeline/Pipeline.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
 import {SampleWires} from "./pipeline/SampleWires.sol";
 import {Rasterizer} from "./pipeline/Rasterizer.sol";
+import {ShadowRows} from "./pipeline/ShadowRows.sol";
 import {Texture} from "./pipeline/Texture.sol";
 import {Shading} from "./pipeline/Shading.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
@@ -16,8 +17,8 @@ import {Rectangle} from "./scene/Scene.sol";
 import "./pipeline/Registers.sol";
 
 /// @title EffectsEngine: from vertices to pixels, for scenes with effects.
-/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone or
-/// a texture, with four samples for each pixel, and lights every fragment for itself.
+/// @notice The work of the Renderer: see Engine. It draws all objects of a scene that has a hemisphere light, a rim, fog, a tone,
+/// a texture, a shadow or a ground, with four samples for each pixel, and lights every fragment for itself.
 contract EffectsEngine is SampleBuffer, SampleWires {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory lists)
         internal
@@ -34,6 +35,11 @@ contract EffectsEngine is SampleBuffer, SampleWires {
     }
 
     function readObject(uint256 position) internal pure override returns (uint256 next) {
+        if (load(SHADOWS) != 0 && load(SHADOW_ROW) == 0) {
+            // before the records of vertices
+            store(SHADOW_ROW, freeMemory());
+            setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
+        }
         unchecked {
             store(OBJECT_INDEX, position == load(OBJECTS) ? 0 : load(OBJECT_INDEX) + 1);
         }
@@ -56,16 +62,32 @@ contract EffectsEngine is SampleBuffer, SampleWires {
                 setFaceUp();
                 mode |= IS_LIT | IS_DIFFUSE;
             }
+            store(SHADOW_LIST, 0);
+            if (mode & IS_LIT != 0 && load(SHADOWS) != 0) ShadowRows.setFace();
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
             Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
             // FragmentLight is to return highlights alone
             store(ALBEDO_0, load(COLOR_0));
             store(ALBEDO_1, load(COLOR_1));
             store(ALBEDO_2, load(COLOR_2));
+            store(IS_UNIFORM, isUniform(mode) ? 1 : 0);
+            store(UNIFORM_SHARE, 0);
             store(COLOR_0, WEIGHTED_BIAS);
             store(COLOR_1, 0);
             store(COLOR_2, 0);
             if (load(TEXTURE) != 0 && mode & IS_DEPTH_PASS == 0) Texture.setTriangle(a, b, c, recordShift(mode));
+        }
+    }
+
+    /// @dev Whether nothing but shadows changes the colour from place to place.
+    function isUniform(uint256 mode) private pure returns (bool) {
+        unchecked {
+            if (mode & (IS_SMOOTH | HAS_SPECULAR) != 0) return false;
+            if (load(COLOR_1) | load(COLOR_2) | load(TEXTURE) | load(FOG_RANGE) | load(RIM_COLOR) != 0) return false;
+            for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
+                if (load(light + LIGHT_IS_POINT) != 0) return false;
+            }
+            return true;
         }
     }
 

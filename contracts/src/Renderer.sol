@@ -15,6 +15,9 @@ import {AntialiasedFragmentEngine} from "./AntialiasedFragmentEngine.sol";
 import {EffectsEngine} from "./EffectsEngine.sol";
 import {Engine} from "./Engine.sol";
 import {FragmentEngine} from "./FragmentEngine.sol";
+import {Extensions} from "./scene/Extensions.sol";
+import {SHADOW} from "./pipeline/Effects.sol";
+import {Shadows} from "./Shadows.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./pipeline/Registers.sol";
@@ -32,6 +35,8 @@ contract Renderer is SceneErrors {
     AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
     /// @notice What computes all pixels of scenes with effects.
     EffectsEngine public immutable effectsEngine;
+    /// @notice What finds the shadows of those scenes.
+    Shadows public immutable shadows;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
@@ -54,13 +59,15 @@ contract Renderer is SceneErrors {
         FragmentEngine fragmentEngine_,
         AntialiasedEngine antialiasedEngine_,
         AntialiasedFragmentEngine antialiasedFragmentEngine_,
-        EffectsEngine effectsEngine_
+        EffectsEngine effectsEngine_,
+        Shadows shadows_
     ) {
         engine = Engine(withCode(address(engine_)));
         fragmentEngine = FragmentEngine(withCode(address(fragmentEngine_)));
         antialiasedEngine = AntialiasedEngine(withCode(address(antialiasedEngine_)));
         antialiasedFragmentEngine = AntialiasedFragmentEngine(withCode(address(antialiasedFragmentEngine_)));
         effectsEngine = EffectsEngine(withCode(address(effectsEngine_)));
+        shadows = Shadows(withCode(address(shadows_)));
     }
 
     function withCode(address engine_) private view returns (address) {
@@ -163,7 +170,8 @@ contract Renderer is SceneErrors {
     function draw(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (File memory file) {
         unchecked {
             checkScene(scene, tile);
-            (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
+            findShadows(scene);
+            (uint256 data, uint256 end) = writeCall(scene, tile, countPixels);
             uint256 pixels;
             uint256 free = freeMemory();
             bool isOneRun = Runs.next(data, Runs.begin(data)).count == 0;
@@ -178,6 +186,43 @@ contract Renderer is SceneErrors {
             end = file.begin + file.size;
             assembly ("memory-safe") {
                 mstore(end, 0)
+            }
+        }
+    }
+
+    /// @dev Has Shadows find what the light of a scene that casts shadows does not reach. The answer stays in memory, at SHADOWS.
+    function findShadows(Scene calldata scene) private view {
+        unchecked {
+            (uint256 record, uint256 end) = Extensions.behind(scene, SHADOW - 1);
+            if (record == end) return;
+            reserveRegisters(REGISTERS, REGISTERS_END);
+            uint256 data = freeMemory();
+            bytes4 selector = Shadows.cast.selector;
+            assembly ("memory-safe") {
+                let size := sub(calldatasize(), scene)
+                mstore(data, selector)
+                mstore(add(data, 4), 0x20)
+                calldatacopy(add(data, 36), scene, size)
+                end := add(add(data, 36), size)
+            }
+            uint256 answered = callEngine(address(shadows), data, end, data);
+            store(SHADOWS, answered == 0 ? 0 : data);
+            store(SHADOWS_SIZE, answered);
+            setFreeMemory(data + answered);
+        }
+    }
+
+    /// @dev Writes the data of the call of an engine: see Uniforms.
+    function writeCall(Scene calldata scene, Rectangle memory tile, bool countPixels) private pure returns (uint256 data, uint256 end) {
+        unchecked {
+            (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
+            uint256 size = load(SHADOWS_SIZE);
+            if (size == 0) return (data, end);
+            store(data + 4 + SHADOWS - REGISTERS, end - data);
+            uint256 source = load(SHADOWS);
+            assembly ("memory-safe") {
+                mcopy(end, source, size)
+                end := add(end, size)
             }
         }
     }
@@ -199,7 +244,7 @@ contract Renderer is SceneErrors {
                 setFreeMemory(behind);
                 uint256 top = bottom < rows ? 0 : bottom - rows;
                 Rectangle memory band = Rectangle(tile.x, tile.y + top, tile.width, bottom - top);
-                (uint256 data, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, band, countPixels, TEXTS);
+                (uint256 data, uint256 end) = writeCall(scene, band, countPixels);
                 (uint256 source,, uint256 lit) = callEngines(data, end);
                 litPixels += lit;
                 uint256 size = 3 * tile.width * (bottom - top);

@@ -16,8 +16,8 @@ contract CreationCall {
 
     /// @param limit The gas that the call gets; 0 for all there is.
     /// @param count How many contracts are to be created. The constructor of each is handed the addresses of the two before, the last one
-    /// first, twice, and once more the last: the Renderer takes two engines for plain pictures, two for those that are antialiased, and one
-    /// for effects. It calls one pair, or the one. If only one was created before, it takes the place of both.
+    /// first, three times: the Renderer takes two engines for plain pictures, two for those that are antialiased, and one for effects with
+    /// the one for their shadows. It calls one pair, or the one for effects. If only one was created before, it takes the place of both.
     /// @param packed Deflated: for each contract four bytes, the size of its creation code, and this code; then the data of the call.
     constructor(uint256 limit, uint256 count, bytes memory packed) {
         bytes memory data = inflate(packed);
@@ -36,15 +36,15 @@ contract CreationCall {
                 let code := next
                 next := add(next, size)
                 // the addresses take the place of what comes next for a moment
-                let kept := add(mload(0x40), 0xa0)
-                mcopy(kept, next, 0xa0)
+                let kept := add(mload(0x40), 0xc0)
+                mcopy(kept, next, 0xc0)
                 mstore(next, target)
                 mstore(add(next, 0x20), or(before, mul(iszero(before), target)))
                 mcopy(add(next, 0x40), next, 0x40)
-                mstore(add(next, 0x80), target)
+                mcopy(add(next, 0x80), next, 0x40)
                 before := target
-                target := create(0, code, add(size, 0xa0))
-                mcopy(next, kept, 0xa0)
+                target := create(0, code, add(size, 0xc0))
+                mcopy(next, kept, 0xc0)
             }
             if (target == address(0)) revert NotCreated(i);
         }

@@ -7,6 +7,9 @@ import "./Registers.sol";
 
 // Objects that are not opaque, with four samples for each pixel: the two passes of BlendedSpans, made by each sample.
 
+/// @dev The lowest byte of each sample.
+uint256 constant BYTE_OF_SAMPLES = 0xff * ONES_64;
+
 library BlendedSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
@@ -42,11 +45,11 @@ library BlendedSamples {
     function over(uint256 color, uint256 behind) internal pure returns (uint256 mixed) {
         unchecked {
             (uint256 opacity, uint256 rest) = (load(OPACITY), ONE_24 - load(OPACITY));
-            for (uint256 lane; lane != 256; lane += 64) {
-                for (uint256 channel; channel != 24; channel += 8) {
-                    uint256 value = ((color >> channel) & 0xff) * opacity + ((behind >> (lane + channel)) & 0xff) * rest;
-                    mixed |= ((value + HALF_24) >> Q24) << (lane + channel);
-                }
+            for (uint256 channel; channel != 24; channel += 8) {
+                // all samples at once
+                uint256 value = ((color >> channel) & 0xff) * opacity + HALF_24;
+                value = value * ONES_64 + ((behind >> channel) & BYTE_OF_SAMPLES) * rest;
+                mixed |= ((value >> Q24) & BYTE_OF_SAMPLES) << channel;
             }
         }
     }

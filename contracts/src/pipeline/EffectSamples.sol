@@ -2,7 +2,10 @@
 pragma solidity 0.8.37;
 
 import {BlendedSamples} from "./BlendedSamples.sol";
+import {OPAQUE} from "../scene/Extensions.sol";
+import {Ground} from "./Ground.sol";
 import {Samples} from "./Samples.sol";
+import {SHADOW_DARK, ShadowRows} from "./ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
 import "./Registers.sol";
 
@@ -13,6 +16,7 @@ library EffectSamples {
     /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
     function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         unchecked {
+            if (load(SHADOW_LIST) > SHADOW_DARK) ShadowRows.prepare(column, end, row);
             uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
             uint256 p = Samples.place(row, column);
             for (; column != end; ++column) {
@@ -41,13 +45,24 @@ library EffectSamples {
         unchecked {
             uint256 mode = load(MODE);
             if (mode & IS_DEPTH_PASS != 0) return FOUND_SAMPLES | (load(p) & SAMPLE_COLORS);
-            uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-            return mode & IS_BLENDED == 0 ? color * ONES_64 : DRAWN_SAMPLES | BlendedSamples.over(color, load(p));
+            uint256 color = colorAt(attribute, covered, column, row);
+            if (mode & IS_BLENDED != 0) return DRAWN_SAMPLES | BlendedSamples.over(color, load(p));
+            if (load(OPACITY) == OPAQUE) return color * ONES_64;
+            // of a ground, where it fades
+            color = BlendedSamples.over(color, load(p));
+            store(OPACITY, OPAQUE);
+            return color;
         }
     }
 
     /// @dev The colour in the middle of the samples that are covered.
-    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+    function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
+        if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
+        bool isKnown;
+        assembly ("memory-safe") {
+            isKnown := and(mload(IS_UNIFORM), eq(mload(UNIFORM_SHARE), add(mload(SHADOW_SHARE), 1)))
+        }
+        if (isKnown && load(FADE_RANGE) == 0) return load(UNIFORM_COLOR);
         (uint256 x, uint256 y) = Samples.centroid(covered);
         attribute = Samples.moved(attribute, x, y);
         assembly ("memory-safe") {
@@ -55,6 +70,13 @@ library EffectSamples {
             x := add(add(mload(RAY_LEFT), mul(column, step)), sar(3, mul(x, step)))
             y := add(add(mload(RAY_TOP), mul(row, step)), sar(3, mul(y, step)))
         }
-        return SurfaceLight.colorAt(attribute, x, y);
+        // until the fragment is drawn
+        if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(attribute, x, y));
+        if (isKnown) return load(UNIFORM_COLOR);
+        color = Samples.bytesOf(SurfaceLight.colorAt(attribute, x, y));
+        store(UNIFORM_COLOR, color);
+        assembly ("memory-safe") {
+            mstore(UNIFORM_SHARE, add(mload(SHADOW_SHARE), 1))
+        }
     }
 }

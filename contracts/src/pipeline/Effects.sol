@@ -4,23 +4,32 @@ pragma solidity 0.8.37;
 import {Gamma} from "../math/Gamma.sol";
 import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
+import {Ground} from "./Ground.sol";
+import {ALL_SAMPLES, ShadowRows} from "./ShadowRows.sol";
 import {TEXTURE_OF, Texture} from "./Texture.sol";
 import "./Registers.sol";
 
-// The records of effects: see Extensions. These are of the scene, with index 0; colours are three bytes, red, green, blue:
+// The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
 //
 //   HEMISPHERE   the colours of the light from above, y up, and of that from below
 //   RIM          the colour of the light at silhouettes, and the power by which it falls off, 1 byte, 1..16
 //   FOG          its colour, and the distances along the line of sight at which it begins and at which it hides everything, 8 bytes each,
 //                Q32, 0 to 2^58, the second above the first
 //   TONE         what light is multiplied by in the end, 4 bytes, Q16, above 0, up to 64; and 1 byte of flags: see TONE_FILMIC
+//   SHADOW       of the light that casts shadows; there is one at most: a word, which faces of culled objects do: see SHADOWS_ALL
+//   GROUND       of an object that casts none, and fades into what is behind it: a word, of which the upper half has the distances from its
+//                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
+//                first
 //
-// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture.
+// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture. SHADOW and GROUND are checked by the contract Shadows: see
+// there, and Ground.
 
 uint256 constant HEMISPHERE = 4;
 uint256 constant RIM = 5;
 uint256 constant FOG = 6;
 uint256 constant TONE = 7;
+uint256 constant SHADOW = 10;
+uint256 constant GROUND = 11;
 
 uint256 constant HEMISPHERE_SIZE = 6;
 uint256 constant RIM_SIZE = 4;
@@ -35,6 +44,14 @@ uint256 constant MAX_EXPOSURE = 64 << 16;
 /// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
 uint256 constant TONE_FILMIC = 1;
 uint256 constant TONE_GAMMA = 2;
+/// @dev The greatest radius of a GROUND, 2^26 units, Q32.
+uint256 constant MAX_FADE = 1 << 58;
+
+/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
+/// closed; those turned to it.
+uint256 constant SHADOWS_ALL = 1;
+uint256 constant SHADOWS_AVERSE = 2;
+uint256 constant SHADOWS_TURNED = 3;
 
 library Effects {
     /// @notice Checks the records, and sets the registers of the frame by them.
@@ -45,6 +62,8 @@ library Effects {
             for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
                 uint256 key = Extensions.keyOf(record);
                 (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind == SHADOW) store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
+                if (kind == SHADOW || kind == GROUND) continue;
                 if (kind == TEXTURE_OF) {
                     Texture.check(record, index);
                     continue;
@@ -62,6 +81,7 @@ library Effects {
             }
             store(IS_TONED, load(TONE_FLAGS) != 0 || load(EXPOSURE) != ONE_16 ? 1 : 0);
             if (load(TONE_FLAGS) & TONE_GAMMA != 0) decodeLights();
+            if (load(SHADOW_LIGHT) != 0) store(SHADOW_COLOR, load(load(SHADOW_LIGHT) + LIGHT_COLOR));
         }
     }
 
@@ -127,7 +147,12 @@ library Effects {
     /// @notice What the light of the frame is to the object whose uniforms were read.
     function setObject() internal pure {
         unchecked {
+            uint256 shadow = load(SHADOW_LIGHT);
+            // as it is without shadows
+            if (shadow != 0) store(shadow + LIGHT_COLOR, load(SHADOW_COLOR));
             uint256 index = load(OBJECT_INDEX);
+            Ground.setObject(load(OBJECT_FIRST) + index);
+            ShadowRows.setObject(load(OBJECT_FIRST) + index);
             if (load(LISTS) != 0) {
                 // an array of pointers to the lists of objects, which begin with the place of the records
                 store(RECORDS, load(load(load(LISTS) + 32 + 32 * index)));
@@ -136,11 +161,16 @@ library Effects {
             uint256 k = load(AMBIENT_COEFFICIENT);
             store(HEMISPHERE_SKY, scaled(load(SKY_COLOR), k));
             store(HEMISPHERE_GROUND, scaled(load(GROUND_COLOR), k));
-            if (load(TONE_FLAGS) & TONE_GAMMA == 0) return;
-            store(AMBIENT, scaled(load(AMBIENT_LIGHT), k));
-            k = load(DIFFUSE_COEFFICIENT);
-            for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) {
-                store(record + LIGHT_DIFFUSE, scaled(load(record + LIGHT_COLOR), k));
+            if (load(TONE_FLAGS) & TONE_GAMMA != 0) {
+                store(AMBIENT, scaled(load(AMBIENT_LIGHT), k));
+                k = load(DIFFUSE_COEFFICIENT);
+                for (uint256 record = LIGHTS; record != load(LIGHTS_END); record += LIGHT_SIZE) {
+                    store(record + LIGHT_DIFFUSE, scaled(load(record + LIGHT_COLOR), k));
+                }
+            }
+            if (shadow != 0) {
+                store(SHADOW_DIFFUSE, load(shadow + LIGHT_DIFFUSE));
+                store(SHADOW_SHARE, ALL_SAMPLES);
             }
         }
     }

@@ -141,7 +141,16 @@ library Extensions {
         }
     }
 
-    /// @notice Whether there is a record of the kinds that tell something of vertices.
+    /// @notice Whether there is a record of this kind and index.
+    function has(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (bool) {
+        unchecked {
+            (uint256 record, uint256 end) = behind(scene, kind - 1);
+            while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
+            return isOf(record, end, kind, index);
+        }
+    }
+
+    /// @notice Whether there is a record of the kinds that tell something of vertices or faces.
     function isLong(Scene calldata scene) internal pure returns (bool) {
         (uint256 record, uint256 end) = behind(scene, LONG_KINDS - 1);
         return record != end;

@@ -62,6 +62,12 @@ interface SceneErrors {
     error ExposureOutOfRange(uint256 exposure);
     /// @notice The flags of a tone are 1 and 2.
     error UnknownToneFlags(uint256 flags);
+    /// @notice One light casts shadows at most; this is a second one.
+    error SeveralShadows(uint256 light);
+    /// @notice The rule is 1, 2 or 3.
+    error ShadowRuleOutOfRange(uint256 light, uint256 rule);
+    /// @notice The inner radius of a ground is below its outer one, which is 2^58 at most (Q32).
+    error GroundOutOfRange(uint256 object, uint256 inner, uint256 outer);
     /// @notice The flags of a texture are 0 to 3, and its texels have 1, 2, 4, 8 or 24 bits.
     error TextureFormat(uint256 object, uint256 flags, uint256 bits);
     error IndexOutOfRange(uint256 object, uint256 face, uint256 vertexCount);

@@ -5,7 +5,7 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {FOG, HEMISPHERE, RIM, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
+import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {TEXTURE_OF} from "../pipeline/Texture.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
@@ -150,7 +150,7 @@ struct Stage {
 using {
     StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade,
     StageMaker.antialias, StageMaker.hemisphere, StageMaker.rim, StageMaker.fog, StageMaker.tone,
-    StageMaker.texture
+    StageMaker.shadow, StageMaker.ground, StageMaker.texture
 } for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
@@ -297,6 +297,27 @@ library StageMaker {
             }
             made.scene.extensions = Extensions.added(made.scene.extensions, TEXTURE_OF, made.scene.objects.length - 1, content);
         }
+    }
+
+    /// @notice Has objects cast shadows in the light that was added last; one light of a scene at most.
+    function shadow(Stage memory made) internal pure {
+        bytes memory rule = abi.encode(SHADOWS_ALL);
+        made.scene.extensions = Extensions.added(made.scene.extensions, SHADOW, made.scene.lights.length - 1, rule);
+    }
+
+    /// @notice Adds a level, matte disc, 0xRRGGBB, which catches shadows and casts none: opaque around its middle, and gone `radius` units
+    /// from it. It stands best just below what is on it, and is added after it.
+    function ground(Stage memory made, uint256 color, Vector memory middle, uint256 radius) internal pure returns (Object memory object) {
+        Model memory square = ModelMaker.model(4, 2);
+        square.vertex(-1, 0, -1, color);
+        square.vertex(-1, 0, 1, color);
+        square.vertex(1, 0, 1, color);
+        square.vertex(1, 0, -1, color);
+        square.quad(0, 1, 2, 3);
+        object = add(made, square.pack(), flat(40, 70, 0, 1));
+        (object.position, object.scale) = (middle, Fixed.wrap(int256(radius << 32)));
+        bytes memory radii = abi.encode((radius << 32) * 2 / 5 << 192 | radius << 160);
+        made.scene.extensions = Extensions.added(made.scene.extensions, GROUND, made.scene.objects.length - 1, radii);
     }
 
     /// @dev Sets a record of the scene.

@@ -47,7 +47,7 @@ library Uniforms {
             uint256 size;
             uint256 moved;
             bool culls = tile.width < scene.canvas.width || tile.height < scene.canvas.height;
-            // the coordinates of a texture are told by the numbers of vertices, which culling changes
+            // the coordinates of a texture are told by the numbers of vertices, and shadows by those of faces, which culling changes
             culls = culls && !Extensions.isLong(scene) && TileCulling.areApart(scene);
             assembly ("memory-safe") {
                 size := sub(calldatasize(), scene)

@@ -25,7 +25,7 @@ def deploy(
         option(
             "--contracts",
             "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "EffectsEngine, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, GenesisMetadata; "
+            "EffectsEngine, Shadows, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, GenesisMetadata; "
             "without it, the first eight. Contracts that they call are added.",
             "NAMES",
         ),

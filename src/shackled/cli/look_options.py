@@ -26,6 +26,7 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
     "choice": (str, "KIND", lambda text, name: text),
     "hemisphere": (str, "SKY[,GROUND]", lambda text, name: parse_colors(text, name)),
     "rim": (str, "COLOR[,EXPONENT]", lambda text, name: parse_color_and(("exponent",), text, name)),
+    "ground": (str, "COLOR", lambda text, name: text),
     "fog": (str, "COLOR[,NEAR,FAR]", lambda text, name: parse_color_and(("near", "far"), text, name)),
     "lights": (list[str], "KIND:X,Y,Z[:COLOR]", lambda texts, name: [parse_light(text) for text in texts] or None),
 }

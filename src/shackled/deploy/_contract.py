@@ -17,6 +17,7 @@ STANDARD = (
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
     "EffectsEngine",
+    "Shadows",
     "Renderer",
     "Original",
     "Genesis",

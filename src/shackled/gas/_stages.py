@@ -66,6 +66,8 @@ _SOURCES = {
     "pipeline/SmoothSamples.sol": FRAGMENTS,
     "pipeline/EffectSamples.sol": FRAGMENTS,
     "pipeline/SurfaceLight.sol": FRAGMENTS,
+    "pipeline/ShadowRows.sol": FRAGMENTS,
+    "pipeline/Ground.sol": FRAGMENTS,
     "math/Gamma.sol": FRAGMENTS,
     "pipeline/Compositor.sol": "compositor",
     "pipeline/SampleBuffer.sol": "compositor",
@@ -80,6 +82,10 @@ _SOURCES = {
     "AntialiasedEngine.sol": REST,
     "AntialiasedFragmentEngine.sol": REST,
     "EffectsEngine.sol": REST,
+    "Shadows.sol": UNIFORMS,
+    "shadows/LightSpace.sol": UNIFORMS,
+    "shadows/Faces.sol": UNIFORMS,
+    "shadows/Receivers.sol": UNIFORMS,
     "Renderer.sol": REST,
 }
 

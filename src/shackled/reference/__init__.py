@@ -10,7 +10,7 @@ from ..artifacts import artifact
 from ..errors import RenderError
 from ..image import encode_bmp
 from ..scene import Rectangle, Scene, encode
-from . import coverage, extensions
+from . import coverage, effects, extensions
 from .call import read_call
 from .pipeline import Picture, draw
 
@@ -46,7 +46,7 @@ def engines(data: bytes) -> list[str]:
     except RenderError:
         records = {}
     if extensions.has_effects(records):
-        return ["EffectsEngine"]
+        return ["EffectsEngine", "Shadows"] if effects.has_shadows(records) else ["EffectsEngine"]
     prefix = "Antialiased" if extensions.is_antialiased(records) else ""
     return [prefix + "Engine", prefix + "FragmentEngine"]
 

@@ -14,8 +14,10 @@ from .vector import Matrix, transposed_times
 from .view import View
 from .words import color_lanes
 
-#: Kinds of records, all of the scene, and the sizes of their contents.
+#: Kinds of records of the scene, and the sizes of their contents.
 HEMISPHERE, RIM, FOG, TONE = 4, 5, 6, 7
+#: Kinds of records that `shadows` checks: of the light that casts shadows, and of objects that cast none and fade.
+SHADOW, GROUND = 10, 11
 #: A kind of an object.
 TEXTURE = 8
 SIZES = {HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
@@ -27,10 +29,15 @@ MAX_RIM_POWER, MAX_EXPOSURE = 16, 64 << 16
 UP = (0, 1 << 32, 0)
 
 
+def has_shadows(records: Records) -> bool:
+    """Return whether the contract Shadows is called."""
+    return any(kind >= SHADOW for kind, _ in records)
+
+
 def check_effects(records: Records, scene: Scene) -> None:
     """Check the records of effects."""
     for (kind, index), content in records.items():
-        if kind < HEMISPHERE:
+        if kind < HEMISPHERE or kind in (SHADOW, GROUND):
             continue
         if kind == TEXTURE:
             check_texture(content, index, scene)
@@ -68,6 +75,8 @@ def set_frame(scene: Scene, view: View, r: Registers) -> None:
         r.fog_range = far - r.fog_near
     for record, light in zip(r.lights, scene.lights, strict=True):
         record.color = color_lanes(light_color(light.color, r))
+    if r.shadows:
+        r.shadow_color = r.lights[r.shadows.light].color
     r.up_x, r.up_y, r.up_z = (part >> 8 for part in view.to_camera(UP))
 
 
@@ -78,6 +87,9 @@ def set_object(scene: Scene, material: Material, rotation: Matrix, r: Registers)
     r.ambient = scaled(light_color(scene.ambient_light, r), material.ambient)
     for record, light in zip(r.lights, scene.lights, strict=True):
         record.diffuse = scaled(light_color(light.color, r), material.diffuse)
+    if r.shadows:
+        r.lights[r.shadows.light].color = r.shadow_color
+        r.shadow_diffuse = r.lights[r.shadows.light].diffuse
     if content := r.records.get((HEMISPHERE, 0)):
         sky, ground = (light_color(color_of(part), r) for part in (content, content[3:]))
         r.hemisphere_sky, r.hemisphere_ground = scaled(sky, material.ambient), scaled(ground, material.ambient)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import compositor, effects, primitive_assembly, rasterizer, samples, uniforms, vertex_shader, wireframe
+from . import compositor, effects, primitive_assembly, rasterizer, samples, shadows, uniforms, vertex_shader, wireframe
 from .checks import check_scene
 from .extensions import has_effects, is_antialiased, read_records
 from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
@@ -56,6 +56,7 @@ def draw(scene: Scene, tile: Rectangle) -> Picture:
             registers.sample_colors = np.repeat(registers.image[:, :, None], 4, axis=2)
         for index, part in enumerate(geometry):
             uniforms.set_object(view, scene, index, registers)
+            registers.shadow_faces = registers.shadows.faces[index] if registers.shadows else []
             mode = registers.object_mode
             if (mode & IS_BLENDED != 0) != blended or registers.opacity == 0:
                 continue
@@ -98,6 +99,8 @@ def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geome
         band_bottom=tile.y + tile.height + PIXEL_BIAS,
     )
     view = uniforms.set_frame(scene, registers)
+    if registers.has_effects:
+        registers.shadows = shadows.cast(scene, view, registers)
     drawn = 0
     geometry = []
     distances: list[int] = []

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from .extensions import Records
 from .layout import IS_BLENDED, IS_DEPTH_PASS
 from .quadratic import Differences
+from .shadow_table import Entry, Table
 from .structs import Rectangle
 
 #: The modes of objects that are drawn in two passes.
@@ -104,6 +105,10 @@ class Registers:
     up_y: int = 0
     up_z: int = 0
 
+    #: what one light does not reach, and its colour where it does
+    shadows: Table | None = None
+    shadow_color: int = 0
+
     # object
     matrix_x: int = 0
     matrix_y: int = 0
@@ -132,8 +137,16 @@ class Registers:
     hemisphere_ground: int = 0
     up_in_mesh: int = 0
 
+    #: what is shaded of its faces
+    shadow_faces: list[Entry] = field(default_factory=list)
+    shadow_diffuse: int = 0
+    fade_square: int = 0
+    fade_range: int = 0
+    fade_place: tuple[int, int, int] = (0, 0, 0)
+
     # triangle
     mode: int = 0
+    shadow: Entry = 0
     color_0: int = 0
     color_1: int = 0
     color_2: int = 0

@@ -10,17 +10,21 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import layout, patches, shading
+from .extensions import OPAQUE
 from .fragment_light import color_at
 from .fragment_shader import pack as pack_lanes
 from .fragment_shader import shade_quadratic
+from .ground import opacity_at
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .quadratic import Differences
 from .registers import IS_IN_PASSES, Registers
 from .roots import sqrt
-from .surface_light import surface_color
+from .shadow_table import LIT
+from .surface_light import set_share, surface_color
 from .vertex_shader import Vertex
 from .words import MASK, divide, divide_signed, signed
 
@@ -84,13 +88,20 @@ def run(triangles: list[Triangle], mesh: Mesh, wireframe: bool, r: Registers) ->
             continue
         if wireframe:
             shading.prepare_exact(triangle, mesh, r)
+            set_shadow(triangle, r)
             for corners, attributes in rectangles(triangle, r):
                 draw(*corners, attributes, r)
         else:
             shading.prepare(triangle, mesh, r)
             # the brightest saturate anyway
             r.mode &= ~layout.IS_LINEAR
+            set_shadow(triangle, r)
             draw(triangle.a, triangle.b, triangle.c, (r.attribute_0, r.attribute_1, r.attribute_2), r)
+
+
+def set_shadow(triangle: Triangle, r: Registers) -> None:
+    """Set what shades a triangle that is prepared."""
+    r.shadow = r.shadow_faces[triangle.face] if r.shadow_faces and r.mode & layout.IS_LIT else LIT
 
 
 def set_depths(distances: list[int], r: Registers) -> None:
@@ -226,7 +237,9 @@ def draw(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int], r: R
             color = quadratic(word, column, row, farthest, r)
         for i in seen:
             r.sample_depths[place][i] = depths[i]
-            r.sample_colors[place][i] = color
+            r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r) if r.fade_range else color
+        if r.fade_range:
+            r.opacity = OPAQUE
 
 
 def linear(word: int) -> Color:
@@ -256,6 +269,10 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     row, column = place[0] + r.band_top, place[1] + r.column_begin
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
+    if r.fade_range:
+        r.opacity = opacity_at(word >> 192, x, y, r)
+    if r.shadows:
+        set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)
     return patches.pack(((color << 48) + patches.HALF_85) & MASK)
 
@@ -285,11 +302,16 @@ def blend(word: int, depths: list[int], samples: list[int], place: tuple[int, in
     color = exact(word, samples, place, g, r)
     for i in seen:
         old[i] = depths[i] | DRAWN
-        behind = r.sample_colors[place][i]
-        behind[:] = [
-            (value * r.opacity + int(byte) * ((1 << 24) - r.opacity) + (1 << 23)) >> 24
-            for value, byte in zip(color, behind, strict=True)
-        ]
+        r.sample_colors[place][i] = over(color, r.sample_colors[place][i], r)
+
+
+def over(color: Color, behind: NDArray[np.uint8], r: Registers) -> Color:
+    """Return a colour over what is behind it."""
+    blue, green, red = (
+        (value * r.opacity + int(byte) * ((1 << 24) - r.opacity) + (1 << 23)) >> 24
+        for value, byte in zip(color, behind, strict=True)
+    )
+    return blue, green, red
 
 
 # ---- lines ----

@@ -17,6 +17,7 @@ from .fragment_light import WEIGHTED_BIAS, color_at
 from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH, IS_STEEP
 from .registers import Registers
 from .roots import sqrt
+from .shadow_table import dark_samples
 from .words import MASK, divide, divide_signed, signed
 
 ONE = 1 << 24
@@ -30,6 +31,18 @@ def set_albedo(r: Registers) -> None:
     """Keep the colours of a prepared triangle, so that `color_at` returns highlights alone."""
     r.albedo_0, r.albedo_1, r.albedo_2 = r.color_0, r.color_1, r.color_2
     r.color_0, r.color_1, r.color_2 = WEIGHTED_BIAS, 0, 0
+
+
+def set_share(samples: list[int], column: int, row: int, r: Registers) -> None:
+    """Weaken the light that casts shadows by the share of the samples of a fragment that it reaches."""
+    assert r.shadows is not None
+    dark = dark_samples(r.shadow, column, row)
+    visible = sum(not dark[i] for i in samples)
+    light = r.lights[r.shadows.light]
+    light.color, light.diffuse = (
+        sum((lanes >> at & 0xFFFFFFFF) * visible // len(samples) << at for at in (0, 56, 112))
+        for lanes in (r.shadow_color, r.shadow_diffuse)
+    )
 
 
 def surface_color(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:

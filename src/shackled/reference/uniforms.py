@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import effects, lights, materials, mesh_space, transform
+from . import effects, ground, lights, materials, mesh_space, transform
 from .effects import TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
@@ -42,6 +42,8 @@ def set_object(view: View, scene: Scene, index: int, registers: Registers) -> No
         if registers.has_effects:
             effects.set_object(scene, obj.material, rotation, registers)
     registers.object_mode = mode
+    if registers.has_effects:
+        ground.set_object(index, registers)
 
 
 def opacity_of(index: int, registers: Registers) -> int:

@@ -38,6 +38,7 @@ from ._files.table import about
 from ._files.weld import weld
 from ._fit import EXACT_SIZES, MAX_COORDINATE, fit, fit_factor, near_plane
 from ._from_trimesh import is_trimesh, mesh_of, objects_of, part_of
+from ._ground import Ground
 from ._light import INNER_ANGLE, LIGHT_KINDS, OUTER_ANGLE, WHITE, Light, LightKind
 from ._look import SETTINGS, Kind, LookOptions, Setting, checked_look, look_at, resize, size_of, stage
 from ._material import Material, Shading
@@ -104,6 +105,7 @@ __all__ = [
     "Background",
     "Camera",
     "Fog",
+    "Ground",
     "Hemisphere",
     "Kind",
     "Light",

@@ -22,6 +22,7 @@ from ._object import Object
 from ._packed_mesh import pack
 from ._packed_texture import pack_texture
 from ._scene import Scene
+from ._staging import is_closed
 
 ONE = 1 << 32
 
@@ -37,6 +38,8 @@ RIM = 5
 FOG = 6
 TONE = 7
 TEXTURE = 8
+SHADOW = 10
+GROUND = 11
 #: Records from this kind on have a size in words of 32 bytes, others in bytes.
 FIRST_IN_WORDS = 8
 #: The unit of opacities.
@@ -46,6 +49,12 @@ EXPOSURE_STEP = 2.0**-16
 
 CULL_BACKFACES = 1
 WIREFRAME = 2
+
+#: Rules of a shadow: which faces of culled objects cast it.
+ALL_FACES = 1
+TURNED_AWAY = 2
+#: The largest radius of a ground, Q32.
+MAX_FADE = 1 << 58
 
 #: Flags of a tone.
 FILMIC = 1
@@ -135,13 +144,28 @@ def extensions(scene: Scene) -> bytes:
         if thing.material.texture is not None and thing.mesh.uvs is not None:
             with about(f"objects[{index}]"):
                 records.append(_record(TEXTURE, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
+    for index, light in enumerate(scene.lights):
+        if light.shadow:
+            records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
+    for index, thing in enumerate(scene.objects):
+        if thing.fade is not None:
+            inner, outer = (min(each, MAX_FADE) for each in _q32(thing.fade))
+            radii = min(inner, MAX_FADE - 1).to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
+            records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
     return b"".join(records)
+
+
+def shadow_rule(scene: Scene) -> int:
+    """Return which faces of culled objects cast shadows: all, or of closed ones those turned away from the light."""
+    casters = [o for o in scene.objects if o.cull and not o.wireframe and o.opacity == 1 and o.fade is None]
+    return TURNED_AWAY if all(is_closed(o.mesh) for o in casters) else ALL_FACES
 
 
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
         raise InputError(
-            f"transparent and textured objects must be among the first 65,536 of a scene, not number {index:,}"
+            "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
+            f"not number {index:,}"
         )
     size = len(content) // 32 if kind >= FIRST_IN_WORDS else len(content)
     return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content

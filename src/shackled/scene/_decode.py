@@ -20,6 +20,7 @@ from ._codec import (
     FIRST_IN_WORDS,
     FOG,
     GAMMA,
+    GROUND,
     HEMISPHERE,
     LIGHTS,
     ONE,
@@ -28,10 +29,12 @@ from ._codec import (
     PROJECTIONS,
     RIM,
     SHADINGS,
+    SHADOW,
     SPOT,
     TEXTURE,
     TONE,
     WIREFRAME,
+    shadow_rule,
 )
 from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
@@ -58,6 +61,8 @@ RECORD_SIZES: dict[int, int | None] = {
     FOG: 19,
     TONE: 5,
     TEXTURE: None,
+    SHADOW: 32,
+    GROUND: 32,
 }
 
 #: Contents of records by kind and index.
@@ -93,11 +98,12 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), OPACITY: len(objects), TEXTURE: len(objects)}
+    counts = {SPOT: len(lights), SHADOW: len(lights), **dict.fromkeys((OPACITY, TEXTURE, GROUND), len(objects))}
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
-    return Scene(
+    lights = [evolve(each, shadow=(SHADOW, index) in records) for index, each in enumerate(lights)]
+    scene = Scene(
         [_with_records(each, records, index) for index, each in enumerate(objects)],
         camera,
         [_with_spot(each, records.get((SPOT, index)), f"lights[{index}]") for index, each in enumerate(lights)],
@@ -109,6 +115,10 @@ def decode(data: bytes) -> Scene:
         (ANTIALIAS, 0) in records,
         **_effects(records),
     )
+    for (kind, _), content in records.items():
+        if kind == SHADOW and int.from_bytes(content, "big") != shadow_rule(scene):
+            raise InputError("the shadow in the extensions is cast by other faces than those that the scene chooses")
+    return scene
 
 
 _PARTS = ("the lights", "the objects", "the extensions")
@@ -278,6 +288,11 @@ def _with_records(thing: Object, records: Records, index: int) -> Object:
         with about(f"the texture of objects[{index}]"):
             texture, uvs = unpack_texture(records[TEXTURE, index], len(thing.mesh.positions))
         thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
+    if (record := records.get((GROUND, index))) is not None:
+        if any(record[16:]):
+            raise InputError("zeros must fill the word of a ground in the extensions")
+        radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
+        thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
     return thing
 
 

@@ -54,7 +54,7 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 def fit(scene: Scene) -> Scene:
     """Return the scene in the number ranges of the contracts, with integer coordinates and a near plane."""
     _check_view(scene.camera)
-    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    scene = _prepared(scene)
     objects: list[Object]
     if _is_exact(scene):
         camera = evolve(scene.camera, near=near_plane(scene, 1.0, most=1.0))
@@ -75,8 +75,14 @@ def fit(scene: Scene) -> Scene:
 
 def fit_factor(scene: Scene) -> float:
     """Return the factor by which `fit` scales lengths; 1 for a scene that it leaves as it is."""
-    scene = evolve(scene, objects=[_prepare(o) for o in scene.objects])
+    scene = _prepared(scene)
     return 1.0 if _is_exact(scene) else _factor(scene)
+
+
+def _prepared(scene: Scene) -> Scene:
+    """Return the scene with its ground as an object, and all objects prepared."""
+    grounds = [] if scene.ground is None else [scene.ground.under(scene.world_positions())]
+    return evolve(scene, objects=[_prepare(o) for o in (*scene.objects, *grounds)], ground=None)
 
 
 def _pointed(light: Light) -> Light:
@@ -237,7 +243,8 @@ def _move_object(o: Object, scene: Scene, factor: float) -> Object:
         grid = np.rint((positions - center) / step) if step else np.zeros_like(positions)
         o = evolve(o, mesh=evolve(o.mesh, positions=grid))
     place = o.position + rotate(o.rotation, o.scale * center) - scene.camera.eye
-    return evolve(o, position=place * factor, scale=o.scale * step * factor)
+    fade = None if o.fade is None else (o.fade[0] * factor, o.fade[1] * factor)
+    return evolve(o, position=place * factor, scale=o.scale * step * factor, fade=fade)
 
 
 def _steps(o: Object, radius: float, scene: Scene, factor: float) -> int:

@@ -7,7 +7,7 @@ from typing import Literal, cast
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, number, optional_vector, vector
+from ..checks import Color, Floats, choice, color, flag, number, optional_vector, vector
 from ..errors import InputError
 from ..values import Value, array_key, checked, with_names
 
@@ -34,6 +34,7 @@ class Light(Value):
     direction: (3,) float; where a spot light points, any length but zero; others have none.
     inner_angle, outer_angle: of a spot light, in degrees from its direction, 0..180: its light is full up to the inner
         angle and falls to zero at the outer one.
+    shadow: whether objects cast shadows in its light; one light of a scene at most.
     """
 
     kind: LightKind = field(converter=_kind)
@@ -48,6 +49,8 @@ class Light(Value):
     outer_angle: float = field(
         default=OUTER_ANGLE, converter=number, metadata=checked("the outer_angle of a spot light", 0, 180)
     )
+
+    shadow: bool = field(default=False, converter=flag, metadata=checked("shadow of a light"))
 
     def __attrs_post_init__(self) -> None:
         """Check the fields against one another."""

@@ -17,6 +17,7 @@ from ._background import Background, background_of
 from ._camera import DEFAULT_HALF_HEIGHT, FIELDS_OF_VIEW, Camera, Projection, half_height_of
 from ._crease import CREASE, CREASES, SIMPLIFIED_CREASE, is_flat, smoothed, without_normals
 from ._effects import EXPOSURES, NONE, Fog, Hemisphere, Rim, Tone, fog_or_color, hemisphere_of, rim_of
+from ._ground import Ground, ground_of
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, SHADINGS, Material, Shading
 from ._mesh import Mesh
@@ -42,6 +43,7 @@ Kind = Literal[
     "hemisphere",
     "rim",
     "fog",
+    "ground",
 ]
 
 
@@ -106,6 +108,7 @@ _WORDS: dict[Kind, str] = {
     "hemisphere": "one colour or two, or none",
     "rim": "a colour, with an exponent from 1 to 16 or without, or none",
     "fog": "a colour, with two distances or without, or none",
+    "ground": "a colour, or none",
 }
 
 #: The material of mesh files.
@@ -223,6 +226,15 @@ SETTINGS = (
         "Fog that begins at one distance from the eye and hides everything at another.",
         default="distances of the nearest and the farthest point",
     ),
+    Setting(
+        "shadow",
+        "flag",
+        None,
+        "Light",
+        "Let objects cast shadows in the light of the first light.",
+        option="--shadow/--no-shadow",
+    ),
+    Setting("ground", "ground", "scene", "Light", "Ground under the objects, which catches shadows."),
     Setting("exposure", "number", "tone", "Light", "Factor of all light.", *EXPOSURES, default="1"),
     Setting(
         "filmic",
@@ -344,6 +356,8 @@ class LookOptions(TypedDict, total=False):
     hemisphere: Hemisphere | AnyColor | tuple[AnyColor, AnyColor] | None
     rim: Rim | AnyColor | tuple[AnyColor, int] | None
     fog: Fog | AnyColor | tuple[AnyColor, float, float] | None
+    shadow: bool | None
+    ground: Ground | AnyColor | None
     exposure: float | None
     filmic: bool | None
     gamma: bool | None
@@ -440,6 +454,9 @@ def look_at(thing: Mesh | Sequence[Object] | Scene, look: Mapping[str, Any], sta
         **chosen,
     )
     scene = evolve(scene, fog=_fog_between(scene, fog) if isinstance(fog, tuple) else fog)
+    if "shadow" in look:
+        lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
+        scene = evolve(scene, lights=lights)
     if "max_triangles" not in look:
         return scene
     from ._simplify import simplify_scene
@@ -593,4 +610,5 @@ _CHECKS: dict[Kind, Callable[[Any, Setting, str], Any]] = {
     "hemisphere": lambda value, setting, name: _unless_none(hemisphere_of, value, name),
     "rim": lambda value, setting, name: _unless_none(rim_of, value, name),
     "fog": lambda value, setting, name: _unless_none(fog_or_color, value, name),
+    "ground": lambda value, setting, name: _unless_none(ground_of, value, name),
 }

@@ -29,6 +29,21 @@ def _material(value: Material) -> Material:
     return value
 
 
+def _fade(value: ArrayLike | None) -> tuple[float, float] | None:
+    if value is None:
+        return None
+    try:
+        inner, outer = np.asarray(value, np.float64).tolist()
+    except (TypeError, ValueError):
+        raise InputError(f"the fade of an object must be two distances, not {value!r:.60}") from None
+    distances = number(inner, "the fade of an object", 0), number(outer, "the fade of an object", 0)
+    if distances[0] >= distances[1]:
+        raise InputError(
+            f"the first distance of the fade of an object, {distances[0]:g}, must be below the second, {distances[1]:g}"
+        )
+    return distances
+
+
 @frozen(field_transformer=with_names)
 class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.
@@ -38,6 +53,8 @@ class Object(Value):
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
     opacity: 0..1. Objects below 1 are drawn after the others, blended in the order of the scene; the farthest should
         come first.
+    fade: of a ground, which casts no shadow: the distances from its position, in world units, at which it begins to
+        fade into what is behind it, and at which nothing is left of it; (0 <= first < second). None for other objects.
     """
 
     mesh: Mesh = field(converter=_mesh)
@@ -52,6 +69,7 @@ class Object(Value):
     cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))
     wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
     opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", *OPACITIES))
+    fade: tuple[float, float] | None = field(default=None, converter=_fade)
 
     def __attrs_post_init__(self) -> None:
         """Check that a texture has its coordinates."""

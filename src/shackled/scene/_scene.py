@@ -16,6 +16,7 @@ from ..values import checked, plural, with_names
 from ._background import Background, background_of
 from ._camera import Camera
 from ._effects import Fog, Hemisphere, Rim, Tone, fog_of, hemisphere_of, rim_of, tone_of
+from ._ground import Ground, ground_of
 from ._light import WHITE, Light
 from ._mesh import Mesh
 from ._object import Object
@@ -88,7 +89,9 @@ class Scene:
     hemisphere: light from above and below; also given as a colour, or two, (sky, ground).
     rim: light along outlines; also given as a colour, or (colour, power).
     fog: fog between two distances; also given as (colour, near, far).
-    tone: how light becomes colours. Scenes with a hemisphere, rim, fog or tone are always antialiased.
+    tone: how light becomes colours.
+    ground: a disc under the objects, which catches shadows; also given as a colour. Scenes with a hemisphere, rim, fog,
+        tone, shadow or ground are always antialiased.
     """
 
     objects: tuple[Object, ...] = field(converter=_objects)
@@ -104,9 +107,10 @@ class Scene:
     rim: Rim | None = field(default=None, converter=rim_of)
     fog: Fog | None = field(default=None, converter=fog_of)
     tone: Tone | None = field(default=None, converter=tone_of)
+    ground: Ground | None = field(default=None, converter=ground_of)
 
     def __attrs_post_init__(self) -> None:
-        """Set the default camera, lights and background."""
+        """Set the default camera, lights and background; check that one light at most casts shadows."""
         camera, background = Camera(), Background()
         lights: tuple[Light, ...] = ()
         if self.objects and self.camera is None and self.lights is None and self.background is None:
@@ -118,6 +122,8 @@ class Scene:
         for name, chosen in (("camera", camera), ("lights", lights), ("background", background)):
             if getattr(self, name) is None:
                 object.__setattr__(self, name, chosen)
+        if sum(light.shadow for light in self.lights) > 1:
+            raise InputError("one light of a scene may cast shadows, not several")
 
     @property
     def triangles(self) -> int:

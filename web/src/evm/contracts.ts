@@ -18,6 +18,7 @@ export const RENDERER = [
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
     "EffectsEngine",
+    "Shadows",
     "Renderer",
 ] as const;
 export type ContractName = (typeof RENDERER)[number] | "Studio";

@@ -32,6 +32,7 @@ const SCENE = [
     "rim",
     "fog",
     "tone",
+    "ground",
     "width",
     "height",
 ] as const;
@@ -41,12 +42,13 @@ const HEMISPHERE = ["sky", "ground"] as const;
 const RIM = ["color", "power"] as const;
 const FOG = ["color", "near", "far"] as const;
 const TONE = ["exposure", "filmic", "gamma"] as const;
+const GROUND = ["color", "height", "radius"] as const;
 const LIGHTS = {
-    directional: ["kind", "direction", "color"],
-    point: ["kind", "position", "color"],
-    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle"],
+    directional: ["kind", "direction", "color", "shadow"],
+    point: ["kind", "position", "color", "shadow"],
+    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
-const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity"] as const;
+const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
 const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture"] as const;
 const MESH = ["positions", "faces", "colors", "normals", "uvs"] as const;
 const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
@@ -93,6 +95,7 @@ export interface SceneObject {
     cull: boolean;
     wireframe: boolean;
     opacity: number;
+    fade: readonly [number, number] | undefined;
 }
 
 export interface Camera {
@@ -110,6 +113,7 @@ export interface Light {
     vector: Vector;
     color: Rgb;
     cone: { direction: Vector; innerAngle: number; outerAngle: number } | undefined;
+    shadow: boolean;
 }
 
 export interface Hemisphere {
@@ -134,6 +138,12 @@ export interface Tone {
     gamma: boolean;
 }
 
+export interface Ground {
+    color: Rgb;
+    height: number | undefined;
+    radius: number | undefined;
+}
+
 export interface Scene {
     objects: SceneObject[];
     camera: Camera;
@@ -146,6 +156,7 @@ export interface Scene {
     rim: Rim | undefined;
     fog: Fog | undefined;
     tone: Tone | undefined;
+    ground: Ground | undefined;
     width: number;
     height: number;
 }
@@ -175,6 +186,7 @@ export function checkedScene(scene: given.Scene): Scene {
         rim: scene.rim && checkedRim(scene.rim),
         fog: scene.fog && checkedFog(scene.fog),
         tone: scene.tone && checkedTone(scene.tone),
+        ground: scene.ground && checkedGround(scene.ground),
         width,
         height,
     };
@@ -196,7 +208,15 @@ export function checkedObject(object: given.SceneObject, where: string): SceneOb
         cull: check.flag(object.cull ?? true, `${where}.cull`),
         wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
         opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
+        fade: object.fade && checkedFade(object.fade, `${where}.fade`),
     };
+}
+
+function checkedFade(value: readonly [number, number], where: string): readonly [number, number] {
+    if (!check.isList(value) || value.length !== 2) throw new InputError(`${where} must be two distances`);
+    const [inner, outer] = [check.number(value[0], where, 0), check.number(value[1], where, 0)];
+    if (inner < outer) return [inner, outer];
+    throw new InputError(`the first distance of ${where}, ${inner}, must be below the second, ${outer}`);
 }
 
 function checkedRotation(value: given.Rotation, where: string): Quaternion {
@@ -338,25 +358,28 @@ export function checkedCamera(camera: given.Camera): Camera {
 function checkedLights(lights: readonly given.Light[]): Light[] {
     if (!Array.isArray(lights)) throw new InputError(`lights must be a list, not ${show(lights)}`);
     if (lights.length > MAX_LIGHTS) throw new InputError(`lights must be up to ${MAX_LIGHTS}, not ${lights.length}`);
-    return lights.map((light: given.Light, index) => checkedLight(light, `lights[${index}]`));
+    const found = lights.map((light: given.Light, index) => checkedLight(light, `lights[${index}]`));
+    if (found.filter((light) => light.shadow).length < 2) return found;
+    throw new InputError("one of the lights may cast shadows, not several");
 }
 
 function checkedLight(light: given.Light, where: string): Light {
     const kind = check.choice((light as given.Light | null)?.kind, `${where}.kind`, LIGHT_KINDS);
     check.fields(light as given.SpotLight, where, LIGHTS[kind]);
     const color = check.color(light.color ?? WHITE, `${where}.color`);
+    const shadow = check.flag(light.shadow ?? false, `${where}.shadow`);
     if (light.kind === "directional") {
-        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined };
+        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined, shadow };
     }
     const place = check.vector(light.position, `${where}.position`);
-    if (light.kind === "point") return { kind, vector: place, color, cone: undefined };
+    if (light.kind === "point") return { kind, vector: place, color, cone: undefined, shadow };
     const direction = nonzero(light.direction, `${where}.direction`);
     const innerAngle = check.number(light.innerAngle ?? 0, `${where}.innerAngle`, 0, 180);
     const outerAngle = check.number(light.outerAngle ?? 45, `${where}.outerAngle`, 0, 180);
     if (innerAngle > outerAngle) {
         throw new InputError(`${where}.innerAngle, ${innerAngle}, must not be above its outerAngle, ${outerAngle}`);
     }
-    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle } };
+    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle }, shadow };
 }
 
 function nonzero(value: unknown, where: string): Vector {
@@ -396,6 +419,17 @@ function checkedFog(value: given.Fog): Fog {
     };
     if (fog.near < fog.far) return fog;
     throw new InputError(`fog.near, ${fog.near}, must be below fog.far, ${fog.far}`);
+}
+
+function checkedGround(value: given.Ground): Ground {
+    const { color, height, radius } = check.fields(value, "ground", GROUND);
+    const ground = {
+        color: check.color(color, "ground.color"),
+        height: height === undefined ? undefined : check.number(height, "ground.height"),
+        radius: radius === undefined ? undefined : check.number(radius, "ground.radius", 0),
+    };
+    if (ground.radius === 0) throw new InputError("ground.radius must be above 0");
+    return ground;
 }
 
 function checkedTone(value: given.Tone): Tone {

@@ -8,6 +8,7 @@ import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject 
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
+import { shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
 import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
@@ -33,8 +34,12 @@ const RIM = 5;
 const FOG = 6;
 const TONE = 7;
 const TEXTURE = 8;
-/** Records from this kind on have a size in words, others in bytes. */
+const SHADOW = 10;
+const GROUND = 11;
+/** Records from this kind on have a size in words of 32 bytes, others in bytes. */
 export const FIRST_IN_WORDS = 8;
+/** The largest radius of a ground, Q32. */
+const MAX_FADE = 2n ** 58n;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
 /** One, in exposures. */
@@ -128,6 +133,17 @@ function extensions(scene: CheckedScene): Uint8Array {
         const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
         records.push(record(TEXTURE, index, new DataView(content.buffer)));
     });
+    scene.lights.forEach(({ shadow }, index) => {
+        if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
+    });
+    scene.objects.forEach(({ fade }, index) => {
+        if (!fade) return;
+        const content = new DataView(new ArrayBuffer(WORD));
+        const [inner, outer] = fade.map((each) => (q32(each) < MAX_FADE ? q32(each) : MAX_FADE)) as [bigint, bigint];
+        content.setBigInt64(0, inner < MAX_FADE ? inner : MAX_FADE - 1n);
+        content.setBigInt64(8, outer > inner ? outer : inner + 1n);
+        records.push(record(GROUND, index, content));
+    });
     return joined(records);
 }
 
@@ -156,7 +172,7 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
-            `transparent and textured objects must be among the first 65,536 of a scene, not number ${index}`,
+            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
         );
     }
     const head = new DataView(new ArrayBuffer(5));

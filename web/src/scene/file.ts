@@ -30,6 +30,7 @@ const SCENE = [
     "rim",
     "fog",
     "tone",
+    "ground",
     "size",
     "camera",
     "objects",
@@ -37,8 +38,8 @@ const SCENE = [
 const PLACES = ["eye", "target", "up"] as const;
 const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
-const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle"];
-const OBJECT = ["color", "cull", "wireframe", "opacity", "mesh", "position", "rotation", "scale", "material"];
+const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
+const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
 const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess"];
 const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
 
@@ -70,6 +71,7 @@ export function parseScene(json: string | object): given.Scene {
         rim: table.has("rim") ? rimOf(table.table("rim", ["color", "power"])) : undefined,
         fog: table.has("fog") ? fogOf(table.table("fog", ["color", "near", "far"])) : undefined,
         tone: table.has("tone") ? toneOf(table.table("tone", ["exposure", "filmic", "gamma"])) : undefined,
+        ground: table.has("ground") ? groundOf(table.table("ground", ["color", "height", "radius"])) : undefined,
         width,
         height,
     };
@@ -118,6 +120,14 @@ function rimOf(keys: Table): given.Rim {
 function fogOf(keys: Table): given.Fog {
     const [near, far] = ["near", "far"].map((key) => check.number(keys.get(key), keys.place(key), 0));
     return { color: check.color(keys.get("color"), keys.place("color")), near: near as number, far: far as number };
+}
+
+function groundOf(keys: Table): given.Ground {
+    return {
+        color: check.color(keys.get("color"), keys.place("color")),
+        height: keys.number("height"),
+        radius: keys.number("radius", 0),
+    };
 }
 
 function toneOf(keys: Table): given.Tone {
@@ -203,10 +213,11 @@ function lightOf(value: unknown, where: string): given.Light {
         Vector,
         Vector,
     ];
-    if (kind === "directional") return { kind, direction, color };
-    if (kind === "point") return { kind, position, color };
+    const shadow = keys.read("shadow", check.flag);
+    if (kind === "directional") return { kind, direction, color, shadow };
+    if (kind === "point") return { kind, position, color, shadow };
     const [innerAngle, outerAngle] = ["inner_angle", "outer_angle"].map((key) => keys.number(key, 0, 180));
-    return { kind, position, direction, color, innerAngle, outerAngle };
+    return { kind, position, direction, color, innerAngle, outerAngle, shadow };
 }
 
 function objectOf(value: unknown, where: string): given.SceneObject {
@@ -223,6 +234,7 @@ function objectOf(value: unknown, where: string): given.SceneObject {
         cull: keys.read("cull", check.flag),
         wireframe: keys.read("wireframe", check.flag),
         opacity: keys.number("opacity", 0, 1),
+        fade: keys.get("fade") as [number, number] | undefined,
     };
 }
 

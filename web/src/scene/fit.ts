@@ -28,6 +28,7 @@ import {
     type Scene,
     type SceneObject,
 } from "./checked.js";
+import { withGround } from "./ground.js";
 import { MAX_SHORT, MAX_WIDE, fits, isIntegral, vertexNormals } from "./mesh.js";
 
 /** Limits of the contracts, in world units. */
@@ -53,7 +54,7 @@ export type FittedScene = Scene & { camera: { near: number } };
 /** Return the scene in the number ranges of the contracts, with integer coordinates and a near plane. */
 export function fit(scene: Scene): FittedScene {
     checkView(scene.camera);
-    const prepared = { ...scene, objects: scene.objects.map(prepare) };
+    const prepared = { ...scene, objects: withGround(scene).map(prepare), ground: undefined };
     let { camera, lights, objects, fog } = prepared;
     let near: number;
     if (isExact(prepared)) {
@@ -241,7 +242,8 @@ function moveObject(object: SceneObject, scene: Scene, factor: number): SceneObj
     }
     const turned = rotation(object.rotation)(times(object.scale, center));
     const place = subtract(add(object.position, turned), scene.camera.eye);
-    return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor };
+    const fade = object.fade && ([object.fade[0] * factor, object.fade[1] * factor] as const);
+    return { ...object, mesh, position: times(factor, place), scale: object.scale * step * factor, fade };
 }
 
 /** Return how many steps the grid of an object has across half its largest side. */

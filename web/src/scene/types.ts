@@ -71,6 +71,11 @@ export interface SceneObject {
     wireframe?: boolean | undefined;
     /** 0..1. Objects below 1 are drawn after the others, in their order. */
     opacity?: number | undefined;
+    /**
+     * Of a ground, which casts no shadow: the distances from its position at which it begins to fade into what is behind
+     * it, and at which nothing is left of it.
+     */
+    fade?: readonly [number, number] | undefined;
 }
 
 export type Projection = "perspective" | "orthographic";
@@ -92,6 +97,8 @@ export interface DirectionalLight {
     kind: "directional";
     direction: Vector3;
     color?: Color | undefined;
+    /** Whether objects cast shadows in its light; of one light at most. */
+    shadow?: boolean | undefined;
 }
 
 /** A light that shines in all directions, and does not fade. */
@@ -99,6 +106,7 @@ export interface PointLight {
     kind: "point";
     position: Vector3;
     color?: Color | undefined;
+    shadow?: boolean | undefined;
 }
 
 /** A light that shines into a cone about `direction`; its angles are in degrees, 0..180. */
@@ -111,6 +119,7 @@ export interface SpotLight {
     innerAngle?: number | undefined;
     /** At which its light ends; 45 by default. */
     outerAngle?: number | undefined;
+    shadow?: boolean | undefined;
 }
 
 export type Light = DirectionalLight | PointLight | SpotLight;
@@ -150,6 +159,15 @@ export interface Tone {
     gamma?: boolean | undefined;
 }
 
+/** A level, matte disc under the objects, which catches shadows and fades into the background. */
+export interface Ground {
+    color: Color;
+    /** Its y in the world; just below the lowest vertex by default. */
+    height?: number | undefined;
+    /** Where nothing is left of it, above 0; a multiple of the size of the objects by default. */
+    radius?: number | undefined;
+}
+
 /**
  * Objects, drawn in their order with one depth buffer, seen by a camera.
  *
@@ -173,6 +191,7 @@ export interface Scene {
     rim?: Rim | undefined;
     fog?: Fog | undefined;
     tone?: Tone | undefined;
+    ground?: Ground | undefined;
     /** In pixels, 1..2048; 128 by default. */
     width?: number | undefined;
     height?: number | undefined;

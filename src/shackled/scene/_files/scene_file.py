@@ -21,6 +21,7 @@ from ...whole_file import check_output_file, write_output
 from .._background import Background
 from .._camera import PROJECTIONS, Camera
 from .._effects import Fog, Hemisphere, Rim, Tone
+from .._ground import Ground
 from .._light import LIGHT_KINDS, WHITE, Light
 from .._look import Kind, Part, Setting, exclude, half_height_in, settings_of, view_of
 from .._material import Material
@@ -46,12 +47,13 @@ def _keys(part: Part, *before: str) -> tuple[str, ...]:
 
 _SCENE = _keys("scene", "size", "camera", "objects", "tone")
 _CAMERA = _keys("camera", "projection")
-_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material")
+_OBJECT = _keys("object", "mesh", "position", "rotation", "scale", "material", "fade")
 _BACKGROUND = ("top", "bottom")
 _HEMISPHERE = ("sky", "ground")
 _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
-_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle")
+_GROUND = ("color", "height", "radius")
+_LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
 _MESH = ("positions", "faces", "colors", "normals", "uvs")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
 _ROTATION = ("quaternion", "axis", "angle")
@@ -121,6 +123,7 @@ def encode_scene_file(scene: Scene) -> bytes:
                 "scale": thing.scale,
                 "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
                 **_fields(thing, "object"),
+                **({} if thing.fade is None else {"fade": list(thing.fade)}),
             }
             for thing in scene.objects
         ],
@@ -146,13 +149,15 @@ def _plain(value: Any) -> Any:
     """Return what JSON has for an array, or for a background, a light or an effect."""
     if isinstance(value, Background | Hemisphere | Rim | Fog):
         return asdict(value)
+    if isinstance(value, Ground):
+        return {name: found for name, found in asdict(value).items() if found is not None}
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"
     keys = {"kind": value.kind, place: value.vector, "color": value.color}
     if value.kind == "spot":
         keys |= {name: getattr(value, name) for name in ("direction", "inner_angle", "outer_angle")}
-    return keys
+    return keys | ({"shadow": True} if value.shadow else {})
 
 
 # ---- reading ----
@@ -207,6 +212,13 @@ def _fog(keys: Table, setting: Setting) -> Fog:
         return Fog(color, near, far)
 
 
+def _ground(keys: Table, setting: Setting) -> Ground:
+    inside = keys.table(setting.name, _GROUND)
+    given = {name: inside.number(name) for name in ("height", "radius") if name in inside}
+    with about(inside.where):
+        return Ground(inside.color("color"), **given)
+
+
 #: How the values of kinds are read, besides the range.
 _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "whole": lambda keys, setting: round(keys.number(setting.name)),
@@ -220,6 +232,7 @@ _READ: dict[Kind, Callable[[Table, Setting], Any]] = {
     "hemisphere": _hemisphere,
     "rim": _rim,
     "fog": _fog,
+    "ground": _ground,
 }
 
 
@@ -270,7 +283,9 @@ def _light(value: object, where: str) -> Light:
         if name in keys and name not in (*vectors, *angles):
             raise InputError(f"{where} must have no {name}, as its kind is {kind}")
     place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
-    given = {name: keys.number(name) for name in angles if name in keys}
+    given: dict[str, Any] = {name: keys.number(name) for name in angles if name in keys}
+    if "shadow" in keys:
+        given["shadow"] = keys.flag("shadow")
     with about(where):
         return Light(kind, place, color, *direction, **given)
 
@@ -284,6 +299,8 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
     fields = _settings(surface, "material")
     texture = _texture(surface, folder) if "texture" in surface else None
     position, rotation, scale = keys.numbers("position", (0, 0, 0)), _rotation(keys), keys.number("scale", 1)
+    if "fade" in keys:
+        given["fade"] = keys.numbers("fade", (0, 0))
     color = given.pop("color", None)
     with about(where):
         objects = []

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Vector} from "./math/Vector.sol";
+import {Matrix} from "./math/Quaternion.sol";
+import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
+import {Mesh, openMesh} from "./scene/Mesh.sol";
+import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
+import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
+import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
+import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
+import {Indices} from "./pipeline/Indices.sol";
+import {Triangles} from "./pipeline/Triangles.sol";
+import {GROUND, MAX_FADE, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
+import {Transform} from "./uniforms/Transform.sol";
+import {View, lookAt} from "./uniforms/View.sol";
+import "./pipeline/Registers.sol";
+
+/// @title Shadows: which parts of which faces one light does not reach.
+/// @notice The work of the Renderer for scenes with a SHADOW. Stateless.
+///
+/// Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what lies behind it.
+/// For each face that the light may reach, those are found that may shade it: see Faces. Most faces are wholly lit or wholly dark; of the
+/// others each half-space becomes a function of the place on the canvas: see Receivers.
+contract Shadows is SceneErrors {
+    /// @dev What is in memory, by addresses.
+    /// @param frame The space of the light.
+    /// @param vertices, faces Of each object, where its vertices and faces begin.
+    /// @param begin, end Of the faces.
+    /// @param casters The addresses of the faces that cast shadows.
+    /// @param sets See Faces; of `words` words each.
+    /// @param found What shades a face, one address for each face that casts shadows.
+    /// @param heads A word for each row of the canvas, of which there are `height`.
+    /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
+    struct State {
+        Frame frame;
+        uint256[] vertices;
+        uint256[] faces;
+        uint256 end;
+        uint256 casters;
+        uint256 casterCount;
+        uint256 sets;
+        uint256 words;
+        uint256 found;
+        uint256 heads;
+        uint256 height;
+        int256[3] eye;
+    }
+
+    uint256 private constant LIT = 0;
+    uint256 private constant DARK = 1;
+    uint256 private constant ENTRY_BITS = 32;
+    uint256 private constant ENTRIES = 8;
+
+    /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
+    /// checked.
+    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, four bytes
+    /// for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of it, as words:
+    /// see Receivers. The entries are filled up to whole words. Nothing if no light casts shadows. Without the ABI's offset and length.
+    function cast(Scene calldata scene) external pure returns (bytes memory) {
+        unchecked {
+            (uint256 rule, uint256 light) = check(scene);
+            if (rule == 0) {
+                assembly ("memory-safe") {
+                    return(0, 0)
+                }
+            }
+            reserveRegisters(REGISTERS, REGISTERS_END);
+            View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
+            State memory state;
+            state.height = scene.canvas.height;
+            int256[6] memory bounds = readVertices(scene, state);
+            if (bounds[0] <= bounds[3]) {
+                state.frame = LightSpace.frameOf(scene.lights[light], bounds);
+                LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
+                setEye(scene, view_, state);
+                readFaces(scene, state, rule);
+                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
+            } else {
+                readFaces(scene, state, 0);
+            }
+            answer(state);
+        }
+    }
+
+    /// @dev Checks the records.
+    /// @return rule That of the light that casts shadows; 0 if there is none.
+    /// @return light Its number.
+    function check(Scene calldata scene) private pure returns (uint256 rule, uint256 light) {
+        unchecked {
+            (uint256 record, uint256 end) = Extensions.behind(scene, SHADOW - 1);
+            for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
+                uint256 key = Extensions.keyOf(record);
+                (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind > GROUND) break;
+                uint256 size = Extensions.sizeOf(record);
+                if (size != 32) revert SceneErrors.ExtensionSize(kind, index, 32, size);
+                uint256 count = kind == SHADOW ? scene.lights.length : scene.objects.length;
+                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+                uint256 content = Extensions.word(record + RECORD_HEADER);
+                if (kind == GROUND) {
+                    uint256 outer = (content >> 128) & LANE_64;
+                    if (content >> 192 >= outer || outer > MAX_FADE) revert SceneErrors.GroundOutOfRange(index, content >> 192, outer);
+                    continue;
+                }
+                if (rule != 0) revert SceneErrors.SeveralShadows(index);
+                (rule, light) = (content, index);
+                if (rule == 0 || rule > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, rule);
+            }
+        }
+    }
+
+    /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
+    function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
+        return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.has(scene, OPACITY_OF, index)
+            && !Extensions.has(scene, GROUND, index);
+    }
+
+    /// @dev Writes all vertices in the world.
+    /// @return bounds Of what casts shadows: the lowest coordinates, then the highest.
+    function readVertices(Scene calldata scene, State memory state) private pure returns (int256[6] memory bounds) {
+        unchecked {
+            for (uint256 i; i != 3; ++i) (bounds[i], bounds[i + 3]) = (type(int256).max, type(int256).min);
+            uint256 count = scene.objects.length;
+            state.vertices = new uint256[](count + 1);
+            state.faces = new uint256[](count + 1);
+            uint256 faces;
+            uint256 end;
+            for (uint256 i; i != count; ++i) {
+                Mesh memory mesh = openMesh(scene.objects[i].mesh);
+                Indices.check(mesh, i);
+                state.vertices[i] = end;
+                state.faces[i] = faces;
+                end += PLACE_SIZE * mesh.vertexCount;
+                faces += FACE_RECORD_SIZE * mesh.faceCount;
+            }
+            (state.vertices[count], state.faces[count]) = (end, faces);
+            // an object is read with memory of its own behind all vertices
+            uint256 begin = freeMemory();
+            setFreeMemory(begin + end);
+            for (uint256 i; i <= count; ++i) {
+                state.vertices[i] += begin;
+                state.faces[i] += begin + end;
+            }
+            for (uint256 i; i != count; ++i) {
+                Object calldata object = scene.objects[i];
+                LightSpace.writeWorld(object, openMesh(object.mesh), object.rotation.toMatrix(), state.vertices[i]);
+                if (casts(scene, i)) LightSpace.widen(bounds, state.vertices[i], state.vertices[i + 1]);
+                setFreeMemory(begin + end);
+            }
+            setFreeMemory(state.faces[count]);
+        }
+    }
+
+    function setEye(Scene calldata scene, View memory view_, State memory state) private pure {
+        unchecked {
+            Vector memory v = view_.orthographic ? view_.forward : scene.camera.eye;
+            (int256 x, int256 y, int256 z) = (v.x.raw(), v.y.raw(), v.z.raw());
+            if (view_.orthographic) {
+                int256 radius = state.frame.radius;
+                (x, y, z) = LightSpace.directionOf(state.frame, (x * radius) >> 32, (y * radius) >> 32, (z * radius) >> 32);
+            } else {
+                (x, y, z) = LightSpace.placeOf(state.frame, x, y, z);
+            }
+            (state.eye[0], state.eye[1], state.eye[2]) = (x, y, z);
+        }
+    }
+
+    /// @dev Writes all faces, and the sets of those that cast shadows.
+    /// @param rule Which faces of culled objects cast shadows; 0 if nothing does, and faces are only counted.
+    function readFaces(Scene calldata scene, State memory state, uint256 rule) private pure {
+        unchecked {
+            state.casters = freeMemory();
+            if (rule == 0) {
+                assembly ("memory-safe") {
+                    let begin := mload(add(mload(add(state, 0x40)), 0x20))
+                    calldatacopy(begin, calldatasize(), sub(mload(0x40), begin))
+                }
+                return;
+            }
+            uint256 end = state.casters;
+            for (uint256 i; i != scene.objects.length; ++i) {
+                setFreeMemory(end + 0x100);
+                Object calldata object = scene.objects[i];
+                Mesh memory mesh = openMesh(object.mesh);
+                end = readObject(
+                    state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0
+                );
+            }
+            uint256 count = (end - state.casters) >> 5;
+            uint256 words = (count + 255) >> 8;
+            (state.casterCount, state.words, state.sets) = (count, words, end);
+            uint256 size = 5 * BUCKETS * words * 32;
+            assembly ("memory-safe") {
+                calldatacopy(end, calldatasize(), size)
+            }
+            state.found = end + size;
+            state.heads = state.found + 32 * count;
+            setFreeMemory(state.heads + 32 * scene.canvas.height);
+            for (uint256 i; i != count; ++i) Faces.insert(state.sets, words, i, load(state.casters + 32 * i));
+            Faces.complete(state.sets, words);
+        }
+    }
+
+    /// @param end Where to append the addresses of faces that cast shadows.
+    /// @param rule Which of them do; 0 for none.
+    function readObject(State memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
+        private
+        pure
+        returns (uint256)
+    {
+        unchecked {
+            uint256 face = state.faces[index];
+            uint256 vertices = state.vertices[index];
+            bool isPoint = state.frame.isPoint;
+            uint256 last = state.faces[index + 1];
+            for (uint256 source = mesh.faces; face != last; source += FACE_SIZE) {
+                uint256 numbers = Triangles.readIndices(source);
+                Faces.write(
+                    face,
+                    vertices + PLACE_SIZE * (numbers >> FACE_FIRST_AT),
+                    vertices + PLACE_SIZE * ((numbers >> FACE_SECOND_AT) & FACE_INDEX_MASK),
+                    vertices + PLACE_SIZE * (numbers & FACE_INDEX_MASK),
+                    isPoint
+                );
+                if (rule != 0) {
+                    int256 side = loadSigned(face + FACE_SIDE);
+                    if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_TURNED))) {
+                        store(end, face);
+                        end += 32;
+                    }
+                }
+                face += FACE_RECORD_SIZE;
+            }
+            return end;
+        }
+    }
+
+    /// @dev Sets the entries of the faces of an object.
+    function shadeObject(Scene calldata scene, View memory view_, State memory state, uint256 index) private pure {
+        unchecked {
+            Object calldata object = scene.objects[index];
+            Mesh memory mesh = openMesh(object.mesh);
+            bool isReceiver = object.material.shading != UNLIT && object.flags & WIREFRAME == 0;
+            if (isReceiver) {
+                Transform.setMatrix(view_, object, object.rotation.toMatrix());
+                assembly ("memory-safe") {
+                    mcopy(MESH_VERTICES, mesh, 0xc0)
+                }
+            }
+            Receiver memory receiver;
+            receiver.planes = freeMemory();
+            setFreeMemory(receiver.planes + 0x200);
+            uint256 source = mesh.faces;
+            bool isFlat = object.material.shading == FLAT;
+            bool isCulled = object.flags & CULL_BACKFACES != 0;
+            uint256 last = state.faces[index + 1];
+            for (uint256 face = state.faces[index]; face != last; face += FACE_RECORD_SIZE) {
+                uint256 entry = LIT;
+                if (isReceiver && receives(face, state.eye, view_.orthographic, isFlat, isCulled)) {
+                    entry = shadeFace(state, receiver, face, source);
+                }
+                store(face + FACE_ENTRY, entry);
+                source += FACE_SIZE;
+            }
+        }
+    }
+
+    /// @dev Whether a face may be seen on the side that the light reaches.
+    function receives(uint256 face, int256[3] memory eye, bool isOrthographic, bool isFlat, bool isCulled) private pure returns (bool) {
+        unchecked {
+            int256 side = loadSigned(face + FACE_SIDE);
+            if (side == 0) return false;
+            int256 seen;
+            int256 slack;
+            assembly ("memory-safe") {
+                let i := mload(add(face, 0x20))
+                let j := mload(add(face, 0x40))
+                let k := mload(add(face, 0x60))
+                seen := add(add(mul(i, mload(eye)), mul(j, mload(add(eye, 0x20)))), mul(k, mload(add(eye, 0x40))))
+                switch isOrthographic
+                case 0 {
+                    let a := and(mload(face), ADDRESS_MASK)
+                    seen := sub(seen, add(add(mul(i, mload(a)), mul(j, mload(add(a, 0x20)))), mul(k, mload(add(a, 0x40)))))
+                }
+                default { seen := sub(0, seen) }
+                let sign := sar(255, i)
+                slack := sub(xor(i, sign), sign)
+                sign := sar(255, j)
+                slack := add(slack, sub(xor(j, sign), sign))
+                sign := sar(255, k)
+                slack := add(slack, sub(xor(k, sign), sign))
+                slack := shl(2, slack)
+            }
+            if (isCulled && seen < -slack) return false;
+            // the light of smooth shading may be positive on faces that are turned away
+            return !isFlat || (seen >= -slack && seen <= slack) || (seen > 0) == (side > 0);
+        }
+    }
+
+    /// @return The entry of a face: LIT, DARK, or the address of a chain of lists: that of the next or 0, the end of this one, functions.
+    function shadeFace(
+        State memory state,
+        Receiver memory receiver,
+        uint256 face,
+        uint256 source
+    ) private pure returns (uint256) {
+        unchecked {
+            uint256 corners = load(face);
+            (receiver.corners, receiver.isPlaced) = (corners, false);
+            Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
+            uint256 count;
+            for (uint256 offset; offset != 32 * state.words; offset += 32) {
+                uint256 bits;
+                if (corners & BESIDE == 0) {
+                    bits = Faces.candidates(state.sets, state.words, corners, offset);
+                } else {
+                    bits = state.casterCount - 8 * offset;
+                    bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
+                }
+                while (bits != 0) {
+                    uint256 caster = load(state.casters + 32 * (8 * offset + Faces.lowestBit(bits)));
+                    bits &= bits - 1;
+                    if (caster == face) continue;
+                    uint256 found = shadowOf(state, receiver, caster, source);
+                    if (found == DARK) return DARK;
+                    if (found != LIT) store(state.found + 32 * count++, found);
+                }
+            }
+            return count == 0 ? LIT : ordered(state, count);
+        }
+    }
+
+    /// @return What one face casts on another: LIT for nothing, DARK for all of it, or the address of a list.
+    function shadowOf(State memory state, Receiver memory receiver, uint256 caster, uint256 source) private pure returns (uint256) {
+        unchecked {
+            uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
+            if (shade == MISSED) return LIT;
+            if (shade == COVERED) return DARK;
+            if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
+            uint256 list = freeMemory();
+            uint256 end;
+            (shade, end) = Receivers.write(receiver, state.height, list + 0x40);
+            if (shade == MISSED) return LIT;
+            if (shade == COVERED) return DARK;
+            setFreeMemory(end);
+            store(list + 0x20, end);
+            return list;
+        }
+    }
+
+    /// @dev Chains the lists that were found, ordered by their first rows.
+    /// @return first The address of the first.
+    function ordered(State memory state, uint256 count) private pure returns (uint256 first) {
+        unchecked {
+            uint256 found = state.found;
+            uint256 heads = state.heads;
+            uint256 size = 32 * state.height;
+            assembly ("memory-safe") {
+                calldatacopy(heads, calldatasize(), size)
+                // those of a row in front of one another, from the last on
+                for { let p := add(found, shl(5, count)) } gt(p, found) {} {
+                    p := sub(p, 0x20)
+                    let list := mload(p)
+                    let head := add(heads, shl(5, and(shr(TOP_AT, mload(add(list, 0x40))), ROW_MASK)))
+                    mstore(list, mload(head))
+                    mstore(head, list)
+                }
+                let last
+                for {} count { heads := add(heads, 0x20) } {
+                    let list := mload(heads)
+                    if list {
+                        switch last
+                        case 0 { first := list }
+                        default { mstore(last, list) }
+                        for {} list { list := mload(list) } {
+                            last := list
+                            count := sub(count, 1)
+                        }
+                    }
+                }
+                mstore(last, 0)
+            }
+        }
+    }
+
+    /// @dev Ends the call with the entries and lists of all faces.
+    function answer(State memory state) private pure {
+        unchecked {
+            uint256 face = state.faces[0];
+            uint256 last = state.faces[state.faces.length - 1];
+            uint256 begin = freeMemory();
+            uint256 objects = state.faces.length - 1;
+            uint256 target = begin + 32 * objects;
+            for (uint256 i; i != objects; ++i) {
+                store(begin + 32 * i, 32 * objects + (ENTRY_BITS / 8) * ((state.faces[i] - face) / FACE_RECORD_SIZE));
+            }
+            uint256 end = target + (((ENTRY_BITS / 8) * ((last - face) / FACE_RECORD_SIZE) + 31) & ~uint256(31));
+            while (face != last) {
+                uint256 word = 0;
+                for (uint256 i; i != ENTRIES; ++i) {
+                    word <<= ENTRY_BITS;
+                    if (face == last) continue;
+                    uint256 entry = load(face + FACE_ENTRY);
+                    face += FACE_RECORD_SIZE;
+                    if (entry > DARK) {
+                        word |= end - begin;
+                        end = copyLists(entry, end);
+                    } else {
+                        word |= entry;
+                    }
+                }
+                store(target, word);
+                target += 32;
+            }
+            assembly ("memory-safe") {
+                return(begin, sub(end, begin))
+            }
+        }
+    }
+
+    /// @dev Copies a chain of lists.
+    /// @return end The address after the last word.
+    function copyLists(uint256 list, uint256 target) private pure returns (uint256 end) {
+        unchecked {
+            end = target;
+            uint256 last;
+            for (; list != 0; list = load(list)) {
+                uint256 size = load(list + 0x20) - list - 0x40;
+                last = end;
+                assembly ("memory-safe") {
+                    mcopy(end, add(list, 0x40), size)
+                }
+                end += size;
+            }
+            store(last, load(last) | LAST_SHADOW);
+        }
+    }
+}

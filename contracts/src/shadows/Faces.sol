@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
+import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
+
+// Faces in the space of the light, and which of them may shade a face.
+//
+// A face is six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if it is turned
+// to the light, 0 if it is seen edge-on; and what is found about its shadows.
+//
+// Those that cast shadows have numbers, each a bit in the sets of what lies in a range of coordinates. There are five tables of sets: what
+// reaches a range in x or beyond it, what begins in it or before; the same of y; what is in a range of depths or nearer to the light.
+// What may shade a face is in five of these sets: 256 faces are found by four `and`s.
+
+uint256 constant FACE_RECORD_SIZE = 0xc0;
+uint256 constant FACE_NORMAL = 0x20;
+uint256 constant FACE_SIDE = 0x80;
+uint256 constant FACE_ENTRY = 0xa0;
+/// @dev In the first word: the addresses of the vertices, that of the functions (0 if there are none yet), and the ranges of x, y and z, the
+/// least and the greatest, in bytes.
+uint256 constant FACE_B_AT = 32;
+uint256 constant FACE_C_AT = 64;
+uint256 constant FACE_PLANES_AT = 96;
+uint256 constant FACE_BOX_AT = 128;
+uint256 constant ADDRESS_MASK = 0xffffffff;
+/// @dev The highest bit of each lane of the ranges of a vertex.
+uint256 constant LANE_GUARDS = 0x800080008000;
+
+/// @dev Four functions of x, y, z and a constant each: the sides, each opposite to a corner, and what lies behind the face. All are positive
+/// in the shadow.
+uint256 constant PLANE_SIZE = 0x80;
+uint256 constant PLANES_SIZE = 0x200;
+uint256 constant BEHIND = 0x180;
+
+library Faces {
+    /// @notice Writes the record of a face.
+    /// @param face Where to write it.
+    /// @param a, b, c The addresses of its vertices.
+    function write(uint256 face, uint256 a, uint256 b, uint256 c, bool isPoint) internal pure {
+        unchecked {
+            uint256 side;
+            assembly ("memory-safe") {
+                let x := mload(a)
+                let y := mload(add(a, 0x20))
+                let z := mload(add(a, 0x40))
+                let bx := sub(mload(b), x)
+                let by := sub(mload(add(b, 0x20)), y)
+                let bz := sub(mload(add(b, 0x40)), z)
+                let cx := sub(mload(c), x)
+                let cy := sub(mload(add(c, 0x20)), y)
+                let cz := sub(mload(add(c, 0x40)), z)
+                let i := sub(mul(by, cz), mul(bz, cy))
+                let j := sub(mul(bz, cx), mul(bx, cz))
+                let k := sub(mul(bx, cy), mul(by, cx))
+                mstore(add(face, 0x20), i)
+                mstore(add(face, 0x40), j)
+                mstore(add(face, 0x60), k)
+                side := k
+                if isPoint { side := sub(0, add(mul(i, x), add(mul(j, y), mul(k, z)))) }
+                mstore(add(face, FACE_SIDE), side)
+            }
+            store(face, boxOf(a, b, c) | (c << FACE_C_AT) | (b << FACE_B_AT) | a);
+        }
+    }
+
+    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper.
+    function boxOf(uint256 a, uint256 b, uint256 c) private pure returns (uint256 box) {
+        assembly ("memory-safe") {
+            a := mload(add(a, PLACE_BUCKETS))
+            b := mload(add(b, PLACE_BUCKETS))
+            c := mload(add(c, PLACE_BUCKETS))
+            switch and(or(or(a, b), c), BESIDE)
+            case 0 {
+                // where a lane of a is not less than that of b, the mask has ones
+                let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS)
+                let change := and(xor(a, b), sub(mask, shr(15, mask)))
+                let high := xor(b, change)
+                let low := xor(a, change)
+                mask := and(sub(or(c, LANE_GUARDS), high), LANE_GUARDS)
+                high := xor(high, and(xor(c, high), sub(mask, shr(15, mask))))
+                mask := and(sub(or(low, LANE_GUARDS), c), LANE_GUARDS)
+                low := xor(low, and(xor(c, low), sub(mask, shr(15, mask))))
+                box := shl(FACE_BOX_AT, or(low, shl(8, high)))
+            }
+            default { box := BESIDE }
+        }
+    }
+
+    /// @notice Puts a face into the sets of its ranges.
+    /// @param words Of each set.
+    function insert(uint256 sets, uint256 words, uint256 index, uint256 face) internal pure {
+        assembly ("memory-safe") {
+            let box := mload(face)
+            // what is beside a point light may shade everything
+            switch and(box, BESIDE)
+            case 0 { box := shr(FACE_BOX_AT, box) }
+            default { box := 0x1f001f001f00 }
+            let bit := shl(and(index, 0xff), 1)
+            let size := shl(5, words)
+            let set := add(sets, shl(5, shr(8, index)))
+            // the greatest and the least x, the greatest and the least y, the greatest z
+            let p := add(set, mul(size, byte(30, box)))
+            mstore(p, or(mload(p), bit))
+            set := add(set, mul(BUCKETS, size))
+            p := add(set, mul(size, byte(31, box)))
+            mstore(p, or(mload(p), bit))
+            set := add(set, mul(BUCKETS, size))
+            p := add(set, mul(size, byte(28, box)))
+            mstore(p, or(mload(p), bit))
+            set := add(set, mul(BUCKETS, size))
+            p := add(set, mul(size, byte(29, box)))
+            mstore(p, or(mload(p), bit))
+            set := add(set, mul(BUCKETS, size))
+            p := add(set, mul(size, byte(26, box)))
+            mstore(p, or(mload(p), bit))
+        }
+    }
+
+    /// @notice Adds to each set those of the ranges beyond it, or before it.
+    function complete(uint256 sets, uint256 words) internal pure {
+        assembly ("memory-safe") {
+            let size := shl(5, words)
+            let table := mul(BUCKETS, size)
+            for { let t := 0 } lt(t, 5) { t := add(t, 1) } {
+                let begin := add(sets, mul(t, table))
+                let end := add(begin, table)
+                switch and(t, 1)
+                case 0 {
+                    for { let p := sub(end, size) } gt(p, begin) {} {
+                        p := sub(p, 0x20)
+                        mstore(p, or(mload(p), mload(add(p, size))))
+                    }
+                }
+                default {
+                    for { let p := add(begin, size) } lt(p, end) { p := add(p, 0x20) } {
+                        mstore(p, or(mload(p), mload(sub(p, size))))
+                    }
+                }
+            }
+        }
+    }
+
+    /// @notice What may shade a face, of 256 faces.
+    /// @param box The first word of its record.
+    /// @param offset Of the word in each set.
+    function candidates(uint256 sets, uint256 words, uint256 box, uint256 offset) internal pure returns (uint256 bits) {
+        assembly ("memory-safe") {
+            box := shr(FACE_BOX_AT, box)
+            let size := shl(5, words)
+            let set := add(sets, offset)
+            bits := mload(add(set, mul(size, byte(31, box))))
+            set := add(set, mul(BUCKETS, size))
+            bits := and(bits, mload(add(set, mul(size, byte(30, box)))))
+            set := add(set, mul(BUCKETS, size))
+            bits := and(bits, mload(add(set, mul(size, byte(29, box)))))
+            set := add(set, mul(BUCKETS, size))
+            bits := and(bits, mload(add(set, mul(size, byte(28, box)))))
+            set := add(set, mul(BUCKETS, size))
+            bits := and(bits, mload(add(set, mul(size, byte(27, box)))))
+        }
+    }
+
+    /// @notice The place of the lowest bit of a word that is not zero.
+    function lowestBit(uint256 bits) internal pure returns (uint256 place) {
+        assembly ("memory-safe") {
+            bits := and(bits, sub(0, bits))
+            place := shl(7, lt(0xffffffffffffffffffffffffffffffff, bits))
+            place := or(place, shl(6, lt(0xffffffffffffffff, shr(place, bits))))
+            place := or(place, shl(5, lt(0xffffffff, shr(place, bits))))
+            place := or(place, shl(4, lt(0xffff, shr(place, bits))))
+            place := or(place, shl(3, lt(0xff, shr(place, bits))))
+            place := or(place, shl(2, lt(0xf, shr(place, bits))))
+            place := or(place, shl(1, lt(0x3, shr(place, bits))))
+            place := or(place, lt(1, shr(place, bits)))
+        }
+    }
+
+    /// @notice Writes the four functions of a face.
+    function writePlanes(uint256 face, bool isPoint, uint256 plane) internal pure {
+        unchecked {
+            uint256 corners = load(face);
+            uint256 a = corners & ADDRESS_MASK;
+            uint256 b = (corners >> FACE_B_AT) & ADDRESS_MASK;
+            uint256 c = (corners >> FACE_C_AT) & ADDRESS_MASK;
+            int256 sign = loadSigned(face + FACE_SIDE) > 0 ? int256(1) : int256(-1);
+            writeSide(plane, b, c, sign, isPoint);
+            writeSide(plane + PLANE_SIZE, c, a, sign, isPoint);
+            writeSide(plane + 2 * PLANE_SIZE, a, b, sign, isPoint);
+            plane += BEHIND;
+            (int256 x, int256 y, int256 z) =
+                (-sign * loadSigned(face + 0x20), -sign * loadSigned(face + 0x40), -sign * loadSigned(face + 0x60));
+            storeSigned(plane, x);
+            storeSigned(plane + 0x20, y);
+            storeSigned(plane + 0x40, z);
+            storeSigned(plane + 0x60, -(x * loadSigned(a) + y * loadSigned(a + 0x20) + z * loadSigned(a + 0x40)));
+        }
+    }
+
+    function writeSide(uint256 plane, uint256 p, uint256 q, int256 sign, bool isPoint) private pure {
+        assembly ("memory-safe") {
+            let px := mload(p)
+            let py := mload(add(p, 0x20))
+            let qx := mload(q)
+            let qy := mload(add(q, 0x20))
+            switch isPoint
+            case 0 {
+                let x := mul(sign, sub(py, qy))
+                let y := mul(sign, sub(qx, px))
+                mstore(plane, x)
+                mstore(add(plane, 0x20), y)
+                mstore(add(plane, 0x40), 0)
+                mstore(add(plane, 0x60), sub(0, add(mul(x, px), mul(y, py))))
+            }
+            default {
+                let pz := mload(add(p, 0x40))
+                let qz := mload(add(q, 0x40))
+                mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
+                mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
+                mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
+                mstore(add(plane, 0x60), 0)
+            }
+        }
+    }
+
+    /// @notice A function at the corners of a face.
+    /// @param corners The first word of its record.
+    function values(uint256 plane, uint256 corners) internal pure returns (int256 a, int256 b, int256 c) {
+        assembly ("memory-safe") {
+            let x := mload(plane)
+            let y := mload(add(plane, 0x20))
+            let z := mload(add(plane, 0x40))
+            plane := mload(add(plane, 0x60))
+            let p := and(corners, ADDRESS_MASK)
+            a := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
+            p := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
+            b := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
+            p := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
+            c := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
+        }
+    }
+}

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Fixed} from "../math/Fixed.sol";
+import {Matrix} from "../math/Quaternion.sol";
+import {sqrt} from "../math/Roots.sol";
+import {Vector, normalize} from "../math/Vector.sol";
+import {Mesh} from "../scene/Mesh.sol";
+import {Light, Object, POINT} from "../scene/Scene.sol";
+import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
+
+// The space of the light. z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
+// what casts shadows, or the point light. The farthest place that casts a shadow has coordinates of 20 bits, with the sign.
+//
+// A vertex is four words: x, y, z, and the ranges in which they are, lanes of 16 bits, or BESIDE.
+
+/// @dev Bits of the coordinates of the farthest place that casts a shadow, without the sign.
+uint256 constant COORDINATE_BITS = 19;
+/// @dev Coordinates are divided into so many ranges, to find what may shade a face.
+uint256 constant BUCKETS = 32;
+uint256 constant PLACE_SIZE = 0x80;
+uint256 constant PLACE_BUCKETS = 0x60;
+/// @dev The vertex is beside or behind a point light.
+uint256 constant BESIDE = 1 << 255;
+/// @dev Bits of the product of a length, Q32, and a factor, 2^64 / radius (Q32), below those of a coordinate.
+uint256 constant PLACE_SHIFT = 77;
+/// @dev Bits of x / z and y / z.
+uint256 constant SLOPE_BITS = 16;
+/// @dev Above this, Q32, the y component of a direction is not taken as that of a second axis.
+int256 constant UPRIGHT = 3 << 30;
+
+/// @param axis Three times three numbers, 2^64 / radius times the components of the axes.
+/// @param low, factor Of the ranges into which coordinates are divided.
+struct Frame {
+    bool isPoint;
+    int256 radius;
+    int256[3] origin;
+    int256[9] axis;
+    int256[3] low;
+    int256[3] factor;
+}
+
+library LightSpace {
+    /// @notice Writes the vertices of an object in the world, Q32.
+    /// @param vertex Where to write them.
+    function writeWorld(Object calldata object, Mesh memory mesh, Matrix memory rotation, uint256 vertex) internal pure {
+        unchecked {
+            Fixed size = object.scale;
+            int256[12] memory m;
+            (Vector memory x, Vector memory y, Vector memory z) = (rotation.x.scale(size), rotation.y.scale(size), rotation.z.scale(size));
+            (m[0], m[1], m[2], m[3]) = (x.x.raw(), y.x.raw(), z.x.raw(), object.position.x.raw());
+            (m[4], m[5], m[6], m[7]) = (x.y.raw(), y.y.raw(), z.y.raw(), object.position.y.raw());
+            (m[8], m[9], m[10], m[11]) = (x.z.raw(), y.z.raw(), z.z.raw(), object.position.z.raw());
+            uint256 source = mesh.vertices;
+            uint256 bits = mesh.bits;
+            uint256 stride = mesh.stride;
+            uint256 end = vertex + PLACE_SIZE * mesh.vertexCount;
+            assembly ("memory-safe") {
+                for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } {
+                    let data := calldataload(source)
+                    let rest := sub(256, bits)
+                    let i := sar(rest, data)
+                    data := shl(bits, data)
+                    let j := sar(rest, data)
+                    let k := sar(rest, shl(bits, data))
+                    let row := m
+                    for { let target := vertex } lt(target, add(vertex, PLACE_BUCKETS)) { target := add(target, 0x20) } {
+                        let value := add(mload(add(row, 0x60)), mul(i, mload(row)))
+                        mstore(target, add(value, add(mul(j, mload(add(row, 0x20))), mul(k, mload(add(row, 0x40))))))
+                        row := add(row, 0x80)
+                    }
+                    source := add(source, stride)
+                }
+            }
+        }
+    }
+
+    /// @notice Widens bounds to hold vertices.
+    /// @param bounds The lowest coordinates, then the highest.
+    function widen(int256[6] memory bounds, uint256 vertex, uint256 end) internal pure {
+        assembly ("memory-safe") {
+            for {} lt(vertex, end) { vertex := add(vertex, PLACE_SIZE) } {
+                for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
+                    let value := mload(add(vertex, i))
+                    let bound := add(bounds, i)
+                    if slt(value, mload(bound)) { mstore(bound, value) }
+                    bound := add(bound, 0x60)
+                    if sgt(value, mload(bound)) { mstore(bound, value) }
+                }
+            }
+        }
+    }
+
+    /// @notice The space of a light.
+    /// @param bounds Of what casts shadows, in the world.
+    function frameOf(Light calldata light, int256[6] memory bounds) internal pure returns (Frame memory frame) {
+        unchecked {
+            frame.isPoint = light.kind == POINT;
+            int256[3] memory vector = [light.vector.x.raw(), light.vector.y.raw(), light.vector.z.raw()];
+            int256[3] memory middle;
+            int256[3] memory reach;
+            for (uint256 i; i != 3; ++i) {
+                middle[i] = (bounds[i] + bounds[i + 3]) >> 1;
+                reach[i] = bounds[i + 3] - bounds[i];
+            }
+            int256 half = (length(reach) >> 1) + 1;
+            Vector memory z;
+            if (frame.isPoint) {
+                frame.origin = vector;
+                int256[3] memory across;
+                for (uint256 i; i != 3; ++i) {
+                    int256 low = magnitude(bounds[i] - vector[i]);
+                    int256 high = magnitude(bounds[i + 3] - vector[i]);
+                    reach[i] = low > high ? low : high;
+                    across[i] = middle[i] - vector[i];
+                }
+                frame.radius = length(reach) + 1;
+                z = normalize(toVector(across));
+                if (z.isZero()) z.z = Fixed.wrap(1 << 32);
+                setCone(frame, half, length(across));
+            } else {
+                (frame.origin, frame.radius) = (middle, half);
+                z = normalize(toVector(vector));
+                for (uint256 i; i != 3; ++i) {
+                    frame.low[i] = -int256(1 << COORDINATE_BITS);
+                    frame.factor[i] = int256((BUCKETS << 32) / (2 << COORDINATE_BITS));
+                }
+            }
+            Vector memory up;
+            if (magnitude(z.y.raw()) < UPRIGHT) up.y = Fixed.wrap(1 << 32);
+            else up.x = Fixed.wrap(1 << 32);
+            Vector memory x = normalize(z.cross(up));
+            setAxis(frame, 0, x);
+            setAxis(frame, 3, z.cross(x));
+            setAxis(frame, 6, z);
+        }
+    }
+
+    /// @dev The ranges in the cone from a point light around the sphere around what casts shadows.
+    /// @param half The radius of the sphere; `distance` that of its middle from the light.
+    function setCone(Frame memory frame, int256 half, int256 distance) private pure {
+        unchecked {
+            int256 size = (half << COORDINATE_BITS) / frame.radius + 2;
+            distance = (distance << COORDINATE_BITS) / frame.radius;
+            int256 across = int256(4 << SLOPE_BITS);
+            if (distance > size) {
+                int256 slope = (size << SLOPE_BITS) / (distance - size) + 1;
+                if (slope < across) across = slope;
+            }
+            (frame.low[0], frame.low[1], frame.low[2]) = (-across, -across, -(distance + size));
+            frame.factor[0] = int256(BUCKETS << 32) / (2 * across);
+            frame.factor[1] = frame.factor[0];
+            frame.factor[2] = int256(BUCKETS << 32) / (2 * size);
+        }
+    }
+
+    function setAxis(Frame memory frame, uint256 first, Vector memory v) private pure {
+        unchecked {
+            frame.axis[first] = (v.x.raw() << 64) / frame.radius;
+            frame.axis[first + 1] = (v.y.raw() << 64) / frame.radius;
+            frame.axis[first + 2] = (v.z.raw() << 64) / frame.radius;
+        }
+    }
+
+    function toVector(int256[3] memory v) private pure returns (Vector memory) {
+        return Vector(Fixed.wrap(v[0]), Fixed.wrap(v[1]), Fixed.wrap(v[2]));
+    }
+
+    function length(int256[3] memory v) private pure returns (int256) {
+        unchecked {
+            return int256(sqrt(uint256(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])));
+        }
+    }
+
+    function magnitude(int256 value) internal pure returns (int256) {
+        unchecked {
+            return value < 0 ? -value : value;
+        }
+    }
+
+    /// @notice Takes vertices from the world to the space of the light.
+    function place(Frame memory frame, uint256 vertex, uint256 end) internal pure {
+        unchecked {
+            for (; vertex != end; vertex += PLACE_SIZE) {
+                (int256 x, int256 y, int256 z) = placeOf(frame, loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40));
+                storeSigned(vertex, x);
+                storeSigned(vertex + 0x20, y);
+                storeSigned(vertex + 0x40, z);
+                if (frame.isPoint) {
+                    if (4 * z <= magnitude(x) || 4 * z <= magnitude(y)) {
+                        store(vertex + PLACE_BUCKETS, BESIDE);
+                        continue;
+                    }
+                    (x, y, z) = ((x << SLOPE_BITS) / z, (y << SLOPE_BITS) / z, -z);
+                }
+                store(vertex + PLACE_BUCKETS, bucket(frame, 0, x) | (bucket(frame, 1, y) << 16) | (bucket(frame, 2, z) << 32));
+            }
+        }
+    }
+
+    function bucket(Frame memory frame, uint256 axis, int256 value) private pure returns (uint256 range) {
+        assembly ("memory-safe") {
+            let offset := shl(5, axis)
+            value := sub(value, mload(add(mload(add(frame, 0x80)), offset)))
+            value := sar(32, mul(value, mload(add(mload(add(frame, 0xa0)), offset))))
+            range := mul(value, sgt(value, 0))
+            if gt(range, 31) { range := 31 }
+        }
+    }
+
+    /// @notice A place of the world in the space of the light.
+    function placeOf(Frame memory frame, int256 x, int256 y, int256 z) internal pure returns (int256, int256, int256) {
+        unchecked {
+            return directionOf(frame, x - frame.origin[0], y - frame.origin[1], z - frame.origin[2]);
+        }
+    }
+
+    /// @notice A difference of places of the world in the space of the light.
+    function directionOf(Frame memory frame, int256 x, int256 y, int256 z) internal pure returns (int256 i, int256 j, int256 k) {
+        assembly ("memory-safe") {
+            let axis := mload(add(frame, 0x60))
+            let half := shl(sub(PLACE_SHIFT, 1), 1)
+            i := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
+            i := sar(PLACE_SHIFT, i)
+            axis := add(axis, 0x60)
+            j := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
+            j := sar(PLACE_SHIFT, j)
+            axis := add(axis, 0x60)
+            k := add(add(half, mul(x, mload(axis))), add(mul(y, mload(add(axis, 0x20))), mul(z, mload(add(axis, 0x40)))))
+            k := sar(PLACE_SHIFT, k)
+        }
+    }
+}

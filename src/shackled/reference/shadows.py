@@ -1,0 +1,418 @@
+"""Find which parts of which faces one light does not reach.
+
+Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what
+lies behind it. On the surface of another face each of them becomes a linear function of the place on the canvas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from . import ground, layout, transform, vertex_shader
+from .effects import GROUND, SHADOW
+from .extensions import MAX_COORDINATE, OPACITY, Records
+from .mesh import Mesh, open_mesh
+from .registers import Registers
+from .roots import sqrt
+from .scene_errors import Reverted
+from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
+from .structs import CULL_BACKFACES, FLAT, POINT, UNLIT, WIREFRAME, Scene
+from .vector import Vector, cross, normalize, scale, subtract, to_matrix
+from .view import View
+from .words import divide, divide_signed
+
+#: Which faces of culled objects cast shadows: all, those turned away from the light, those turned to it.
+ALL, AVERSE, TURNED = 1, 2, 3
+#: The farthest place that casts a shadow has coordinates of so many bits in the space of the light.
+COORDINATE_BITS = 19
+#: Coordinates are divided into so many ranges, to find what may shade a face.
+BUCKETS = 32
+#: Bits of the distances of vertices, and of other homogeneous coordinates.
+DISTANCE_BITS, CLIP_BITS = 38, 60
+#: Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
+GRADIENT_BITS, BOUND = 44, 1 << 60
+#: More than what rounding takes from a function anywhere on the canvas.
+SLACK = 1 << 16
+#: Sub-pixels by which the rows of a shadow are widened: to the outermost sample, and for rounding.
+WIDER = 112
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The space of the light.
+
+    z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
+    what casts shadows, or the point light.
+
+    axes: times 2^64 / radius. low, factor: of the ranges into which coordinates are divided.
+    """
+
+    is_point: bool
+    origin: Vector
+    axes: tuple[Vector, Vector, Vector]
+    radius: int
+    low: Vector
+    factor: Vector
+
+    def place(self, v: Vector) -> Vector:
+        """Return a place of the world."""
+        v = subtract(v, self.origin)
+        x, y, z = (self._along(axis, v) for axis in self.axes)
+        return x, y, z
+
+    @staticmethod
+    def _along(axis: Vector, v: Vector) -> int:
+        return (axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2] + (1 << 76)) >> 77
+
+    def direction(self, v: Vector) -> Vector:
+        """Return a direction of the world, a unit vector, of length 2^COORDINATE_BITS or less."""
+        scaled = v[0] * self.radius >> 32, v[1] * self.radius >> 32, v[2] * self.radius >> 32
+        x, y, z = (self._along(axis, scaled) for axis in self.axes)
+        return x, y, z
+
+    def bucket(self, place: Vector) -> tuple[int, int, int] | None:
+        """Return the ranges of a place; None for one that is beside or behind a point light."""
+        x, y, z = place
+        if self.is_point:
+            if 4 * z <= max(abs(x), abs(y)):
+                return None
+            x, y, z = divide_signed(x << 16, z), divide_signed(y << 16, z), -z
+        ranges = (
+            (value - low) * factor >> 32 for value, low, factor in zip((x, y, z), self.low, self.factor, strict=True)
+        )
+        i, j, k = (min(max(value, 0), BUCKETS - 1) for value in ranges)
+        return i, j, k
+
+
+@dataclass
+class Face:
+    """A face in the space of the light.
+
+    corners: their places. box: the ranges of its coordinates; None if a corner is beside a point light. normal: the
+    cross product of two sides. side: positive if it is turned to the light, 0 if it is seen edge-on.
+    """
+
+    object: int
+    number: int
+    corners: tuple[Vector, Vector, Vector]
+    box: tuple[int, int, int, int, int, int] | None
+    normal: Vector
+    side: int
+    planes: list[tuple[int, int, int, int]] = field(default_factory=list)
+
+
+def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
+    """Check the records of shadows; return the light that casts them, and which faces of culled objects do."""
+    found = None
+    for (kind, index), content in records.items():
+        if kind not in (SHADOW, GROUND):
+            continue
+        count = len(scene.lights if kind == SHADOW else scene.objects)
+        if len(content) != 32:
+            raise Reverted("ExtensionSize", kind=kind, index=index, expected=32, actual=len(content))
+        if index >= count:
+            raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
+        if kind == SHADOW:
+            if found is not None:
+                raise Reverted("SeveralShadows", light=index)
+            rule = int.from_bytes(content, "big")
+            if not ALL <= rule <= TURNED:
+                raise Reverted("ShadowRuleOutOfRange", light=index, rule=rule)
+            found = index, rule
+        else:
+            near, far = ground.radii(content)
+            if near >= far or far > MAX_COORDINATE:
+                raise Reverted("GroundOutOfRange", object=index, inner=near, outer=far)
+    return found
+
+
+def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
+    """Return what the light of the SHADOW record does not reach; None if there is no such record."""
+    records = registers.records
+    found = check_shadows(scene, records)
+    if found is None:
+        return None
+    light, rule = found
+    meshes = [open_mesh(each.mesh) for each in scene.objects]
+    for index, mesh in enumerate(meshes):
+        for number, corners in enumerate(mesh.faces):
+            if max(corners) >= len(mesh.positions):
+                raise Reverted("IndexOutOfRange", object=index, face=number, vertexCount=len(mesh.positions))
+    worlds = [world_places(scene, index, mesh) for index, mesh in enumerate(meshes)]
+    casting = [casts(scene, index, records) for index in range(len(meshes))]
+    table = Table(light, [[LIT] * len(mesh.faces) for mesh in meshes])
+    points = [place for world, yes in zip(worlds, casting, strict=True) if yes for place in world]
+    if not points:
+        return table
+    frame = frame_of(scene, light, points)
+    faces = [
+        face_of(frame, index, number, [places[k] for k in corners], [buckets[k] for k in corners])
+        for index, (mesh, world) in enumerate(zip(meshes, worlds, strict=True))
+        for places, buckets in [light_places(frame, world)]
+        for number, corners in enumerate(mesh.faces)
+    ]
+    casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
+    eye = frame.direction(view.forward) if view.orthographic else frame.place(scene.camera.eye)
+    for face in faces:
+        if receives(scene, face, eye, view.orthographic):
+            table.faces[face.object][face.number] = shade(scene, face, casters, meshes[face.object], view, registers)
+    return table
+
+
+def casts(scene: Scene, index: int, records: Records) -> bool:
+    """Return whether an object casts a shadow: not wires, what is not opaque, and what shall not."""
+    is_wire = scene.objects[index].flags & WIREFRAME
+    return not is_wire and (OPACITY, index) not in records and (GROUND, index) not in records
+
+
+def world_places(scene: Scene, index: int, mesh: Mesh) -> list[Vector]:
+    """Return the vertices of an object in the world."""
+    thing = scene.objects[index]
+    columns = [scale(column, thing.scale) for column in to_matrix(thing.rotation)]
+    places = []
+    for x, y, z in mesh.positions:
+        i, j, k = (
+            x * columns[0][axis] + y * columns[1][axis] + z * columns[2][axis] + thing.position[axis]
+            for axis in range(3)
+        )
+        places.append((i, j, k))
+    return places
+
+
+def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
+    """Return the space of a light. points: of what casts shadows, in the world."""
+    low, high = (tuple(f(axis) for axis in zip(*points, strict=True)) for f in (min, max))
+    middle = tuple(a + b >> 1 for a, b in zip(low, high, strict=True))
+    is_point = scene.lights[light].kind == POINT
+    vector = scene.lights[light].vector
+    half = (length_of(subtract(high, low)) >> 1) + 1
+    if is_point:
+        origin = vector
+        reach = tuple(max(abs(a - o), abs(b - o)) for a, b, o in zip(low, high, origin, strict=True))
+        radius = length_of(reach) + 1
+        z = normalize(subtract(middle, origin))
+        if not any(z):
+            z = (0, 0, 1 << 32)
+        # the cone around the sphere around what casts shadows
+        size = (half << COORDINATE_BITS) // radius + 2
+        distance = (length_of(subtract(middle, origin)) << COORDINATE_BITS) // radius
+        most = 4 << 16
+        across = min((size << 16) // (distance - size) + 1, most) if distance > size else most
+        lows, sizes = (-across, -across, -(distance + size)), (2 * across, 2 * across, 2 * size)
+    else:
+        origin, radius, z = middle, half, normalize(vector)
+        most = 1 << COORDINATE_BITS
+        lows, sizes = (-most,) * 3, (2 * most,) * 3
+    x = normalize(cross(z, (0, 1 << 32, 0) if abs(z[1]) < 3 << 30 else (1 << 32, 0, 0)))
+    i, j, k = (divided(axis, radius) for axis in (x, cross(z, x), z))
+    f, g, h = ((BUCKETS << 32) // each for each in sizes)
+    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h))
+
+
+def divided(axis: Vector, radius: int) -> Vector:
+    """Return 2^64 / radius times a vector."""
+    x, y, z = (divide_signed(value << 64, radius) for value in axis)
+    return x, y, z
+
+
+def length_of(v: Iterable[int]) -> int:
+    """Return the length of a vector."""
+    return sqrt(sum(k * k for k in v))
+
+
+def light_places(frame: Frame, world: Iterable[Vector]) -> tuple[list[Vector], list[tuple[int, int, int] | None]]:
+    """Return places in the space of the light, and their ranges."""
+    places = [frame.place(each) for each in world]
+    return places, [frame.bucket(each) for each in places]
+
+
+def face_of(
+    frame: Frame, index: int, number: int, corners: Sequence[Vector], buckets: Sequence[tuple[int, int, int] | None]
+) -> Face:
+    """Return a face in the space of the light."""
+    a, b, c = corners
+    normal = product(subtract(b, a), subtract(c, a))
+    side = -inner(normal, a) if frame.is_point else normal[2]
+    box = None
+    if None not in buckets:
+        x, y, z = zip(*buckets, strict=True)
+        box = min(x), max(x), min(y), max(y), min(z), max(z)
+    planes = planes_of((a, b, c), normal, side, frame.is_point) if side else []
+    return Face(index, number, (a, b, c), box, normal, side, planes)
+
+
+def planes_of(
+    corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool
+) -> list[tuple[int, int, int, int]]:
+    """Return the sides, each opposite to a corner, and what lies behind: x, y, z and a constant of each.
+
+    All are positive in the shadow.
+    """
+    planes = []
+    sign = 1 if side > 0 else -1
+    for k in range(3):
+        p, q = corners[(k + 1) % 3], corners[(k + 2) % 3]
+        if is_point:
+            # the side of what is turned to the light is negative, that of a point light is behind its plane
+            x, y, z = (-sign * value for value in product(p, q))
+            planes.append((x, y, z, 0))
+        else:
+            x, y = sign * (p[1] - q[1]), sign * (q[0] - p[0])
+            planes.append((x, y, 0, -(x * p[0] + y * p[1])))
+    x, y, z = (-sign * value for value in normal)
+    planes.append((x, y, z, -inner((x, y, z), corners[0])))
+    return planes
+
+
+def product(a: Vector, b: Vector) -> Vector:
+    """Return the cross product of whole numbers."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def inner(a: Vector, b: Vector) -> int:
+    """Return the scalar product of whole numbers."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def is_caster(scene: Scene, face: Face, rule: int) -> bool:
+    """Return whether a face of an object that casts a shadow does so."""
+    if face.side == 0:
+        return False
+    if rule == ALL or not scene.objects[face.object].flags & CULL_BACKFACES:
+        return True
+    return (face.side > 0) == (rule == TURNED)
+
+
+def receives(scene: Scene, face: Face, eye: Vector, orthographic: bool) -> bool:
+    """Return whether a face may be seen on the side that the light reaches.
+
+    eye: in the space of the light; for an orthographic camera the direction in which it looks.
+    """
+    thing = scene.objects[face.object]
+    if thing.material.shading == UNLIT or thing.flags & WIREFRAME or face.side == 0:
+        return False
+    seen = -inner(face.normal, eye) if orthographic else inner(face.normal, subtract(eye, face.corners[0]))
+    slack = 4 * sum(map(abs, face.normal))
+    if thing.flags & CULL_BACKFACES and seen < -slack:
+        return False
+    # the light of smooth shading may be positive on faces that are turned away
+    return thing.material.shading != FLAT or -slack <= seen <= slack or (seen > 0) == (face.side > 0)
+
+
+def may_shade(caster: Face, face: Face) -> bool:
+    """Return whether the ranges of a face let it shade another."""
+    if caster.box is None or face.box is None:
+        return True
+    left, right, low, high, _, near = caster.box
+    x, x_end, y, y_end, z, _ = face.box
+    return right >= x and left <= x_end and high >= y and low <= y_end and near >= z
+
+
+def values(plane: tuple[int, int, int, int], corners: Iterable[Vector]) -> tuple[int, int, int]:
+    """Return a function at the corners of a face."""
+    a, b, c = (inner(plane[:3], place) + plane[3] for place in corners)
+    return a, b, c
+
+
+def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
+    """Return LIT, DARK, or what shades parts of a face."""
+    shadows: list[Shadow] = []
+    homogeneous: list[Vector] = []
+    for caster in casters:
+        if caster is face or not may_shade(caster, face):
+            continue
+        if min(values(face.planes[3], caster.corners)) >= 0:
+            continue
+        sides = [values(plane, caster.corners) for plane in face.planes[:3]]
+        if any(max(side) <= 0 for side in sides):
+            continue
+        lanes = [values(plane, face.corners) for plane in caster.planes]
+        if any(max(lane) <= 0 for lane in lanes):
+            continue
+        if all(min(lane) >= 0 for lane in lanes):
+            return DARK
+        if not homogeneous:
+            homogeneous = canvas_places(scene, face, mesh, view, registers)
+        shadow = shadow_on(homogeneous, sides, lanes, scene.canvas.height)
+        if shadow is not None:
+            if not shadow.functions:
+                return DARK
+            shadows.append(shadow)
+    return sorted(shadows, key=lambda each: each.top) or LIT
+
+
+def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers) -> list[Vector]:
+    """Return the corners of a face on the canvas: column and row in sub-pixels, and the distance, by all of which they
+    are multiplied.
+    """
+    thing = scene.objects[face.object]
+    transform.set_matrix(view, thing, to_matrix(thing.rotation), registers)
+    clip = [vertex_shader.clip_coordinates(mesh, k, registers)[:3] for k in mesh.faces[face.number]]
+    bias = layout.PIXEL_BIAS << 8
+    distances = [1 << 32 if view.orthographic else w for _, _, w in clip]
+    limit = 1 << layout.GUARD_BITS
+    if all(
+        w >= registers.near and max(x, y) < d * limit and min(x, y) >= 0
+        for (x, y, w), d in zip(clip, distances, strict=True)
+    ):
+        if view.orthographic:
+            return [((x >> 32) - bias, (y >> 32) - bias, 1) for x, y, _ in clip]
+        shift = max(max(distances).bit_length() - DISTANCE_BITS, 0)
+        return [
+            ((divide(x, w) - bias) * (w >> shift), (divide(y, w) - bias) * (w >> shift), w >> shift) for x, y, w in clip
+        ]
+    # nearer than the near plane, or far beyond the canvas
+    places = [(x - bias * d, y - bias * d, d) for (x, y, _), d in zip(clip, distances, strict=True)]
+    shift = max(max(abs(k) for place in places for k in place).bit_length() - CLIP_BITS, 0)
+    return [(x >> shift, y >> shift, w >> shift) for x, y, w in places]
+
+
+def shadow_on(
+    places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], lanes: Sequence[tuple[int, int, int]], height: int
+) -> Shadow | None:
+    """Return the shadow of a face on another; None if none of it is on the canvas.
+
+    places: of the receiving face on the canvas, homogeneous. sides: its sides, at the corners of what casts the shadow.
+    lanes: the functions of that at the corners of the receiving face.
+    """
+    weights = [product(places[(k + 1) % 3], places[(k + 2) % 3]) for k in range(3)]
+    determinant = inner(weights[0], places[0])
+    if determinant == 0:
+        return None
+    top, bottom = rows_of(places, sides, height)
+    if top >= bottom:
+        return None
+    functions = []
+    for number, lane in enumerate(lanes):
+        if min(lane) >= 0:
+            continue
+        x, y, constant = (
+            sum(value * weight[axis] for value, weight in zip(lane, weights, strict=True)) for axis in range(3)
+        )
+        if determinant < 0:
+            x, y, constant = -x, -y, -constant
+        x, y = x << 5, y << 5
+        shift = max(max(abs(x), abs(y)).bit_length() - GRADIENT_BITS, 0)
+        x, y, constant = x >> shift, y >> shift, constant >> shift
+        if number < 3:
+            # neighbours overlap, so that rounding makes no cracks
+            constant += SLACK
+        if constant <= -BOUND:
+            return None
+        if constant < BOUND:
+            functions.append(Function(x, y, constant))
+    return Shadow(top, bottom, tuple(functions))
+
+
+def rows_of(places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], height: int) -> tuple[int, int]:
+    """Return the rows of the canvas in which a shadow may be: the first, and the one after the last."""
+    rows = []
+    for corner in range(3):
+        weights = [side[corner] for side in sides]
+        w = sum(weight * place[2] for weight, place in zip(weights, places, strict=True))
+        if sum(weights) <= 0 or w <= 0:
+            return 0, height
+        y = sum(weight * place[1] for weight, place in zip(weights, places, strict=True))
+        rows.append(divide_signed(y, w))
+    return max((min(rows) - WIDER) >> 8, 0), min(((max(rows) + WIDER) >> 8) + 1, height)

@@ -1,0 +1,70 @@
+"""A ground under the objects of a scene."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from attrs import field, frozen
+
+from ..checks import Color, Floats, color, number
+from ..errors import InputError
+from ..values import checked, with_names
+from ._arithmetic import length
+from ._material import Material
+from ._mesh import Mesh
+from ._object import Object
+
+#: The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
+#: which it begins to fade; how far it is below the lowest vertex, as a part of that half diagonal.
+REACH, INNER, GAP = 2.25, 0.4, 2.0**-10
+#: Matte.
+MATERIAL = Material("flat", ambient=0.4, diffuse=0.7, specular=0.0)
+#: Its coordinates are multiples of the half diagonal, rounded up to a power of two, times this.
+STEP = 2.0**-20
+
+
+def _optional(value: Any, name: str = "", low: float = -math.inf) -> float | None:
+    return None if value is None else number(value, name, low)
+
+
+@frozen(field_transformer=with_names)
+class Ground:
+    """A level, matte disc under the objects, which catches shadows and fades into the background; it is drawn last.
+
+    height: its y in the world; just below the lowest vertex by default.
+    radius: where nothing is left of it, in world units, above 0; a multiple of the size of the objects by default.
+    """
+
+    color: Color = field(converter=color, metadata=checked("the colour of a ground"))
+    height: float | None = field(default=None, converter=_optional, metadata=checked("the height of a ground"))
+    radius: float | None = field(default=None, converter=_optional, metadata=checked("the radius of a ground", 0))
+
+    def __attrs_post_init__(self) -> None:
+        """Check the radius."""
+        if self.radius == 0:
+            raise InputError("the radius of a ground must be above 0")
+
+    def under(self, points: Floats) -> Object:
+        """Return the object that is this ground under points of the world, (n, 3)."""
+        if not len(points):
+            points = np.zeros((1, 3))
+        low, high = points.min(axis=0) / 2, points.max(axis=0) / 2
+        half = float(length(high - low)) or 1.0
+        step = math.ldexp(STEP, math.frexp(half)[1])
+
+        def on_grid(value: float) -> float:
+            return math.floor(value / step) * step
+
+        x, _, z = (on_grid(float(value)) for value in low + high)
+        height = on_grid(2 * float(low[1]) - GAP * half) if self.height is None else self.height
+        radius = on_grid(REACH * half) if self.radius is None else self.radius
+        corners = [(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]
+        mesh = Mesh(corners, [(0, 1, 2), (0, 2, 3)], self.color)
+        return Object(mesh, (x, height, z), scale=radius, material=MATERIAL, fade=(INNER * radius, radius))
+
+
+def ground_of(value: Any, name: str = "the ground") -> Ground | None:
+    """Return a ground, given as itself or as a colour."""
+    return value if value is None or isinstance(value, Ground) else Ground(color(value, name))
