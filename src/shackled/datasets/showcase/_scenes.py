@@ -59,10 +59,16 @@ def _put(
     return Object(mesh, position, from_euler(turn), scale, material, cull, opacity=opacity)
 
 
-def _floor(color: str) -> Object:
-    """Return a wide plane at y = 0, of one colour."""
-    line = np.array([-40.0, 40.0])
-    return _put(_terrain(line, line, 0.0), UNLIT, color)
+def _floor(color: str, ambient: float = 0.45, diffuse: float = 0.6, reach: float = 9.0) -> Object:
+    """Return a matte plane at y = 0 that fades into the background; it comes before what shines through."""
+    plane = _terrain(np.array([-1.0, 1.0]), np.array([-1.0, 1.0]), 0.0)
+    matte = Material("flat", ambient=ambient, diffuse=diffuse, specular=0, shininess=1)
+    return Object(painted(plane, color), scale=reach, material=matte, fade=(0.35 * reach, reach))
+
+
+def _sun(toward: ArrayLike, color: str) -> Light:
+    """Return a directional light that casts shadows."""
+    return evolve(Light.directional(toward, color), shadow=True)
 
 
 def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
@@ -98,7 +104,7 @@ def still_life() -> Scene:
             _put(_chessboard(), Material("flat", ambient=0.25, diffuse=0.8, specular=0.15, shininess=20)),
         ],
         Camera.perspective((0.8, 4.6, 11.5), (0.25, 1.15, 0), fov=38),
-        [Light.point((-5, 8, 6.5), "#fff1dc"), Light.directional((0.9, 0.5, 0.4), "#3c4866")],
+        [evolve(Light.point((-5, 8, 6.5), "#fff1dc"), shadow=True), Light.directional((0.9, 0.5, 0.4), "#3c4866")],
         Background("#27314a", "#c9a68a"),
         ambient_light="#c8d4ff",
     )
@@ -158,11 +164,10 @@ def glass() -> Scene:
             _put(shapes.sphere(), clear, "#12a0c0", (-0.45, 0.34, 1.9), scale=0.34, opacity=0.6),
         ],
         Camera.perspective((0.4, 2.7, 9.2), (0.2, 1.5, 0), fov=29),
-        [Light.directional((-0.5, 0.75, 0.6), "#fff4e4")],
+        [_sun((-0.6, 0.8, 0.5), "#fff4e4")],
         Background("#e9dccb", "#e9dccb"),
         ambient_light="#f0ece4",
-        fog=Fog("#e9dccb", 9, 24),
-        rim=Rim("#5c5c64", 2),
+        rim=Rim("#3c4048", 4),
     )
 
 
@@ -193,11 +198,10 @@ def vase() -> Scene:
     clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
     return _scene(
         [_floor("#d8c8b0"), _put(mesh, clay, turn=(0, 20, 0))],
-        Camera.perspective((0, 2.0, 6.6), (0, 1.3, 0), fov=25),
-        [Light.directional((-0.6, 0.6, 0.7), "#fff2dc")],
+        Camera.perspective((0, 2.0, 6.8), (0, 1.28, 0), fov=27),
+        [_sun((-0.6, 0.75, 0.55), "#fff2dc")],
         Background("#efe6d6"),
         ambient_light="#e8e4f0",
-        fog=Fog("#efe6d6", 7.2, 18),
     )
 
 
@@ -242,7 +246,7 @@ def forest() -> Scene:
     return _scene(
         [_put(shapes.joined(*trees), matt), _put(land, matt, "#80874c")],
         Camera.perspective((0, 2.2, 11), (0, 2.6, 0), fov=38),
-        [Light.directional((-0.9, 0.55, 0.15), "#ffcf94")],
+        [_sun((-0.9, 0.6, 0.2), "#ffcf94")],
         Background("#6f9cc4", "#ffe2c0"),
         ambient_light="#6c7890",
         hemisphere=Hemisphere("#5a7898", "#181c14"),
@@ -347,7 +351,7 @@ def plaster() -> Scene:
     color = "#f6f3ee"
     return _scene(
         [
-            _floor("#ecc79a"),
+            _floor("#f2bf86", 0.5, 0.75),
             _put(shapes.torus(), chalk, color, (-2.15, 1.0, -0.2), (90, 0, 0)),
             _put(shapes.dodecahedron(), facets, color, (0.1, 0.98, -0.9), (10, 20, 0), 1.2),
             _put(shapes.cone(60), chalk, color, (2.35, 0.9, -0.3)),
@@ -355,11 +359,10 @@ def plaster() -> Scene:
             _put(shapes.superellipsoid(), chalk, color, (1.05, 0.62, 1.5), (0, 35, 0), 0.62),
         ],
         Camera.perspective((0, 2.7, 9.4), (0.05, 1.0, 0), fov=28),
-        [Light.directional((-0.7, 0.7, 0.35), "#ffe9c4")],
+        [_sun((-0.7, 0.75, 0.4), "#ffe9c4")],
         Background("#bcd6ee"),
         ambient_light="#181818",
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
-        fog=Fog("#bcd6ee", 10, 30),
         tone=Tone(1.15, gamma=True),
     )
 
@@ -395,8 +398,10 @@ def wires() -> Scene:
 
 
 def cornell_box() -> Scene:
-    """Return the Cornell box, its light added up in linear space."""
-    return evolve(_piece("cornell-box"), tone=Tone(0.9, filmic=True, gamma=True))
+    """Return the Cornell box with shadows, its light added up in linear space."""
+    scene = _piece("cornell-box")
+    lamp = evolve(scene.lights[0], shadow=True)
+    return evolve(scene, lights=[lamp], tone=Tone(0.9, filmic=True, gamma=True))
 
 
 # ---- hemisphere and rim ----
