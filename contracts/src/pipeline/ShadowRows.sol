@@ -17,6 +17,8 @@ uint256 constant SHADOW_COUNT_MASK = 0xff;
 uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
 uint256 constant SHADOW_DARK = 1;
+/// @dev In rows of fewer pixels the functions are taken at all samples.
+uint256 constant SHORT_SPAN = 5;
 /// @dev How far the value of a function is below the top of a word, and where it is there.
 uint256 constant CONSTANT_TO_TOP = 96;
 uint256 constant LANE_AT_TOP = 192;
@@ -118,6 +120,11 @@ library ShadowRows {
                 )
                 mstore(add(target, 0x20), mul(shl(3, x), ONES_64))
                 target := add(target, 0x40)
+                // ranges would cost more than the few pixels
+                if lt(sub(end, column), SHORT_SPAN) {
+                    innerEnd := 0
+                    continue
+                }
                 // more than the change from the centre to a sample
                 let sign := sar(255, y)
                 let change := sub(xor(y, sign), sign)
@@ -174,10 +181,13 @@ library ShadowRows {
             uint256 dark;
             if (list == SHADOW_DARK) dark = covered;
             else if (list != 0) dark = load(load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN))) & covered;
+            uint256 share = load(SHADOW_SHARE);
+            if (dark == 0 && share == ALL_SAMPLES) return;
             uint256 total = count(covered);
-            uint256 visible = dark == 0 ? total : total - count(dark);
-            uint256 share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
-            if (share == load(SHADOW_SHARE)) return;
+            uint256 visible = total - count(dark);
+            uint256 before = share;
+            share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
+            if (share == before) return;
             store(SHADOW_SHARE, share);
             uint256 light = load(SHADOW_LIGHT);
             store(light + LIGHT_COLOR, part(load(SHADOW_COLOR), visible, total));

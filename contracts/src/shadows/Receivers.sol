@@ -160,15 +160,18 @@ library Receivers {
 
     /// @dev How many bits a number has above so many.
     function excess(uint256 value, uint256 bits) private pure returns (uint256 shift) {
-        unchecked {
-            value >>= bits;
-            for (uint256 step = 128; step != 0; step >>= 1) {
-                if (value >> step != 0) {
-                    value >>= step;
-                    shift += step;
-                }
+        assembly ("memory-safe") {
+            value := shr(bits, value)
+            if value {
+                shift := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
+                shift := or(shift, shl(6, lt(0xffffffffffffffff, shr(shift, value))))
+                shift := or(shift, shl(5, lt(0xffffffff, shr(shift, value))))
+                shift := or(shift, shl(4, lt(0xffff, shr(shift, value))))
+                shift := or(shift, shl(3, lt(0xff, shr(shift, value))))
+                shift := or(shift, shl(2, lt(0xf, shr(shift, value))))
+                shift := or(shift, shl(1, lt(0x3, shr(shift, value))))
+                shift := add(or(shift, lt(1, shr(shift, value))), 1)
             }
-            if (value != 0) ++shift;
         }
     }
 

@@ -17,8 +17,8 @@ from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted
 from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
-from .structs import CULL_BACKFACES, FLAT, POINT, UNLIT, WIREFRAME, Scene
-from .vector import Vector, cross, normalize, scale, subtract, to_matrix
+from .structs import CULL_BACKFACES, FLAT, POINT, SMOOTH, UNLIT, WIREFRAME, Scene
+from .vector import Vector, cross, normalize, scale, subtract, to_matrix, transposed_times
 from .view import View
 from .words import divide, divide_signed
 
@@ -155,7 +155,7 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
     casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
     eye = frame.direction(view.forward) if view.orthographic else frame.place(scene.camera.eye)
     for face in faces:
-        if receives(scene, face, eye, view.orthographic):
+        if receives(scene, face, eye, view.orthographic) and not turns_away(scene, light, face, meshes[face.object]):
             table.faces[face.object][face.number] = shade(scene, face, casters, meshes[face.object], view, registers)
     return table
 
@@ -298,6 +298,16 @@ def receives(scene: Scene, face: Face, eye: Vector, orthographic: bool) -> bool:
         return False
     # the light of smooth shading may be positive on faces that are turned away
     return thing.material.shading != FLAT or -slack <= seen <= slack or (seen > 0) == (face.side > 0)
+
+
+def turns_away(scene: Scene, light: int, face: Face, mesh: Mesh) -> bool:
+    """Return whether all normals of a smooth face that is turned away point away from a directional light."""
+    thing, lamp = scene.objects[face.object], scene.lights[light]
+    if face.side > 0 or thing.material.shading != SMOOTH or not thing.flags & CULL_BACKFACES or lamp.kind == POINT:
+        return False
+    toward = transposed_times(to_matrix(thing.rotation), normalize(lamp.vector))
+    normals = mesh.normals or []
+    return all(sum(a * b for a, b in zip(normals[k], toward, strict=True)) <= 0 for k in mesh.faces[face.number])
 
 
 def may_shade(caster: Face, face: Face) -> bool:
