@@ -32,7 +32,7 @@ contract Shadows is SceneErrors {
     /// @param casters The addresses of the faces that cast shadows.
     /// @param sets See Faces; of `words` words each.
     /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas, of which there are `height`.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
@@ -46,6 +46,7 @@ contract Shadows is SceneErrors {
         uint256 words;
         uint256 found;
         uint256 heads;
+        uint256 width;
         uint256 height;
         int256[3] eye;
         uint256 light;
@@ -73,7 +74,7 @@ contract Shadows is SceneErrors {
             reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             State memory state;
-            (state.height, state.light) = (scene.canvas.height, light);
+            (state.width, state.height, state.light) = (scene.canvas.width, scene.canvas.height, light);
             int256[6] memory bounds = readVertices(scene, state);
             if (bounds[0] <= bounds[3]) {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
@@ -379,7 +380,7 @@ contract Shadows is SceneErrors {
             if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
             uint256 list = freeMemory();
             uint256 end;
-            (shade, end) = Receivers.write(receiver, state.height, list + 0x40);
+            (shade, end) = Receivers.write(receiver, state.width, state.height, list + 0x40);
             if (shade == MISSED) return LIT;
             if (shade == COVERED) return DARK;
             setFreeMemory(end);
