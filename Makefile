@@ -88,10 +88,11 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
 
-gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, motion.json
+gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens.json, icons.json, motion.json
 	$(BIN)/python -m benchmarks.snapshot
 	$(BIN)/python -m benchmarks.studio
 	$(BIN)/python -m benchmarks.tokens
+	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
 bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of docs/antialiasing.md

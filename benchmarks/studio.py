@@ -91,16 +91,18 @@ def mesh_figures(keeper: Keeper) -> Figures:
 def png_figures(keeper: Keeper) -> Figures:
     """Measure PNG files of pictures of 128 x 128 pixels."""
 
-    def encoding(pixels: NDArray[np.uint8], scale: int) -> tuple[int, int]:
-        bmp = encode_bmp(pixels)
-        data = b"".join(value.to_bytes(32, "big") for value in (64, scale, len(bmp))) + bmp + bytes(-len(bmp) % 32)
-        result = keeper.chain.call("PngEncoder", artifact("PngEncoder").selectors["encode"] + data)
+    def encoding(scale: int, *pictures: NDArray[np.uint8]) -> tuple[int, int]:
+        """Return gas and bytes of the PNG file of a picture, or of those over black and over white."""
+        files = [encode_bmp(pixels) for pixels in pictures]
+        signature = "encode(bytes,uint256)" if len(files) == 1 else "encodeTransparent(bytes,bytes,uint256)"
+        data = artifact("PngEncoder").interface.encode(signature, *files, scale)
+        result = keeper.chain.call("PngEncoder", data)
         return result.gas, int.from_bytes(result.output[32:64], "big")
 
     pieces = [picture_on_chain(generate_on_chain(seed_of(number))[0]).pixels for number in range(PIECES)]
     figures: Figures = {}
     for scale in (1, 2, 4, 8):
-        gas, size = zip(*(encoding(pixels, scale) for pixels in pieces), strict=True)
+        gas, size = zip(*(encoding(scale, pixels) for pixels in pieces), strict=True)
         name = f"PNG, Genesis, x {scale}, mean of {PIECES} pieces"
         figures |= {f"{name}: gas": sum(gas) // PIECES, f"{name}: bytes": sum(size) // PIECES}
     others = {
@@ -109,8 +111,12 @@ def png_figures(keeper: Keeper) -> Figures:
         "noise": np.random.default_rng(1).integers(0, 256, (128, 128, 3), np.uint8),
     }
     for picture, pixels in others.items():
-        gas_, size_ = encoding(pixels, 4)
+        gas_, size_ = encoding(4, pixels)
         figures |= {f"PNG, {picture}, x 4: gas": gas_, f"PNG, {picture}, x 4: bytes": size_}
+    black, white = (render(load("teapot", size=128, background=each)).pixels for each in ("black", "white"))
+    for scale in (1, 4):
+        name, (gas_, size_) = f"PNG, teapot, transparent, x {scale}", encoding(scale, black, white)
+        figures |= {f"{name}: gas": gas_, f"{name}: bytes": size_}
     return figures
 
 
@@ -143,7 +149,13 @@ def meshes(figures: Figures) -> str:
 def pictures(figures: Figures) -> str:
     """Return the figures of PNG files as a table in Markdown."""
     lines = ["| PNG of 128 x 128 pixels | gas | bytes |", "|---|---:|---:|"]
-    for name in ("Genesis, x 1, mean of 16 pieces", "Genesis, x 4, mean of 16 pieces", "teapot, x 4", "noise, x 4"):
+    for name in (
+        "Genesis, x 1, mean of 16 pieces",
+        "Genesis, x 4, mean of 16 pieces",
+        "teapot, x 4",
+        "teapot, transparent, x 4",
+        "noise, x 4",
+    ):
         title = name.replace("x 1", "128 x 128").replace("x 4", "512 x 512")
         lines.append(f"| {title} | {figures[f'PNG, {name}: gas']:,} | {figures[f'PNG, {name}: bytes']:,} |")
     return "\n".join(lines)

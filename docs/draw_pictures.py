@@ -19,12 +19,13 @@ from attrs import evolve
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from shackled import Animation, Background, Image, Light, Material, Scene, load, render, turntable
+from shackled import Animation, Background, Camera, Image, Light, Material, Object, Scene, load, render, turntable
 from shackled.datasets import Piece, teapot
-from shackled.datasets.common import builtin
+from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.scene import LookOptions, resize, stage
+from shackled.datasets.showcase import draw_showcase
+from shackled.scene import LookOptions, painted, resize, stage
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 from shackled.studio import make_apng
@@ -76,6 +77,22 @@ def smoothed() -> PillowImage.Image:
     return PillowImage.fromarray(np.hstack(pair)).resize((8 * 96, 4 * 96), PillowImage.Resampling.NEAREST)
 
 
+def transparent() -> tuple[PillowImage.Image, int | None]:
+    """A mushroom under glass before its background, and over a checkerboard; the gas of the second picture."""
+    scene = load("icons/mushroom", 256, antialias=True)
+    pane = load("cube", color="#d8f4ff").objects[0]
+    glass = Material("flat", ambient=0.6, diffuse=0.4, specular=0.3, shininess=20)
+    pane = evolve(
+        pane, position=(0.5, -0.32, 0.9), scale=0.4, rotation=(0.1, -0.25, 0.08, 1), material=glass, opacity=0.45
+    )
+    scene = evolve(scene, objects=[*scene.objects, pane])
+    whole, cut = render(scene), render(scene, transparent=True)
+    checks = np.add(*np.indices((256, 256)) // 16) % 2 * 30 + 205
+    board = PillowImage.fromarray(checks.astype(np.uint8)).convert("RGBA")
+    board.alpha_composite(cut.to_pil())
+    return PillowImage.fromarray(np.hstack([whole.pixels, np.asarray(board.convert("RGB"))])), cut.gas
+
+
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     flat = evolve(GLAZED, shading="flat")
@@ -99,6 +116,42 @@ def strip() -> list[Image]:
         whole: LookOptions = {**base, **look}
         images.append(render(pot(4, 128, material, **whole)))
     return images
+
+
+def effects() -> dict[str, list[Image]]:
+    """The options of docs/light.md: rows of pictures, 192 x 192 pixels each, of which the first is without."""
+    chalk = Material("smooth", ambient=0.6, diffuse=0.5, specular=0.1, shininess=20)
+    pale = pot(6, 192, chalk, color="#f0ece4", lights=KEY, ambient_light="#a0a0a0", background="#c4d8ec")
+    dark = pot(6, 192, evolve(GLAZED, ambient=0.12), color=CLAY, lights=KEY, background=NIGHT)
+    spheres = [Object(shapes.icosphere(3), (-1.5 + 1.25 * k, 0, 2 - 2.5 * k), material=GLAZED) for k in range(6)]
+    row = Scene(
+        [evolve(each, mesh=painted(each.mesh, CLAY)) for each in spheres],
+        Camera.perspective((0, 2.2, 9.0), (0.1, -0.1, 0), fov=42),
+        KEY,
+        "#dfe6ea",
+        width=192,
+        height=192,
+    )
+    lamps = [Light.directional((-1, 0.3, 0.5), "#ff5a3c"), Light.directional((1, 0.3, 0.5), "#3c7bff")]
+    lit = pot(
+        6,
+        192,
+        evolve(GLAZED, ambient=0.05, diffuse=0.7),
+        color="#d8d0c8",
+        lights=[evolve(KEY, color="#ffd9a8"), *lamps],
+        background=NIGHT,
+    )
+    looks: dict[str, tuple[Scene, list[LookOptions]]] = {
+        "hemisphere": (pale, [{}, {"ambient_light": "#181818", "hemisphere": ("#a8ccff", "#c07838")}]),
+        "rim": (dark, [{}, {"rim": ("#7ab8ff", 2)}, {"rim": ("#7ab8ff", 5)}]),
+        "fog": (row, [{}, {"fog": "#dfe6ea"}, {"fog": ("#dfe6ea", 8, 14)}]),
+        "tone": (lit, [{}, {"filmic": True}, {"gamma": True}, {"gamma": True, "filmic": True}]),
+    }
+    rendered: dict[str, list[Image]] = {}
+    for name, (scene, rows) in looks.items():
+        smoothed: list[LookOptions] = [{"antialias": True, **look} for look in rows]
+        rendered[name] = [render(scene, **look) for look in smoothed]
+    return rendered
 
 
 def spin() -> Animation:
@@ -140,12 +193,22 @@ def main() -> None:
         figures[name] = {key: getattr(image, key) for key in ("width", "height", "triangles", "gas")}
     stages_strip(draw_stages(resize(load("teapot"), 256))).save(IMAGES / "stages.png", optimize=True)
     smoothed().save(IMAGES / "antialiasing.png", optimize=True)
+    both, gas = transparent()
+    both.save(IMAGES / "transparent.png", optimize=True)
+    figures["transparent"] = {"gas": gas}
     turning = spin()
     turning.save(IMAGES / "turntable.gif")
     figures["turntable"] = {"frames": len(turning.frames), "gas": turning.gas}
     film = make_apng(load("icons/rocket", 64), frames=12, duration=100, scale=4)
     film.save(IMAGES / "motion.png")
     figures["motion"] = {"frames": 12, "gas": film.gas}
+    for name, row in effects().items():
+        PillowImage.fromarray(np.hstack([each.pixels for each in row])).save(IMAGES / f"{name}.png", optimize=True)
+        figures[name] = {"gas": [each.gas for each in row]}
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = list(draw_showcase(Path(folder)))
+        (IMAGES / "showcase.png").write_bytes(Path(folder, "sheet.png").read_bytes())
+    figures["showcase"] = {each.name: each.gas for each in drawn}
     images = strip()
     PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
     figures["strip"] = {"gas": [image.gas for image in images]}

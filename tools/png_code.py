@@ -65,12 +65,43 @@ library PngCode {{
         return ({end}, {end_size});
     }}
 }}
+
+/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes there.
+library AlphaCode {{
+    /// @notice The code of a pixel of zeros, 36 bits; bytes, 9 bits apart, are added.
+    uint256 internal constant PIXEL = {alpha_pixel};
+
+    /// @notice Of each number of pixels from 1 to 64 the code of the match that repeats one so often (19 bits), and its
+    /// length (5 bits).
+    function tables() internal pure returns (bytes memory) {{
+        return
+{alpha_tables};
+    }}
+
+    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    function header() internal pure returns (bytes memory) {{
+        return
+{alpha_header};
+    }}
+
+    /// @notice The rest of it: bits, and how many.
+    function headerRest() internal pure returns (uint256, uint256) {{
+        return ({alpha_rest}, {alpha_rest_size});
+    }}
+
+    /// @notice What ends the block: bits, and how many.
+    function end() internal pure returns (uint256, uint256) {{
+        return ({alpha_end}, {alpha_end_size});
+    }}
+}}
 """
 
 #: Bits of the code of each byte.
 LITERAL_LENGTH = 9
 #: Bits of the code of each symbol: 256 bytes, the end, 29 lengths of matches.
 CODE_LENGTHS = 256 * [LITERAL_LENGTH] + [int(digit, 16) for digit in "c4eeeee4eeead2d98a98a788887774"]
+#: The same for pixels of four bytes, of which only whole ones are repeated.
+ALPHA_LENGTHS = 256 * [LITERAL_LENGTH] + [int(digit, 16) for digit in "704000500307077577777777777730"]
 END = 256
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
@@ -167,9 +198,14 @@ def short_match(length: int, distance: str) -> str:
     """Return the code of a repetition of 3 to 260 bytes."""
     if length > LONGEST:
         return short_match(length - 3, distance) + short_match(3, distance)
+    return _match(codes(), length, distance)
+
+
+def _match(table: list[str], length: int, distance: str) -> str:
+    """Return the code of a repetition of 3 to 258 bytes, by the codes of all symbols."""
     symbol, extra, first = next(row for row in reversed(_lengths()) if row[2] <= length)
     more = f"{length - first:0{extra}b}"[::-1] if extra else ""
-    return codes()[symbol] + more + distance
+    return table[symbol] + more + distance
 
 
 def _lengths() -> list[tuple[int, int, int]]:
@@ -203,7 +239,12 @@ def canonical(lengths: list[int]) -> list[str]:
 def code_header() -> str:
     """Return the header of the block: the last one, with dynamic codes."""
     # the distances 1 and 3 have a bit each, 2 has none
-    lengths = [*CODE_LENGTHS, 1, 0, 1]
+    return _header(CODE_LENGTHS, [1, 0, 1])
+
+
+def _header(symbol_lengths: list[int], distance_lengths: list[int]) -> str:
+    """Return the header of a block whose codes have these lengths."""
+    lengths = [*symbol_lengths, *distance_lengths]
     # the lengths of the codes, themselves as symbols: 16 repeats the one before 3 to 6 times
     symbols: list[tuple[int, str]] = []
     while lengths:
@@ -232,8 +273,8 @@ def code_header() -> str:
         [
             "1",
             "01",
-            _number(len(CODE_LENGTHS) - 257, 5),
-            _number(2, 5),
+            _number(len(symbol_lengths) - 257, 5),
+            _number(len(distance_lengths) - 1, 5),
             _number(last + 1 - 4, 4),
             *(_number(sizes[symbol], 3) for symbol in order[: last + 1]),
             *(texts[symbol] + more for symbol, more in symbols),
@@ -253,6 +294,11 @@ def write() -> str:
     others = {int(short_match(n, PIXEL), 2) ^ int(short_match(n, BYTE), 2) for n in (259, 260)}
     header = code_header()
     whole = len(header) // 8 * 8
+    alpha = canonical(ALPHA_LENGTHS)
+    alpha_matches = [_match(alpha, 4 * pixels, PIXEL) for pixels in range(1, 65)]
+    # the distances 1 and 4 have a bit each
+    alpha_header = _header(ALPHA_LENGTHS, [1, 0, 0, 1])
+    alpha_whole = len(alpha_header) // 8 * 8
     return FILE.format(
         tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in matches)),
         header=_literal(f"{int(header[:whole], 2):0{whole // 4}x}"),
@@ -266,6 +312,13 @@ def write() -> str:
         rest_size=len(header) - whole,
         end=int(codes()[END], 2),
         end_size=len(codes()[END]),
+        alpha_pixel=int(4 * alpha[0], 2),
+        alpha_tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in alpha_matches)),
+        alpha_header=_literal(f"{int(alpha_header[:alpha_whole], 2):0{alpha_whole // 4}x}"),
+        alpha_rest=int(alpha_header[alpha_whole:] or "0", 2),
+        alpha_rest_size=len(alpha_header) - alpha_whole,
+        alpha_end=int(alpha[END], 2),
+        alpha_end_size=len(alpha[END]),
     )
 
 

@@ -1,4 +1,4 @@
-"""Update the figures of README.md: those of benchmarks/ and of docs/images/pictures.json.
+"""Update the figures of README.md and docs/light.md: those of benchmarks/ and of docs/images/pictures.json.
 
 python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
 python -m tools.readme --check    writes nothing; fails if they are not up to date
@@ -14,6 +14,7 @@ from typing import Any
 from tools.pages import ROOT, update
 
 README = ROOT / "README.md"
+LIGHT = ROOT / "docs" / "light.md"
 RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = ROOT / "docs" / "images" / "pictures.json"
@@ -68,6 +69,25 @@ def pictures() -> str:
     )
 
 
+def effects() -> str:
+    """Return the table of what the pictures of docs/light.md cost, from left to right."""
+    data = json.loads(PICTURES.read_text("utf-8"))
+    lines = ["| pictures | without | with |", "|---|---:|---:|"]
+    for name, title in {"hemisphere": "light from the sky", "rim": "rim", "fog": "fog", "tone": "tone"}.items():
+        first, *others = (f"{gas / 1e6:.1f}" for gas in data[name]["gas"])
+        lines.append(f"| {title} | {first} | {', '.join(others)} |")
+    return "\n".join(lines)
+
+
+def showcase() -> str:
+    """Return a line about the scenes of the showcase."""
+    gas = json.loads(PICTURES.read_text("utf-8"))["showcase"].values()
+    return (
+        f"`shackled datasets showcase -o DIR` draws these {len(gas)} scenes, {millions(min(gas))} to"
+        f" {millions(max(gas))} gas each."
+    )
+
+
 def millions(gas: float) -> str:
     """Format gas as 4.9 million."""
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
@@ -78,8 +98,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Update the figures of README.md.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check
-    contents = {"costs": costs, "pictures": pictures, "tokens": tokens}
-    return update({README: lambda name: contents[name]()}, "python -m tools.readme", check)
+    contents = {"costs": costs, "effects": effects, "pictures": pictures, "showcase": showcase, "tokens": tokens}
+    return update(dict.fromkeys((README, LIGHT), lambda name: contents[name]()), "python -m tools.readme", check)
 
 
 if __name__ == "__main__":

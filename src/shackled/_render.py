@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
+
+from attrs import evolve
 
 from ._load import Thing, load
 from ._on import On, where_of
 from .animation import DURATION, Animation
 from .chain import Chain, open_chain
 from .errors import InputError
-from .image import Image, decode_bmp
-from .scene import LookOptions, Scene, full_turn, size_of
+from .image import Image, decode_bmp, uncovered
+from .scene import Background, LookOptions, Scene, full_turn, size_of
 
 if TYPE_CHECKING:
     from .parallel import Listener, Where
@@ -27,6 +30,7 @@ def render(
     tile: int | tuple[int, int] | None = None,
     listener: Listener | None = None,
     keep: Path | None = None,
+    transparent: bool = False,
     **look: Unpack[LookOptions],
 ) -> Image:
     """Render a picture.
@@ -38,10 +42,17 @@ def render(
     tile: size of the tiles in pixels, one number or (width, height); None chooses it, if tiles are needed at all.
     listener: receives the progress of a picture of several tiles.
     keep: a folder in which finished tiles are stored, so that the same call resumes; the caller removes it.
+    transparent: whether to leave out the background and to return `Image.alpha`. The scene is drawn twice, over black
+        and over white, so the gas is that of two pictures.
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    return draw(load(thing, size, **look), _where(on, gas_limit, tile), listener, keep)
+    scene, where = load(thing, size, **look), _where(on, gas_limit, tile)
+    if not transparent:
+        return draw([scene], where, listener, keep)[0]
+    backgrounds = ("white", "black") if scene.invert else ("black", "white")
+    black, white = draw([evolve(scene, background=Background(each)) for each in backgrounds], where, listener, keep)
+    return uncovered(black, white, scene)
 
 
 def turntable(
@@ -83,14 +94,16 @@ def turntable(
     return Animation(render_frames(turned, _where(on, gas_limit, tile), listener, keep).images, duration)
 
 
-def draw(scene: Scene, where: Where, listener: Listener | None = None, keep: Path | None = None) -> Image:
-    """Render a scene, by one call or by several."""
+def draw(
+    scenes: Sequence[Scene], where: Where, listener: Listener | None = None, keep: Path | None = None
+) -> list[Image]:
+    """Render scenes of one size, by one call each or by several."""
     if where.alone:
-        chain = where.chain
-        return render_whole(scene, open_chain(chain) if chain is None or isinstance(chain, str) else chain)
+        chain = open_chain(where.chain) if where.chain is None or isinstance(where.chain, str) else where.chain
+        return [render_whole(scene, chain) for scene in scenes]
     from .parallel import render_frames
 
-    return render_frames([scene], where, listener, keep).images[0]
+    return render_frames(scenes, where, listener, keep).images
 
 
 def render_whole(scene: Scene, chain: Chain) -> Image:

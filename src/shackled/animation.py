@@ -29,6 +29,7 @@ from .image import (
     one_of,
     pillow_bytes,
     png_options,
+    total,
     write_open,
 )
 from .palette import indexed
@@ -87,12 +88,12 @@ class Animation:
     @property
     def gas(self) -> int | None:
         """The sum of all frames; None where gas is not counted."""
-        return _sum([frame.gas for frame in self.frames]) if self.file is None else self.file.gas
+        return total(frame.gas for frame in self.frames) if self.file is None else self.file.gas
 
     @property
     def intrinsic_gas(self) -> int | None:
         """The sum of all frames; None where gas is not counted."""
-        return _sum([frame.intrinsic_gas for frame in self.frames]) if self.file is None else self.file.intrinsic_gas
+        return total(frame.intrinsic_gas for frame in self.frames) if self.file is None else self.file.intrinsic_gas
 
     @property
     def calls(self) -> int:
@@ -195,8 +196,3 @@ def check_animation(path: str | os.PathLike[str]) -> Path:
         raise InputError(f"the turntable {path} must end in {one_of(FORMATS)}, or be a folder")
     is_file = path.suffix or not os.path.lexists(path)
     return check_output_file(path, "turntable") if is_file else check_output_folder(path)
-
-
-def _sum(numbers: Sequence[int | None]) -> int | None:
-    known = [value for value in numbers if value is not None]
-    return sum(known) if len(known) == len(numbers) else None

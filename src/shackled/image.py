@@ -40,6 +40,10 @@ def _pixels(values: ArrayLike) -> Pixels:
     return pixels
 
 
+def _alpha(values: ArrayLike | None) -> Pixels | None:
+    return None if values is None else fixed(np.asarray(values), np.uint8)
+
+
 @frozen(repr=False)
 class Image(Value):
     """A picture as a contract made it.
@@ -48,6 +52,7 @@ class Image(Value):
     gas, intrinsic_gas: of the execution, and of a transaction before it; None where gas is not counted.
     made_by: the EVM, node or cluster. seconds: the duration of the call, which == ignores.
     scene: None if it is not known. calls: the number of calls that made it.
+    alpha: (H, W) uint8, from 0 where there is nothing to 255; None for a picture with a background.
     """
 
     pixels: Pixels = field(converter=_pixels, eq=array_key)
@@ -58,9 +63,14 @@ class Image(Value):
     seconds: float = field(default=0.0, eq=False)
     scene: Scene | None = None
     calls: int = 1
+    alpha: Pixels | None = field(default=None, converter=_alpha, eq=array_key)
 
     def __attrs_post_init__(self) -> None:
-        """Encode the pixels where the file is not given."""
+        """Check alpha; encode the pixels where the file is not given."""
+        if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:
+            raise InputError(
+                f"alpha must have the shape {self.pixels.shape[:2]} of the picture, not {self.alpha.shape}"
+            )
         if not self.bmp:
             object.__setattr__(self, "bmp", encode_bmp(self.pixels))
 
@@ -93,8 +103,13 @@ class Image(Value):
 
     @property
     def sha256(self) -> str:
-        """The SHA-256 of red, green and blue of all pixels, rows from the top, in hexadecimal digits."""
-        return hashlib.sha256(self.pixels.tobytes()).hexdigest()
+        """The SHA-256 of the bytes of `channels`, in hexadecimal digits."""
+        return hashlib.sha256(self.channels.tobytes()).hexdigest()
+
+    @property
+    def channels(self) -> Pixels:
+        """Red, green and blue of all pixels, (H, W, 3), or with alpha, (H, W, 4), rows from the top."""
+        return self.pixels if self.alpha is None else np.dstack([self.pixels, self.alpha])
 
     @cached_property
     def scene_chunk(self) -> SceneChunk | None:
@@ -104,10 +119,13 @@ class Image(Value):
     def encode(self, extension: str, scene: bool | None = None) -> bytes:
         """Return the bytes of a file in a format of `FORMATS`, such as ".png". InputError for any other.
 
-        A GIF has at most 256 colours, the nearest where there are more; other formats are exact.
+        A GIF has at most 256 colours, the nearest where there are more; other formats are exact. A picture with alpha
+        needs ".png" or ".svg".
         scene: whether a PNG file carries the scene, from which `load` restores it; None if it takes at most 64 KB.
         """
         extension = check_extension(extension, FORMATS)
+        if self.alpha is not None:
+            check_alpha(extension)
         if extension == PICTURE:
             return _encode_png(self, scene)
         check_scene(scene, extension)
@@ -133,15 +151,15 @@ class Image(Value):
 
     def to_pil(self) -> PillowImage.Image:
         """Return the picture as an image of Pillow."""
-        return PillowImage.fromarray(self.pixels)
+        return PillowImage.fromarray(self.channels)
 
     def show(self) -> None:
         """Open the picture in the viewer of the system."""
         self.to_pil().show()
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        """Return the pixels, (H, W, 3), for NumPy."""
-        return as_array(self.pixels, dtype, copy)
+        """Return the pixels, (H, W, 3), or with alpha, (H, W, 4), for NumPy."""
+        return as_array(self.channels, dtype, copy)
 
     def __repr__(self) -> str:
         triangles = "" if self.triangles is None else f", {plural(self.triangles, 'triangle')}"
@@ -156,10 +174,11 @@ Encoded = TypeVar("Encoded")
 
 @frozen
 class Format(Generic[Encoded]):
-    """A file format: its media type, and its encoder."""
+    """A file format: its media type, its encoder, and whether it keeps alpha."""
 
     media_type: str
     encode: Callable[[Encoded], bytes]
+    has_alpha: bool = False
 
 
 def _encode_png(image: Image, scene: bool | None = None) -> bytes:
@@ -181,9 +200,9 @@ def _encode_gif(image: Image) -> bytes:
 
 #: The formats of `Image.save`, by extension.
 FORMATS: dict[str, Format[Image]] = {
-    PICTURE: Format("image/png", _encode_png),
+    PICTURE: Format("image/png", _encode_png, has_alpha=True),
     ".bmp": Format("image/bmp", lambda image: image.bmp),
-    ".svg": Format("image/svg+xml", _encode_svg),
+    ".svg": Format("image/svg+xml", _encode_svg, has_alpha=True),
     ".gif": Format("image/gif", _encode_gif),
 }
 
@@ -222,6 +241,46 @@ def check_scene(scene: bool | None, extension: str) -> None:
     """Refuse a scene in a file that is not a PNG file."""
     if scene:
         raise InputError(f"only a {PICTURE} file carries its scene, not {extension}")
+
+
+def check_alpha(extension: str) -> None:
+    """Refuse a format of `FORMATS` that does not keep alpha."""
+    if not FORMATS[extension].has_alpha:
+        known = one_of(name for name, each in FORMATS.items() if each.has_alpha)
+        raise InputError(f"a transparent picture needs a {known} file: {extension} has no alpha channel")
+
+
+def uncovered(black: Image, white: Image, scene: Scene | None = None) -> Image:
+    """Return the picture of a scene without its background, from its pictures over black and over white.
+
+    What covers a share of a pixel hides that share of the difference between the two. The contracts compute the same:
+    see contracts/src/encode/TransparentPng.sol. Gas and calls are those of both pictures.
+    """
+    dark = black.pixels.astype(np.int64)
+    alpha = 255 - np.maximum(white.pixels - dark, 0).max(axis=2)
+    shared = np.maximum(alpha, 1)[:, :, None]
+    pixels = np.where(alpha[:, :, None] > 0, np.minimum((dark * 255 + shared // 2) // shared, 255), 0)
+    both = (black, white)
+    return Image(
+        pixels,
+        gas=total(image.gas for image in both),
+        intrinsic_gas=total(image.intrinsic_gas for image in both),
+        made_by=black.made_by,
+        seconds=black.seconds + white.seconds,
+        scene=scene,
+        calls=black.calls + white.calls,
+        alpha=alpha,
+    )
+
+
+def total(numbers: Iterable[int | None]) -> int | None:
+    """Return a sum of gas; None if it was not counted everywhere."""
+    found = 0
+    for number in numbers:
+        if number is None:
+            return None
+        found += number
+    return found
 
 
 def data_uri(media_type: str, data: bytes) -> str:

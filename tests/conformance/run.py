@@ -10,14 +10,14 @@ from multiprocessing import get_context
 from .antialiasing import compare_samples
 from .compare import Result, compare
 from .effects import compare_effects, with_effects
-from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 
 
 @dataclass(frozen=True)
 class Task:
     """One comparison. row: of the table. piece: the name of a built-in piece, or "" for a random scene.
     number: the size of its canvas in pixels, or the seed. samples: whether the picture is antialiased. effects: whether
-    it has effects.
+    it has effects. textured: whether the random scene has textures.
     """
 
     row: str
@@ -25,6 +25,7 @@ class Task:
     number: int
     samples: bool = False
     effects: bool = False
+    textured: bool = False
 
     def run(self) -> Result:
         """Compares the pictures of the scene."""
@@ -42,6 +43,8 @@ class Task:
             )
         if self.samples:
             return compare_samples(f"random scene {self.number}, antialiased", random_scene(self.number))
+        if self.textured:
+            return compare(f"textured scene {self.number}", textured_scene(self.number))
         return compare(f"random scene {self.number}", random_scene(self.number))
 
 
@@ -50,6 +53,7 @@ def tasks(count: int, seed: int, only: str | None = None) -> Iterator[Task]:
     if only in (None, "random"):
         yield from (Task("random", "", number) for number in range(seed, seed + count))
         yield from (Task("random, antialiased", "", number, True) for number in range(seed, seed + count))
+        yield from (Task("random, textured", "", number, textured=True) for number in range(seed, seed + count))
         # the judge is slow
         yield from (Task("random, effects", "", number, effects=True) for number in range(seed, seed + count // 5))
     for piece in built_in() if only != "random" else ():

@@ -8,10 +8,10 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from shackled import Background, Camera, Light, Material, Mesh, Object, Scene
+from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture
 from shackled.datasets import Piece, pieces, require
 from shackled.datasets.common import shapes
-from shackled.scene import Shading, rotate, vertex_normals
+from shackled.scene import FILTERS, WRAPS, Shading, rotate, vertex_normals
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
@@ -48,6 +48,24 @@ def random_scene(seed: int) -> Scene:
         width=width,
         height=height,
     )
+
+
+def textured_scene(seed: int) -> Scene:
+    """The scene of a seed with textures of random texels on its objects."""
+    rng, scene = np.random.default_rng([13, seed]), random_scene(seed)
+    return evolve(scene, objects=[_with_texture(rng, o) for o in scene.objects])
+
+
+def _with_texture(rng: Rng, o: Object) -> Object:
+    """The object with a texture, whose coordinates go around the mesh as on a box, up to a few times."""
+    height, width = rng.integers(1, 9, 2).tolist()
+    pixels = rng.integers(0, 256, (height, width, 3), dtype=np.uint8)
+    texture = Texture(pixels, FILTERS[rng.integers(2)], WRAPS[rng.integers(2)])
+    points = o.mesh.positions - o.mesh.positions.mean(axis=0)
+    uvs = points @ rng.normal(size=(3, 2)) / (np.abs(points).max() or 1.0) * rng.choice([0.5, 1, 3]) + rng.normal(
+        size=2
+    )
+    return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
 def _canvas(rng: Rng) -> tuple[int, int]:

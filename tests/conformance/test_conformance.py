@@ -17,7 +17,7 @@ from .compare import MEAN_OF_RUN, MOST, Result, compare
 from .coverage import judge
 from .effects import compare_effects, with_effects
 from .neighbours import interior
-from .scenes import SIZES, built_in, built_in_scene, random_scene
+from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
@@ -47,6 +47,12 @@ def test_random_scenes() -> None:
     assert whole.faults_of_run() == []
     assert whole.interior > 200_000
     assert whole.empty < len(SEEDS) / 5
+
+
+def test_textured_scenes() -> None:
+    whole = sum((compare(f"textured scene {seed}", textured_scene(seed)) for seed in range(200, 225)), Result())
+    assert whole.faults_of_run() == []
+    assert whole.interior > 200_000
 
 
 @pytest.mark.parametrize("name", PIECES)

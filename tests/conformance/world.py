@@ -28,7 +28,8 @@ class Solid:
     """An object in the space of the camera: right, up, and toward the viewer.
 
     corners, colors, normals: (n, 3, 3) of the corners of n triangles. facing: (n, 3) their own unit normals.
-    first: the number of its first triangle, counted through all objects.
+    uvs: (n, 3, 2), where the corners are on the texture of the material; zeros without one. first: the number of its
+    first triangle, counted through all objects.
     """
 
     corners: Array
@@ -38,6 +39,7 @@ class Solid:
     material: Material
     cull: bool
     first: int
+    uvs: Array
 
 
 @dataclass(frozen=True)
@@ -106,6 +108,7 @@ def before_camera(scene: Scene) -> World:
                     material=o.material,
                     cull=o.cull,
                     first=first,
+                    uvs=np.zeros((len(faces), 3, 2)) if mesh.uvs is None else _floats(mesh.uvs)[faces],
                 )
             )
         first += len(faces) * (not o.wireframe)

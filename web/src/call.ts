@@ -3,7 +3,7 @@
 import { InputError } from "./errors.js";
 import { add, largest, rotation, times, type Quaternion, type Vector } from "./scene/arithmetic.js";
 import { MAX_LIGHTS, MAX_SIDE } from "./scene/checked.js";
-import { FUNCTIONS, SPOT, WORD, type FunctionName } from "./scene/encode.js";
+import { FIRST_IN_WORDS, FUNCTIONS, SPOT, WORD, type FunctionName } from "./scene/encode.js";
 import { MAX_COORDINATE, MIN_HALF_HEIGHT } from "./scene/fit.js";
 import { FACE, HEADER, NORMALS, WIDE, vertexSize } from "./scene/mesh.js";
 
@@ -149,7 +149,8 @@ class Reader {
         const spots: Field<Vector>[] = [];
         for (let record = start; record < start + size;) {
             const left = start + size - record - RECORD;
-            const content = left < 0 ? 0 : this.#view.getUint16(record + 3);
+            const unit = (this.#bytes[record] as number) < FIRST_IN_WORDS ? 1 : WORD;
+            const content = left < 0 ? 0 : unit * this.#view.getUint16(record + 3);
             const isSpot = this.#bytes[record] === SPOT;
             if (left < content || left < 0 || (isSpot && content !== SPOT_SIZE)) {
                 throw new InputError(`the extension at byte ${record} of the call has the wrong size, or is cut off`);

@@ -16,14 +16,15 @@ import {PngErrors} from "./PngErrors.sol";
 /// pixels can be made of a word at once; matches are looked up: see `PngCode`. One code, fitted to pictures of this renderer, does for all.
 library Png {
     uint256 internal constant MAX_SCALE = 8;
-    string private constant URI = "data:image/png;base64,";
+    string internal constant URI = "data:image/png;base64,";
     /// @dev Where in the bytes of the result, counted with the word of their length, the compressed data begin: behind the signature
     /// (8 bytes), the chunk IHDR (25), the head of the chunk IDAT (8) and that of zlib (2).
-    uint256 private constant DATA = 75;
+    uint256 internal constant DATA = 75;
     /// @dev The signature with the size and the name of the chunk IHDR; what follows the sides there; the sum of that, the size and the
     /// name of the chunk IDAT and the head of zlib, where sum and size are filled in later; the chunk IEND.
     uint256 private constant SIGNATURE_IHDR = 0x89504e470d0a1a0a0000000d49484452;
     uint256 private constant RGB_8 = 0x0802000000;
+    uint256 internal constant RGBA_8 = 0x0806000000;
     uint256 private constant IDAT_ZLIB = 0x494441547801;
     uint256 private constant IEND = 0x49454e44;
     uint256 private constant IEND_SUM = 0xae426082;
@@ -31,7 +32,7 @@ library Png {
     uint256 private constant BMP_KIND = 0x424d;
     uint256 private constant ONE_PLANE_24 = 0x01001800;
     /// @dev The filter of rows that are as the row above.
-    uint256 private constant UP = 2;
+    uint256 internal constant UP = 2;
     /// @dev The largest prime below 2^16, for the checksum Adler-32.
     uint256 private constant ADLER = 65521;
     /// @dev Rows are divided into parts of so many pixels, each of which begins with a pixel that is written.
@@ -135,10 +136,9 @@ library Png {
                 // behind the header, the row that is lowest
                 mstore(rows, add(bmp.offset, 54))
                 png := mload(0x40)
-                // signature; 13 bytes in the chunk IHDR: the sides, 8 bits for each of three channels; the chunk IDAT, and the head of zlib
-                let sides := or(shl(32, mul(width, scale)), mul(height, scale))
-                mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, sides)), shl(24, RGB_8)))
-                mstore(add(png, 64), shl(168, IDAT_ZLIB))
+            }
+            writeHead(png, width * scale, height * scale, RGB_8);
+            assembly ("memory-safe") {
                 let target := add(png, DATA)
                 mcopy(target, add(header, 32), mload(header))
                 target := add(target, mload(header))
@@ -149,7 +149,18 @@ library Png {
             (uint256 rest, uint256 restSize) = PngCode.headerRest();
             put(stream, rest << (256 - restSize), restSize);
             (uint256 second, uint256 first) = writeRows(stream, rows, scale);
+            (uint256 end, uint256 endSize) = PngCode.end();
+            put(stream, end << (256 - endSize), endSize);
             finish(png, stream, second, first);
+        }
+    }
+
+    /// @dev Writes the signature, 13 bytes in the chunk IHDR, the name of the chunk IDAT, and the head of zlib: what precedes DATA.
+    /// @param kind What follows the sides: RGB_8 or RGBA_8.
+    function writeHead(bytes memory png, uint256 width, uint256 height, uint256 kind) internal pure {
+        assembly ("memory-safe") {
+            mstore(add(png, 32), or(or(shl(128, SIGNATURE_IHDR), shl(64, or(shl(32, width), height))), shl(24, kind)))
+            mstore(add(png, 64), shl(168, IDAT_ZLIB))
         }
     }
 
@@ -183,7 +194,7 @@ library Png {
     }
 
     /// @dev The sides of a bitmap in pixels, each 1..65535.
-    function sizeOf(bytes calldata bmp) private pure returns (uint256 width, uint256 height) {
+    function sizeOf(bytes calldata bmp) internal pure returns (uint256 width, uint256 height) {
         unchecked {
             if (bmp.length < Bmp.HEADER) revert PngErrors.NotABitmap();
             uint256 kind;
@@ -552,12 +563,10 @@ library Png {
         }
     }
 
-    /// @dev Ends the block, turns the bits of each byte to the order of deflate, and adds the checksum Adler-32. After that the
+    /// @dev Turns the bits of each byte to the order of deflate, and adds the checksum Adler-32. After that the
     /// length of the file is right, and its last twelve bytes are free.
-    function finish(bytes memory png, Stream memory stream, uint256 second, uint256 first) private pure {
+    function finish(bytes memory png, Stream memory stream, uint256 second, uint256 first) internal pure {
         unchecked {
-            (uint256 end, uint256 endSize) = PngCode.end();
-            put(stream, end << (256 - endSize), endSize);
             second %= ADLER;
             first %= ADLER;
             assembly ("memory-safe") {
@@ -580,7 +589,7 @@ library Png {
     }
 
     /// @dev Fills in the size of the data and the sums of the chunks, and adds the chunk IEND.
-    function writeSums(bytes memory png) private pure {
+    function writeSums(bytes memory png) internal pure {
         unchecked {
             uint256 file;
             uint256 end;

@@ -52,3 +52,35 @@ library PngCode {
         return (4092, 12);
     }
 }
+
+/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes there.
+library AlphaCode {
+    /// @notice The code of a pixel of zeros, 36 bits; bytes, 9 bits apart, are added.
+    uint256 internal constant PIXEL = 34426978560;
+
+    /// @notice Of each number of pixels from 1 to 64 the code of the match that repeats one so often (19 bits), and its
+    /// length (5 bits).
+    function tables() internal pure returns (bytes memory) {
+        return
+            hex"0001250002a60000650018e90032aa0033aa000ba80034aa006b2b006b6b006d2b006d6b006f2b006f6b00712b00716b00e62c00e6ac00e66c00e6ec"
+            hex"00ea2c00eaac00ea6c00eaec00ee2c00eeac00ee6c00eeec00f22c00f2ac00f26c00f2ec01ec2d01ed2d01ecad01edad01ec6d01ed6d01eced01eded"
+            hex"01f42d01f52d01f4ad01f5ad01f46d01f56d01f4ed01f5ed01fc2d01fd2d01fcad01fdad01fc6d01fd6d01fced01fded000c29000d29000ca9000da9"
+            hex"000c69000d69000ce9000de9";
+    }
+
+    /// @notice What tells the code at the beginning of the block, as far as it fills bytes.
+    function header() internal pure returns (bytes memory) {
+        return
+            hex"b7c3e030d80c30c00dbffffffffffffffffffffffffffffffffffffffffffffffffffffe50c0100428b65ff50201";
+    }
+
+    /// @notice The rest of it: bits, and how many.
+    function headerRest() internal pure returns (uint256, uint256) {
+        return (0, 0);
+    }
+
+    /// @notice What ends the block: bits, and how many.
+    function end() internal pure returns (uint256, uint256) {
+        return (48, 7);
+    }
+}

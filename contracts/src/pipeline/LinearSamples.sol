@@ -83,8 +83,8 @@ library LinearSamples {
                                     }
                                     default {
                                         z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-                                        if iszero(and(z, IS_LISTED)) {
-                                            z := or(z, IS_LISTED)
+                                        z := or(z, IS_LISTED)
+                                        if iszero(and(old, IS_LISTED)) {
                                             seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
                                             mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
                                             mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))

@@ -65,8 +65,8 @@ library Samples {
                     }
                     default {
                         z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-                        if iszero(and(z, IS_LISTED)) {
-                            z := or(z, IS_LISTED)
+                        z := or(z, IS_LISTED)
+                        if iszero(and(old, IS_LISTED)) {
                             seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
                             mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
                             mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
@@ -143,8 +143,8 @@ library Samples {
             let p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))
             let old := mload(p)
             z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-            if iszero(and(z, IS_LISTED)) {
-                z := or(z, IS_LISTED)
+            z := or(z, IS_LISTED)
+            if iszero(and(old, IS_LISTED)) {
                 let pixel := add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH)))))
                 mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, pixel)))
                 mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))

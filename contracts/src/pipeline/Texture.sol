@@ -32,6 +32,7 @@ uint256 constant UV_SIZE = 6;
 /// @dev 2^bits of each number of bits that a texel may have.
 uint256 constant BITS_ALLOWED = 0x1000116;
 uint256 constant ONE_12 = 0x1000;
+uint256 constant BELOW_ONE_24 = 0xffffff;
 
 /// @dev The kind of the record.
 uint256 constant TEXTURE_OF = 8;
@@ -118,40 +119,30 @@ library Texture {
                 lanes := and(mul(lanes, COLOR_SPREAD), BYTES_Q10)
             }
 
-            // the texel at or before a coordinate (Q24) along a side, that after it, and the part from one to the other, Q12
-            function along(x, size, flags) -> first, second, part {
-                switch and(flags, TEXTURE_CLAMP)
-                case 0 { x := and(x, sub(ONE_24, 1)) }
-                default {
-                    x := mul(x, sgt(x, 0))
-                    if gt(x, ONE_24) { x := ONE_24 }
-                }
-                x := mul(x, size)
-                switch and(flags, TEXTURE_BILINEAR)
-                case 0 {
-                    first := shr(24, x)
-                    // only where it is clamped
-                    if eq(first, size) { first := sub(size, 1) }
-                }
-                default {
-                    x := sub(x, HALF_24)
-                    part := and(shr(12, x), 0xfff)
-                    first := sar(24, x)
-                    second := add(first, 1)
-                    switch and(flags, TEXTURE_CLAMP)
-                    case 0 {
-                        if slt(first, 0) { first := sub(size, 1) }
-                        if eq(second, size) { second := 0 }
-                    }
-                    default {
-                        if slt(first, 0) { first := 0 }
-                        if eq(second, size) { second := first }
-                    }
-                }
+            function clamped(x) -> inside {
+                inside := mul(x, sgt(x, 0))
+                if gt(inside, BELOW_ONE_24) { inside := BELOW_ONE_24 }
+            }
+
+            // the texels along a side between whose centres a place (Q24) lies
+            function around(x, size, flags) -> first, second {
+                first := sar(24, x)
+                second := add(first, 1)
+                if slt(first, 0) { first := mul(iszero(and(flags, TEXTURE_CLAMP)), sub(size, 1)) }
+                if eq(second, size) { second := mul(gt(and(flags, TEXTURE_CLAMP), 0), first) }
             }
 
             let header := calldataload(texture)
+            let flags := byte(0, header)
+            if and(flags, TEXTURE_CLAMP) {
+                u := clamped(u)
+                v := clamped(v)
+            }
             let width := add(byte(1, header), 1)
+            let height := add(byte(2, header), 1)
+            // in texels, Q24
+            u := mul(and(u, BELOW_ONE_24), width)
+            v := mul(and(v, BELOW_ONE_24), height)
             let bits := byte(3, header)
             let texels := add(texture, TEXTURE_HEADER)
             let palette := 0
@@ -159,17 +150,25 @@ library Texture {
                 palette := texels
                 texels := add(texels, mul(3, shl(bits, 1)))
             }
-            let column, right, x := along(u, width, byte(0, header))
-            let row, below, y := along(v, add(byte(2, header), 1), byte(0, header))
-            row := mul(row, width)
-            color := texel(texels, palette, bits, add(row, column))
-            switch and(byte(0, header), TEXTURE_BILINEAR)
-            case 0 { color := shl(24, color) }
+            switch and(flags, TEXTURE_BILINEAR)
+            case 0 { color := shl(24, texel(texels, palette, bits, add(mul(shr(24, v), width), shr(24, u)))) }
             default {
-                below := mul(below, width)
-                color := mul(sub(ONE_12, y), add(mul(sub(ONE_12, x), color), mul(x, texel(texels, palette, bits, add(row, right)))))
-                u := mul(sub(ONE_12, x), texel(texels, palette, bits, add(below, column)))
-                color := add(color, mul(y, add(u, mul(x, texel(texels, palette, bits, add(below, right))))))
+                u := sub(u, HALF_24)
+                v := sub(v, HALF_24)
+                let row, below := around(v, height, flags)
+                let column, right := around(u, width, flags)
+                // Q12
+                u := and(shr(12, u), 0xfff)
+                v := and(shr(12, v), 0xfff)
+                for { let isLast := 0 } 1 { isLast := 1 } {
+                    row := mul(row, width)
+                    let mixed := mul(sub(ONE_12, u), texel(texels, palette, bits, add(row, column)))
+                    mixed := add(mixed, mul(u, texel(texels, palette, bits, add(row, right))))
+                    color := add(color, mul(sub(ONE_12, v), mixed))
+                    if isLast { break }
+                    row := below
+                    v := sub(ONE_12, v)
+                }
             }
             // Q34 levels times 257 / 2^16; from a half on one more, so that 255 is one
             color := and(shr(34, mul(color, 257)), LANES_24)

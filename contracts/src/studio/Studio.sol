@@ -9,7 +9,7 @@ import {ONE} from "../math/Fixed.sol";
 import {COMPACT, LAST_FORMAT, SCENE, kindOf} from "../mesh/Kinds.sol";
 import {Meshes} from "../mesh/Meshes.sol";
 import {NORMALS} from "../scene/Mesh.sol";
-import {FLAT, SMOOTH, Object, Rectangle, Scene} from "../scene/Scene.sol";
+import {FLAT, SMOOTH, Background, Object, Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
 import {Kept} from "./Kept.sol";
@@ -150,6 +150,26 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer, changes)), scale)));
     }
 
+    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over white.
+    function renderTransparentPNG(address pointer, uint256 scale) external view returns (bytes memory) {
+        encodeTransparent(PngEncoder.encodeTransparent.selector, scene(pointer), scale);
+    }
+
+    /// @notice The same with changes.
+    function renderTransparentPNG(address pointer, uint256 scale, Changes memory changes) external view returns (bytes memory) {
+        encodeTransparent(PngEncoder.encodeTransparent.selector, scene(pointer, changes), scale);
+    }
+
+    /// @notice The PNG file as a `data:` URI.
+    function renderTransparentDataURI(address pointer, uint256 scale) external view returns (string memory) {
+        encodeTransparent(PngEncoder.transparentDataURI.selector, scene(pointer), scale);
+    }
+
+    /// @notice The same with changes.
+    function renderTransparentDataURI(address pointer, uint256 scale, Changes memory changes) external view returns (string memory) {
+        encodeTransparent(PngEncoder.transparentDataURI.selector, scene(pointer, changes), scale);
+    }
+
     /// @notice The scene turning, as an animated PNG file: see `Turntable`, which draws scenes that are not kept.
     function animate(address pointer, Spin memory spin) external view returns (bytes memory) {
         forward(address(turntable), abi.encodeCall(Turntable.animate, (scene(pointer), spin)));
@@ -180,6 +200,16 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(opened(scene_)), scale)));
     }
 
+    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over white.
+    function drawTransparentPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
+        encodeTransparent(PngEncoder.encodeTransparent.selector, opened(scene_), scale);
+    }
+
+    /// @notice The same as a `data:` URI.
+    function drawTransparentDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
+        encodeTransparent(PngEncoder.transparentDataURI.selector, opened(scene_), scale);
+    }
+
     /// @notice A scene or a mesh that is kept, as a binary glTF file, which viewers turn: see `GlbEncoder`, which takes scenes that are not
     /// kept.
     function glb(address pointer) external view returns (bytes memory) {
@@ -189,6 +219,19 @@ contract Studio is WithRenderer, StudioErrors {
     /// @notice The same as a `data:` URI.
     function glbDataURI(address pointer) external view returns (string memory) {
         forward(address(modeller), abi.encodeCall(GlbEncoder.dataURI, (shown(pointer))));
+    }
+
+    /// @dev Ends the call with what a function of the encoder makes of the pictures over black and over white.
+    function encodeTransparent(bytes4 function_, Scene memory scene_, uint256 scale) private view {
+        bytes memory black = over(scene_, scene_.invert != 0 ? 0xffffff : 0);
+        bytes memory white = over(scene_, scene_.invert != 0 ? 0 : 0xffffff);
+        forward(address(encoder), abi.encodeWithSelector(function_, black, white, scale));
+    }
+
+    /// @dev The picture over a background of one colour, which `invert` inverts, too.
+    function over(Scene memory scene_, uint256 color) private view returns (bytes memory) {
+        scene_.background = Background(color, color);
+        return renderer.render(scene_);
     }
 
     /// @dev A scene that is kept, or one with a mesh that is kept, seen from both sides.

@@ -11,7 +11,15 @@ from typing import Any
 from ..ethereum import SOLIDITY_ERRORS, Errors, Interface, error_table
 
 #: The contracts that render.
-RENDERER = ("Engine", "FragmentEngine", "AntialiasedEngine", "AntialiasedFragmentEngine", "EffectsEngine", "Shadows", "Renderer")
+RENDERER = (
+    "Engine",
+    "FragmentEngine",
+    "AntialiasedEngine",
+    "AntialiasedFragmentEngine",
+    "EffectsEngine",
+    "Shadows",
+    "Renderer",
+)
 
 
 @dataclass(frozen=True)

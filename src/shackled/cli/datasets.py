@@ -23,8 +23,9 @@ from rich.progress import (
 )
 
 from ..checks import choice
-from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
+from ..datasets import DATASETS, Piece, PieceCost, cost, figures, pieces
 from ..errors import InputError
+from ..values import plural
 
 CONSOLE = Console(stderr=True)
 
@@ -156,6 +157,30 @@ def _download_bar(name: str) -> Iterator[Any]:
     with Progress(*columns, console=CONSOLE, transient=True, disable=not CONSOLE.is_terminal) as bar:
         task = bar.add_task(name, total=None, visible=False)
         yield lambda here, whole: bar.update(task, completed=here, total=whole, visible=True)
+
+
+@datasets.command()
+def showcase(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(help="Scenes, such as glass; all by default.", metavar="[NAME]...", show_default=False),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Output folder.", metavar="DIR")] = Path("showcase"),
+) -> None:
+    """Render the scenes of the showcase into a folder, with a page (index.html) and a contact sheet (sheet.png)."""
+    from ..datasets.showcase import draw_showcase
+    from ..datasets.showcase import pieces as scenes
+    from ..whole_file import make_output_folder
+
+    known = {piece.name.removeprefix("showcase/"): piece for piece in scenes()}
+    chosen = [
+        known[choice(name.removeprefix("showcase/"), "a scene of the showcase", known)] for name in names or known
+    ]
+    make_output_folder(output)
+    width = max(len(piece.name) for piece in chosen)
+    for drawing in draw_showcase(output, chosen):
+        print(f"{drawing.name:{width}}  {figures(drawing)}", flush=True)
+    print(f"{output / 'index.html'}: {plural(len(chosen), 'scene')}")
 
 
 @datasets.command()

@@ -25,8 +25,8 @@ def deploy(
         option(
             "--contracts",
             "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "EffectsEngine, Shadows, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, GenesisMetadata; "
-            "without it, the first eight. Contracts that they call are added.",
+            "EffectsEngine, Shadows, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, "
+            "GenesisMetadata; without it, the first nine. Contracts that they call are added.",
             "NAMES",
         ),
     ] = None,

@@ -38,7 +38,7 @@ def mint(
     from ..deploy import current_fees
     from ..image import check_output
     from ..scene import READERS
-    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store
+    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store, token_scene
 
     path = None if output is None else check_output(output)
     pixels = None if size is None else parse_size(size)
@@ -47,7 +47,8 @@ def mint(
     node.check()
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     is_mesh = not isinstance(source, Piece) and source.suffix.lower() in READERS
-    scene = load(source, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
+    thing = token_scene(source) if isinstance(source, Piece) and pixels is None else source
+    scene = load(thing, pixels, max_triangles=max_triangles, antialias=False if is_mesh else None)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     storage = plan_storage(connection, [wanted], current_fees(connection, payer.max_wei))

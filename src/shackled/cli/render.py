@@ -22,7 +22,7 @@ from ..animation import FORMATS as FILMS
 from ..chain import CHAINS, PATIENCE, open_chain
 from ..datasets import Piece
 from ..errors import InputError
-from ..image import FORMATS, Image, check_output, one_of
+from ..image import FORMATS, Image, check_alpha, check_output, one_of
 from ..palette import MOST_COLORS, Pixels, colors
 from ..parallel import VERIFY, folder_of, remove_parts
 from ..scene import PICTURE, scene_chunk
@@ -54,6 +54,9 @@ def render(
             "Write the scene into PNG files, which are then scene files too (default: if it takes at most 64 KB).",
         ),
     ] = None,
+    transparent: Annotated[
+        bool, option("--transparent", "Leave out the background: a .png or .svg file with alpha, for twice the gas.")
+    ] = False,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     turntable: Annotated[
         int | None,
@@ -128,7 +131,11 @@ def render(
         if one_call:
             raise InputError("--one-call needs --turntable")
         path = check_output(output if output is not None else f"{stem}.png")
+        if transparent:
+            check_alpha(path.suffix.lower())
     else:
+        if transparent:
+            raise InputError("--transparent and --turntable exclude each other: a turntable has a background")
         path = check_animation(output if output is not None else f"{stem}.gif")
     if (chain is not None or cluster is not None) and _from_environment(context, "rpc"):
         rpc = None  # options override the environment
@@ -151,7 +158,7 @@ def render(
     with nullcontext() if in_parts else LateBar("rendering"):
         made: Image | Animation
         if turntable is None:
-            made = draw(loaded, on=on, **told)
+            made = draw(loaded, on=on, transparent=transparent, **told)
         else:
             made = turn(loaded, turntable, duration=shown, on=on, one_call=one_call, **told)
         counts = (made.triangles, made.covered_pixels) if isinstance(made, Image) else (None, None)
@@ -167,7 +174,7 @@ def render(
     frames = [made] if isinstance(made, Image) else made.frames
     chunk = frames[0].scene_chunk if path.suffix.lower() in (PICTURE, "") and scene is not False else None
     written = len(chunk.data) if chunk is not None and (scene or chunk.is_small) else None
-    several = in_parts or turntable is not None
+    several = in_parts or transparent or turntable is not None
     report = _report(made, input, path, time.perf_counter() - started, counts, written, several)
     if all(frame.covered_pixels == 0 for frame in frames):
         print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
@@ -222,7 +229,7 @@ def _report(
     frames = [made] if isinstance(made, Image) else made.frames
     digest = hashlib.sha256()
     for frame in frames:
-        digest.update(frame.pixels.tobytes())
+        digest.update(frame.channels.tobytes())
     report = {
         "input": input,
         "width": frames[0].width,

@@ -1,6 +1,6 @@
-from ._drawing import SIZE, VARIABLE, PieceCost, cache_folder, cost, draw, draw_all, keep, table
+from ._drawing import SIZE, VARIABLE, PieceCost, Thumbnail, cache_folder, cost, draw, draw_all, keep, table
 from ._find import DATASETS, find, pieces, require
-from ._gallery import page, sheet
+from ._gallery import figures, page, sheet
 from ._piece import Piece
 from ._teapot import patches, teapot
 
@@ -10,10 +10,12 @@ __all__ = [
     "VARIABLE",
     "Piece",
     "PieceCost",
+    "Thumbnail",
     "cache_folder",
     "cost",
     "draw",
     "draw_all",
+    "figures",
     "find",
     "keep",
     "page",

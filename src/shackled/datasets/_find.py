@@ -12,10 +12,12 @@ from ._piece import Piece
 
 #: The datasets, and the prefixes of the names of their pieces.
 DATASETS = {"common": "", "icons": "icons/", "genesis": "genesis/"}
+#: The same of what is found by name only: scenes that show the renderer's options.
+PREFIXES = {**DATASETS, "showcase": "showcase/"}
 
 
 def pieces(dataset: str | None = None) -> Iterator[Piece]:
-    """Yield the pieces of one dataset, or of all."""
+    """Yield the pieces of one dataset, or of all in `DATASETS`."""
     for each in DATASETS if dataset is None else (dataset,):
         yield from _module(each).pieces()
 
@@ -38,7 +40,7 @@ def require(name: str) -> Piece:
 
 
 def _dataset_of(name: str) -> tuple[str, str]:
-    for dataset, prefix in DATASETS.items():
+    for dataset, prefix in PREFIXES.items():
         if prefix and name.startswith(prefix):
             return dataset, prefix
     return "common", ""

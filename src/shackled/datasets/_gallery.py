@@ -31,20 +31,25 @@ def page(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> str:
     )
 
 
-def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> bytes:
-    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out."""
+def sheet(
+    pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail], cell: tuple[int, int] = (CELL, CELL), columns: int = 0
+) -> bytes:
+    """Return a PNG of the drawings in rows, a label under each; pieces without one are left out.
+
+    cell: width and height of a drawing. columns: in a row; 0 for about as many as rows.
+    """
     drawn = [(piece, drawings[piece.name]) for piece in pieces if piece.name in drawings]
-    columns = max(1, min(len(drawn), round((len(drawn) * (CELL + LABEL) / CELL) ** 0.5) + 1))
+    columns = columns or max(1, min(len(drawn), round((len(drawn) * (cell[1] + LABEL) / cell[0]) ** 0.5) + 1))
     rows = max(1, -(-len(drawn) // columns))
-    width, height = CELL + GAP, CELL + LABEL + GAP
+    width, height = cell[0] + GAP, cell[1] + LABEL + GAP
     picture = PillowImage.new("RGB", (columns * width + GAP, rows * height + GAP), PAPER)
     pen, font = ImageDraw.Draw(picture), ImageFont.load_default(11)
     for number, (piece, drawing) in enumerate(drawn):
         x, y = GAP + number % columns * width, GAP + number // columns * height
         with PillowImage.open(io.BytesIO(drawing.png)) as small:
-            picture.paste(small.convert("RGB").resize((CELL, CELL), PillowImage.Resampling.NEAREST), (x, y))
-        pen.text((x, y + CELL + 2), _fitting(piece.name, font), INK, font)
-        pen.text((x, y + CELL + 15), _fitting(_figures(drawing, "tri."), font), FAINT, font)
+            picture.paste(small.convert("RGB").resize(cell, PillowImage.Resampling.NEAREST), (x, y))
+        pen.text((x, y + cell[1] + 2), _fitting(piece.name, font, cell[0]), INK, font)
+        pen.text((x, y + cell[1] + 15), _fitting(figures(drawing, "tri."), font, cell[0]), FAINT, font)
     stream = io.BytesIO()
     picture.save(stream, "png")
     return stream.getvalue()
@@ -53,30 +58,31 @@ def sheet(pieces: Sequence[Piece], drawings: Mapping[str, Thumbnail]) -> bytes:
 def _card(piece: Piece, drawing: Thumbnail | None) -> str:
     if drawing is None:
         command = f"shackled datasets fetch {piece.name}"
-        image, figures = f'<div class="absent"><code>{escape(command)}</code></div>', "not fetched"
+        image, caption = f'<div class="absent"><code>{escape(command)}</code></div>', "not fetched"
     else:
         data = base64.b64encode(drawing.png).decode()
         image = f'<img src="data:image/png;base64,{data}" alt="{escape(piece.title)}" loading="lazy">'
-        figures = _figures(drawing)
+        caption = figures(drawing)
     terms = piece.licence if piece.commercial else f"{piece.licence} (not for commercial use)"
     credit = f'<p class="credit">{escape(piece.credit)}</p>' if piece.credit else ""
     words = escape(" ".join((piece.name, piece.title, piece.licence, piece.credit)).lower())
     return (
         f'<figure data-dataset="{escape(piece.dataset)}" data-words="{words}">{image}<figcaption>'
-        f"<h2>{escape(piece.title)}</h2><code>{escape(piece.name)}</code><p>{escape(figures)}</p>{credit}"
+        f"<h2>{escape(piece.title)}</h2><code>{escape(piece.name)}</code><p>{escape(caption)}</p>{credit}"
         f'<p class="licence">{escape(terms)}</p></figcaption></figure>'
     )
 
 
-def _figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
+def figures(drawing: Thumbnail, triangles: str = "triangles") -> str:
+    """Return the triangles and the gas of a drawing in words."""
     gas = "" if drawing.gas is None else f", {drawing.gas / 1e6:.1f} M gas"
     return f"{drawing.triangles:,} {triangles}{gas}"
 
 
-def _fitting(text: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont) -> str:
-    """Return the text, cut to the width of a cell."""
-    if font.getlength(text) <= CELL:
+def _fitting(text: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, width: int) -> str:
+    """Return the text, cut to a width."""
+    if font.getlength(text) <= width:
         return text
-    while font.getlength(f"{text}…") > CELL:
+    while font.getlength(f"{text}…") > width:
         text = text[:-1]
     return f"{text}…"

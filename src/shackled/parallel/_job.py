@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..chain import ContractChain, Drawing, open_chain
-from ..image import Image, decode_bmp, encode_bmp
+from ..image import Image, decode_bmp, encode_bmp, total
 from ..scene import Rectangle, Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
 from ._estimate import Estimate, estimate
@@ -155,8 +155,8 @@ def _assemble(number: int, scene: Scene, pieces: dict[Part, Drawing], chain: str
     return Image(
         pixels=pixels,
         bmp=_bmp(pixels, list(own.values())),
-        gas=_sum([piece.gas for piece in own.values()]),
-        intrinsic_gas=_sum([piece.intrinsic_gas for piece in own.values()]),
+        gas=total(piece.gas for piece in own.values()),
+        intrinsic_gas=total(piece.intrinsic_gas for piece in own.values()),
         made_by=chain,
         seconds=seconds,
         scene=scene,
@@ -169,11 +169,6 @@ def _bmp(pixels: np.ndarray, pieces: list[Drawing]) -> bytes:
     if len(pieces) == 1:
         return pieces[0].bmp
     return encode_bmp(pixels)
-
-
-def _sum(numbers: Sequence[int | None]) -> int | None:
-    known = [number for number in numbers if number is not None]
-    return sum(known) if len(known) == len(numbers) else None
 
 
 def _name(backends: Sequence[Backend]) -> str:

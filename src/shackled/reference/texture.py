@@ -108,9 +108,9 @@ def along(x: int, size: int, flags: int) -> tuple[int, int, int]:
     """Return the texel at or before a coordinate (Q24) along a side, that after it, and the part from one to the
     other, Q12.
     """
-    x = (min(max(x, 0), ONE_24) if flags & CLAMP else x % ONE_24) * size
+    x = (min(max(x, 0), ONE_24 - 1) if flags & CLAMP else x % ONE_24) * size
     if flags & BILINEAR == 0:
-        return min(x >> 24, size - 1), 0, 0
+        return x >> 24, 0, 0
     x -= HALF_24
     first = x >> 24
     part = (x >> 12) & (ONE_12 - 1)

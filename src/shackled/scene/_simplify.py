@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -12,7 +13,8 @@ from numpy.typing import NDArray
 from ..checks import integer
 from ..errors import InputError
 from ._crease import SIMPLIFIED_CREASE, smoothed
-from ._mesh import Mesh, without_slivers
+from ._files.weld import weld
+from ._mesh import Mesh, components
 from ._object import Object
 from ._scene import Scene
 
@@ -26,8 +28,9 @@ GENTLE = ((5, 1.0), (5, 0.9))
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
     """Return a mesh of at most `max_triangles` triangles, by edge collapse.
 
-    Each vertex has the colour of the nearest vertex that was collapsed into it. Normals are dropped. A mesh that is
-    small enough is returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
+    Each vertex has the colour of the nearest vertex that was collapsed into it; so have corners of faces their texture
+    coordinates, on their side of a seam. Normals are dropped. A mesh that is small enough is
+    returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
     target cannot be reached (it names a number that can), or fast-simplification is not installed.
     """
     most = integer(max_triangles)
@@ -42,13 +45,16 @@ def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] 
             f"simplifying {mesh.triangles} triangles to {most} needs a package that is not installed: "
             "pip install 'shackled[simplify]'"
         )
-    positions, faces, colors = _simplified(mesh, most, tries)
-    if not 0 < len(faces) <= most:
-        found = f"{len(faces)} remain" if len(faces) else "nothing would remain"
-        if len(faces) and len(_simplified(mesh, len(faces), tries)[1]) <= len(faces):
-            found += f"; {len(faces)} would do"
+    surface = _simplified(mesh, most, tries)
+    count = len(surface.faces)
+    if not 0 < count <= most:
+        found = f"{count} remain" if count else "nothing would remain"
+        if count and len(_simplified(mesh, count, tries).faces) <= count:
+            found += f"; {count} would do"
         raise InputError(f"a mesh of {mesh.triangles} triangles cannot be simplified to {most}: {found}")
-    return Mesh(positions, faces, colors)
+    if mesh.uvs is None:
+        return Mesh(surface.positions, surface.faces, surface.colors)
+    return weld(surface.positions, surface.faces, surface.colors[surface.faces], uvs=surface.uvs)
 
 
 def simplify_scene(scene: Scene, max_triangles: int, crease: float = SIMPLIFIED_CREASE) -> Scene:
@@ -65,16 +71,32 @@ def _simplified_object(o: Object, max_triangles: int, crease: float) -> Object:
     return smoothed(simpler, crease) if had_normals and simpler.mesh is not o.mesh else simpler
 
 
-_Surface = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.uint8]]
+@dataclass(frozen=True)
+class _Surface:
+    """A mesh with one vertex for each position.
+
+    uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. places: (m, 3), numbers that corners have
+    in common which are one point of the texture.
+    """
+
+    positions: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    colors: NDArray[np.uint8]
+    uvs: NDArray[np.float64]
+    places: NDArray[np.int64]
+
+    def part(self, faces: NDArray[np.int64], kept: NDArray[np.int64]) -> _Surface:
+        """Return the surface with other vertex numbers, (m, 3), and only those faces that are kept."""
+        return replace(self, faces=faces[kept], uvs=self.uvs[kept], places=self.places[kept])
 
 
 def _simplified(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]]) -> _Surface:
     """Return the mesh after as many attempts as needed; it may have too many triangles, or none."""
     surface = _connect(mesh)
     for force, share in tries:
-        if len(surface[1]) <= max_triangles:
+        if len(surface.faces) <= max_triangles:
             break
-        surface = _collapse(*surface, int(share * max_triangles), force)
+        surface = _collapse(surface, int(share * max_triangles), force)
     return surface
 
 
@@ -83,32 +105,63 @@ def _connect(mesh: Mesh) -> _Surface:
 
     So edges between colours can be collapsed too.
     """
-    positions = mesh.positions
-    unique, first, number = np.unique(positions, axis=0, return_index=True, return_inverse=True)
+    unique, first, number = np.unique(mesh.positions, axis=0, return_index=True, return_inverse=True)
     faces = number.reshape(-1)[mesh.faces]
-    return unique, without_slivers(faces), mesh.colors[first]
+    uvs, places = np.zeros((len(faces), 3, 2)), faces
+    if mesh.uvs is not None:
+        uvs = mesh.uvs[mesh.faces]
+        both = np.hstack([mesh.positions, mesh.uvs])
+        places = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
+    surface = _Surface(unique, faces, mesh.colors[first], uvs, places)
+    return surface.part(faces, _proper(faces))
 
 
-def _collapse(
-    positions: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8], target: int, agg: int
-) -> _Surface:
+def _proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the numbers of the faces that have three different vertices."""
+    a, b, c = faces.T
+    return np.flatnonzero((a != b) & (b != c) & (c != a))
+
+
+def _collapse(surface: _Surface, target: int, agg: int) -> _Surface:
     from fast_simplification import replay_simplification
     from fast_simplification import simplify as collapse_edges
 
-    if len(faces) == 0:
-        return positions, faces, colors
+    if len(surface.faces) == 0:
+        return surface
+    positions, faces = surface.positions, surface.faces.astype(np.int32)
     _, _, collapses = collapse_edges(
-        positions, faces.astype(np.int32), target_count=min(target, len(faces)), agg=agg, return_collapses=True
+        positions, faces, target_count=min(target, len(faces)), agg=agg, return_collapses=True
     )
-    points, triangles, number = replay_simplification(positions, faces.astype(np.int32), collapses)
-    triangles = without_slivers(np.asarray(triangles, dtype=np.int64).reshape(-1, 3))
-    if len(triangles) == 0:
-        return positions[:0], triangles, colors[:0]
+    points, _, number = replay_simplification(positions, faces, collapses)
+    points, number = np.asarray(points, dtype=np.float64), np.asarray(number, dtype=np.int64)
+    # a face remains where no two of its vertices became one
+    moved = number[surface.faces]
+    kept = _proper(moved)
+    if len(kept) == 0:
+        return replace(surface.part(moved, kept), positions=positions[:0], colors=surface.colors[:0])
     # of the vertices that became one, the nearest to it comes last, and so stays
-    kept = np.flatnonzero(number >= 0)
-    distance = np.linalg.norm(positions[kept] - points[number[kept]], axis=1)
-    kept = kept[np.argsort(-distance, kind="stable")]
+    old = np.flatnonzero(number >= 0)
+    distance = np.linalg.norm(positions - points[number], axis=1)
+    old = old[np.argsort(-distance[old], kind="stable")]
     nearest = np.zeros(len(points), dtype=np.int64)
-    nearest[number[kept]] = kept
-    used, compact = np.unique(triangles, return_inverse=True)
-    return np.asarray(points, dtype=np.float64)[used], compact.reshape(-1, 3), colors[nearest[used]]
+    nearest[number[old]] = old
+    used, compact = np.unique(moved[kept], return_inverse=True)
+    part = _on_texture(surface, moved, distance).part(moved, kept)
+    return replace(part, positions=points[used], faces=compact.reshape(-1, 3), colors=surface.colors[nearest[used]])
+
+
+def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:
+    """Return the surface with the texture coordinates that corners have after a collapse.
+
+    Points of the texture between which an edge was collapsed are one: that which is nearest to the new vertex. So both
+    sides of a seam keep their own. moved: (m, 3), new vertices. distance: (n,), of old vertices from the new ones.
+    """
+    ends = np.array([[0, 1], [1, 2], [2, 0]])
+    collapsed = moved[:, ends[:, 0]] == moved[:, ends[:, 1]]
+    links = surface.places[:, ends][collapsed]
+    places = components(links, int(surface.places.max(initial=0)) + 1)[surface.places]
+    order = np.lexsort((distance[surface.faces].reshape(-1), places.reshape(-1)))
+    _, first, number = np.unique(places.reshape(-1)[order], return_index=True, return_inverse=True)
+    uvs = np.empty((len(order), 2))
+    uvs[order] = surface.uvs.reshape(-1, 2)[order[first]][number.reshape(-1)]
+    return replace(surface, uvs=uvs.reshape(-1, 3, 2), places=places)

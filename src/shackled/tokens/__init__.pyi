@@ -4,7 +4,7 @@ from ._collection import KINDS, Collection, CollectionKind, open_collection
 from ._contract import USUAL_GAS, Contract, perform, plan
 from ._demo import development_accounts, run_demo
 from ._gallery import ActionCost, comparison, page, tokens_json
-from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of
+from ._icons import ICON_PRICE, SCALE, add_call, check_sale, chosen_pieces, find_icon, icons_of, token_scene
 from ._immutables import immutable_places, immutable_values
 from ._launch import CollectionTerms, address_of, launch, parts_of, plan_launch, plan_setup
 from ._licence import licence_of
@@ -78,5 +78,6 @@ __all__ = [
     "shrink",
     "sign_allowance",
     "store",
+    "token_scene",
     "tokens_json",
 ]

@@ -25,7 +25,7 @@ from ._gallery import (
     page,
     tokens_json,
 )
-from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of
+from ._icons import ICON_PRICE, SCALE, add_call, chosen_pieces, icons_of, token_scene
 from ._launch import CollectionTerms, launch, plan_launch
 from ._metadata import read_token_uri
 from ._minting import MintCall, mint_call
@@ -136,7 +136,7 @@ def _icons(
     contract = collection.contract
     chosen = chosen_pieces(None)
     report(f"{len(chosen)} icons are stored on chain")
-    storage = plan_storage(connection, [SceneToStore(piece.name, piece.make()) for piece in chosen])
+    storage = plan_storage(connection, [SceneToStore(piece.name, token_scene(piece)) for piece in chosen])
     stored = [receipt.gas for receipt in store(storage, owner)]
     if stored:
         demo.costs.append(ActionCost(f"Icons: store an icon, mean of {len(chosen)}", sum(stored) // len(chosen)))

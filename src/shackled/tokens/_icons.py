@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
 from typing import Any
+
+from attrs import evolve
 
 from ..artifacts import artifact
 from ..datasets import Piece, find, pieces
 from ..deploy import Call, local_chain
 from ..errors import InputError
 from ..ethereum import Interface, amount, checksum_address
+from ..scene import Scene
 from ..studio import STUDIO
 from ._collection import Collection
 from ._contract import call_of
@@ -101,6 +107,19 @@ def chosen_pieces(names: str | None) -> list[Piece]:
     if not chosen:
         raise InputError("there is no icon: give names with commas, such as heart,diamond")
     return chosen
+
+
+def token_scene(piece: Piece) -> Scene:
+    """Return the scene that a token shows: that of a piece, antialiased if a transaction has enough gas for `tokenURI`.
+
+    antialiased.json lists these pieces; `python -m benchmarks.icons` writes it.
+    """
+    return evolve(piece.make(), antialias=True) if piece.name in _antialiased() else piece.make()
+
+
+@cache
+def _antialiased() -> frozenset[str]:
+    return frozenset(json.loads(files(__package__).joinpath("antialiased.json").read_text("utf-8")))
 
 
 def add_call(interface: Interface, collection: str, icon: Sequence[Any], codes: Mapping[bytes, bytes]) -> Call:

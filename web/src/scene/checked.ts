@@ -49,15 +49,32 @@ const LIGHTS = {
     spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
 } as const;
 const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"] as const;
-const MESH = ["positions", "faces", "colors", "normals"] as const;
+const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture"] as const;
+const MESH = ["positions", "faces", "colors", "normals", "uvs"] as const;
+const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
+export const FILTERS = ["nearest", "bilinear"] as const;
+export const WRAPS = ["repeat", "clamp"] as const;
+const MAX_TEXTURE_SIDE = 256;
 
-/** Positions and normals have three numbers for each vertex, colours three bytes; faces three vertex numbers each. */
+/**
+ * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers; faces three vertex
+ * numbers each.
+ */
 export interface Mesh {
     positions: Float64Array;
     faces: Uint32Array;
     colors: Uint8Array;
     normals: Float64Array | undefined;
+    uvs: Float64Array | undefined;
+}
+
+/** `pixels` has three bytes for each texel. */
+export interface Texture {
+    width: number;
+    height: number;
+    pixels: Uint8Array;
+    filter: (typeof FILTERS)[number];
+    wrap: (typeof WRAPS)[number];
 }
 
 export interface Material {
@@ -66,6 +83,7 @@ export interface Material {
     diffuse: number;
     specular: number;
     shininess: number;
+    texture: Texture | undefined;
 }
 
 export interface SceneObject {
@@ -176,12 +194,17 @@ export function checkedScene(scene: given.Scene): Scene {
 
 export function checkedObject(object: given.SceneObject, where: string): SceneObject {
     check.fields(object, where, OBJECT);
+    const mesh = checkedMesh(object.mesh, `${where}.mesh`);
+    const material = checkedMaterial(object.material ?? {}, `${where}.material`);
+    if (material.texture && !mesh.uvs) {
+        throw new InputError(`${where}.mesh needs uvs, as its material has a texture`);
+    }
     return {
-        mesh: checkedMesh(object.mesh, `${where}.mesh`),
+        mesh,
         position: check.vector(object.position ?? [0, 0, 0], `${where}.position`),
         rotation: checkedRotation(object.rotation ?? [0, 0, 0, 1], `${where}.rotation`),
         scale: check.number(object.scale ?? 1, `${where}.scale`, 0),
-        material: checkedMaterial(object.material ?? {}, `${where}.material`),
+        material,
         cull: check.flag(object.cull ?? true, `${where}.cull`),
         wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
         opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
@@ -208,6 +231,33 @@ function checkedMaterial(material: given.Material, where: string): Material {
         diffuse: check.number(material.diffuse ?? 0.75, `${where}.diffuse`, 0, 4),
         specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
         shininess: rint(check.number(material.shininess ?? 24, `${where}.shininess`, 1, 128)),
+        texture: material.texture && checkedTexture(material.texture, `${where}.texture`),
+    };
+}
+
+function checkedTexture(texture: given.Texture, where: string): Texture {
+    check.fields(texture, where, TEXTURE);
+    const width = check.whole(texture.width, `${where}.width`, 1, MAX_TEXTURE_SIDE);
+    const height = check.whole(texture.height, `${where}.height`, 1, MAX_TEXTURE_SIDE);
+    const { pixels } = texture;
+    const count = width * height;
+    const channels = check.isList(pixels) ? pixels.length / count : 0;
+    if (channels !== 3 && channels !== 4) {
+        throw new InputError(`${where}.pixels must be three or four bytes for each of ${count} texels`);
+    }
+    const bad = Array.prototype.findIndex.call(pixels, (level: unknown) => !check.isLevel(level as number));
+    if (bad >= 0) {
+        throw new InputError(`${where}.pixels[${bad}] must be a whole number from 0 to 255, not ${show(pixels[bad])}`);
+    }
+    return {
+        width,
+        height,
+        pixels: Uint8Array.from(
+            { length: 3 * count },
+            (_, at) => pixels[channels * Math.floor(at / 3) + (at % 3)] as number,
+        ),
+        filter: check.choice(texture.filter ?? "bilinear", `${where}.filter`, FILTERS),
+        wrap: check.choice(texture.wrap ?? "repeat", `${where}.wrap`, WRAPS),
     };
 }
 
@@ -235,7 +285,21 @@ function checkedMesh(mesh: given.Mesh, where: string): Mesh {
         faces: Uint32Array.from(faces),
         colors: colorsOf(mesh.colors, count, `${where}.colors`),
         normals,
+        uvs: mesh.uvs && uvsOf(mesh.uvs, count, `${where}.uvs`),
     };
+}
+
+function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: string): Float64Array {
+    if (!check.isList(value)) throw new InputError(`${where} must be rows of two numbers, not ${show(value)}`);
+    const flat = Array.from<unknown>(value).flatMap((row) => (check.isList(row) ? Array.from(row) : [row]));
+    const bad = flat.findIndex((x) => !Number.isFinite(x));
+    if (bad >= 0) {
+        throw new InputError(`${where}[${Math.floor(bad / 2)}] must be two finite numbers, not ${show(flat[bad])}`);
+    }
+    if (flat.length !== 2 * count) {
+        throw new InputError(`${where} must be two numbers for each of ${count} vertices, not ${flat.length} in all`);
+    }
+    return Float64Array.from(flat as number[]);
 }
 
 function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Uint8Array {

@@ -10,6 +10,7 @@ import type { Rgb } from "./checks.js";
 import { fit, type FittedScene } from "./fit.js";
 import { shadowRule } from "./ground.js";
 import { pack } from "./mesh.js";
+import { packTexture } from "./texture.js";
 import type { Rectangle, Scene } from "./types.js";
 
 /** The functions of the Renderer that draw a scene, and their selectors. Those of a tile take a Rectangle too. */
@@ -32,10 +33,11 @@ const HEMISPHERE = 4;
 const RIM = 5;
 const FOG = 6;
 const TONE = 7;
+const TEXTURE = 8;
 const SHADOW = 10;
 const GROUND = 11;
 /** Records from this kind on have a size in words of 32 bytes, others in bytes. */
-const FIRST_IN_WORDS = 8;
+export const FIRST_IN_WORDS = 8;
 /** The largest radius of a ground, Q32. */
 const MAX_FADE = 2n ** 58n;
 /** One, in opacities. */
@@ -126,6 +128,11 @@ function extensions(scene: CheckedScene): Uint8Array {
     });
     if (scene.antialias) records.push(record(ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
     records.push(...effects(scene));
+    scene.objects.forEach(({ mesh, material: { texture } }, index) => {
+        if (!texture || !mesh.uvs) return;
+        const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
+        records.push(record(TEXTURE, index, new DataView(content.buffer)));
+    });
     scene.lights.forEach(({ shadow }, index) => {
         if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));
     });
@@ -165,7 +172,7 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
-            `objects with an opacity or a fade must be among the first 65,536 of a scene, not number ${index}`,
+            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
         );
     }
     const head = new DataView(new ArrayBuffer(5));

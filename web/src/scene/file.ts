@@ -4,10 +4,12 @@ import { InputError, about, show } from "../errors.js";
 import { fromAxisAngle, rint, type Vector } from "./arithmetic.js";
 import {
     DEFAULT_SIDE,
+    FILTERS,
     LIGHT_KINDS,
     MAX_SIDE,
     SHADINGS,
     STAGED_BACKGROUND,
+    WRAPS,
     checkedCamera,
     checkedObject,
     worldPositions,
@@ -38,7 +40,8 @@ const ANGLES = ["azimuth", "elevation", "margin"] as const;
 const CAMERA = [...PLACES, ...ANGLES, "fov", "half_height", "near", "projection"];
 const LIGHT = ["kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow"];
 const OBJECT = ["color", "cull", "wireframe", "opacity", "fade", "mesh", "position", "rotation", "scale", "material"];
-const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess"];
+const MATERIAL = ["texture", "shading", "ambient", "diffuse", "specular", "shininess"];
+const TEXTURE = ["image", "width", "height", "pixels", "filter", "wrap"];
 
 /**
  * Return the scene of a scene file: its JSON as text, or as `JSON.parse` returns it.
@@ -221,12 +224,13 @@ function objectOf(value: unknown, where: string): given.SceneObject {
     const keys = new Table(value, where, OBJECT);
     const color = keys.read("color", check.color);
     const mesh = meshOf(keys);
+    const material = materialOf(keys.table("material", MATERIAL));
     return {
         mesh: color ? { ...mesh, colors: color } : mesh,
         position: keys.read("position", check.vector),
         rotation: rotationOf(keys),
         scale: keys.number("scale", 0),
-        material: materialOf(keys.table("material", MATERIAL)),
+        material: color ? { ...material, texture: undefined } : material,
         cull: keys.read("cull", check.flag),
         wireframe: keys.read("wireframe", check.flag),
         opacity: keys.number("opacity", 0, 1),
@@ -241,6 +245,29 @@ function materialOf(keys: Table): given.Material {
         diffuse: keys.number("diffuse", 0, 4),
         specular: keys.number("specular", 0, 4),
         shininess: keys.number("shininess", 1, 128),
+        texture: keys.has("texture") ? textureOf(keys) : undefined,
+    };
+}
+
+function textureOf(material: Table): given.Texture {
+    const place = material.place("texture");
+    const keys = typeof material.get("texture") === "string" ? undefined : material.table("texture", TEXTURE);
+    const pixels = keys?.get("pixels");
+    if (keys === undefined || typeof pixels !== "string") {
+        throw new InputError(`${place} must have width, height and pixels, in base64: no files are read here`);
+    }
+    let bytes: string;
+    try {
+        bytes = atob(pixels);
+    } catch {
+        throw new InputError(`${place}.pixels must be red, green and blue bytes in base64`);
+    }
+    return {
+        width: check.whole(keys.get("width"), keys.place("width"), 1, 256),
+        height: check.whole(keys.get("height"), keys.place("height"), 1, 256),
+        pixels: Uint8Array.from(bytes, (character) => character.charCodeAt(0)),
+        filter: keys.read("filter", (value, where) => check.choice(value, where, FILTERS)),
+        wrap: keys.read("wrap", (value, where) => check.choice(value, where, WRAPS)),
     };
 }
 
@@ -248,12 +275,13 @@ function meshOf(keys: Table): given.Mesh {
     if (!keys.has("mesh") || typeof keys.get("mesh") === "string") {
         throw new InputError(`${keys.place("mesh")} must be a table with positions and faces: no files are read here`);
     }
-    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals"]);
+    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals", "uvs"]);
     return {
         positions: inside.rows("positions"),
         faces: inside.rows("faces"),
         colors: inside.has("colors") ? inside.rows("colors") : undefined,
         normals: inside.has("normals") ? inside.rows("normals") : undefined,
+        uvs: inside.has("uvs") ? (inside.list("uvs") as number[][]) : undefined,
     };
 }
 

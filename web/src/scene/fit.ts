@@ -102,8 +102,8 @@ function prepare(object: SceneObject): SceneObject {
     let used = 0;
     for (let vertex = 0; vertex < count; vertex++) if (numbers[vertex] === 0) numbers[vertex] = used++;
     if (used === count) return { ...object, mesh: { ...mesh, normals } };
-    const kept = <T extends Float64Array | Uint8Array>(table: T): T =>
-        table.filter((_, index) => (numbers[Math.floor(index / 3)] as number) >= 0) as T;
+    const kept = <T extends Float64Array | Uint8Array>(table: T, width = 3): T =>
+        table.filter((_, index) => (numbers[Math.floor(index / width)] as number) >= 0) as T;
     return {
         ...object,
         mesh: {
@@ -111,6 +111,7 @@ function prepare(object: SceneObject): SceneObject {
             faces: mesh.faces.map((vertex) => numbers[vertex] as number),
             colors: kept(mesh.colors),
             normals: normals && kept(normals),
+            uvs: mesh.uvs && kept(mesh.uvs, 2),
         },
     };
 }

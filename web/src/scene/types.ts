@@ -25,6 +25,24 @@ export interface Mesh {
     colors?: Rows | Color | undefined;
     /** The normal of each vertex; computed for smooth shading where there are none. */
     normals?: Rows | undefined;
+    /**
+     * Where each vertex is on the texture of the material, two numbers each: from its upper left corner (0, 0) to its
+     * lower right one (1, 1), as in glTF.
+     */
+    uvs?: ArrayLike<number> | readonly ArrayLike<number>[] | undefined;
+}
+
+/** An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives. */
+export interface Texture {
+    /** Texels of a row, and rows: 1..256. */
+    width: number;
+    height: number;
+    /** Red, green and blue of each texel, 0..255, rows from the top; also with an alpha, as `ImageData` has them. */
+    pixels: ArrayLike<number>;
+    /** Whether colours are those of texels, or interpolated between four; "bilinear" by default. */
+    filter?: "nearest" | "bilinear" | undefined;
+    /** Whether the image repeats outside of 0..1, or its border goes on; "repeat" by default. */
+    wrap?: "repeat" | "clamp" | undefined;
 }
 
 export type Shading = "unlit" | "flat" | "smooth";
@@ -36,6 +54,8 @@ export interface Material {
     diffuse?: number | undefined;
     specular?: number | undefined;
     shininess?: number | undefined;
+    /** Needs a mesh with `uvs`. */
+    texture?: Texture | undefined;
 }
 
 /** A mesh in the world: a vertex v is at position + rotation(scale * v). */

@@ -78,6 +78,7 @@ def deploy(
         plan_storage,
         read_allow_list,
         store,
+        token_scene,
     )
 
     kind = KINDS[choice(collection, "the collection", tuple(KINDS))]
@@ -126,7 +127,7 @@ def deploy(
         print_note(f"{kind.title} on chain {connection.chain_id}, at {plan.address}{before}")
     storage = None
     if chosen:
-        storage = plan_storage(connection, [SceneToStore(piece.name, piece.make()) for piece in chosen], fees)
+        storage = plan_storage(connection, [SceneToStore(piece.name, token_scene(piece)) for piece in chosen], fees)
     icons_wanted = [
         (piece.title, pointer, SCALE, *of_each)
         for piece, pointer in zip(chosen, () if storage is None else storage.pointers, strict=True)

@@ -28,7 +28,17 @@ def add(
 ) -> None:
     """Add an icon, whose scene is on the chain, to a collection that is not sealed. For the owner."""
     from ...studio import STUDIO, stored_codes
-    from ...tokens import SCALE, SceneToStore, add_call, address_of, check_sale, chosen_pieces, parts_of, plan_storage
+    from ...tokens import (
+        SCALE,
+        SceneToStore,
+        add_call,
+        address_of,
+        check_sale,
+        chosen_pieces,
+        parts_of,
+        plan_storage,
+        token_scene,
+    )
 
     wei = parse_ether(price, "--price")
     check_sale([], wei, supply, reserve)
@@ -39,7 +49,7 @@ def add(
     collection = which.open()
     if place is None:
         piece = pieces[0]
-        storage = plan_storage(collection.connection, [SceneToStore(piece.name, piece.make())])
+        storage = plan_storage(collection.connection, [SceneToStore(piece.name, token_scene(piece))])
         if storage.missing:
             raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
         name, place = piece.title, storage.pointers[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -19,10 +20,12 @@ from ...scene import (
     Object,
     Rim,
     Scene,
+    Texture,
     Tone,
     from_euler,
     look_at,
     painted,
+    stage,
     view_axes,
 )
 from .. import require, teapot
@@ -31,12 +34,12 @@ from ..common import shapes
 Array = NDArray[np.float64]
 
 #: Of every scene.
-SIZE = (360, 270)
+SIZE = (320, 240)
 UNLIT = Material("unlit")
 
 
 def _scene(
-    objects: Sequence[Object], camera: Camera, lights: Sequence[Light], background: Background, **fields: object
+    objects: Sequence[Object], camera: Camera, lights: Sequence[Light], background: Background, **fields: Any
 ) -> Scene:
     width, height = SIZE
     return Scene(objects, camera, lights, background, width=width, height=height, antialias=True, **fields)
@@ -56,21 +59,24 @@ def _put(
     return Object(mesh, position, from_euler(turn), scale, material, cull, opacity=opacity)
 
 
-def _plane(side: float, color: str, cells: int = 1) -> Mesh:
-    """Return a square at y = 0."""
-    line = np.linspace(-side / 2, side / 2, cells + 1)
-    grid = modelling_grid(line, line)
-    return painted(grid, color)
+def _floor(color: str) -> Object:
+    """Return a wide plane at y = 0, of one colour."""
+    line = np.array([-40.0, 40.0])
+    return _put(_terrain(line, line, 0.0), UNLIT, color)
 
 
-def modelling_grid(xs: Array, zs: Array, height: float | Array = 0.0) -> Mesh:
-    """Return a terrain over a grid, seen from above."""
+def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
+    """Return a surface over a grid, seen from above."""
     z, x = np.meshgrid(zs, xs, indexing="ij")
     points = np.stack([x, np.broadcast_to(height, x.shape), z], axis=-1).reshape(-1, 3)
-    number = np.arange(len(points)).reshape(x.shape)
+    return Mesh(points, _cells(*x.shape))
+
+
+def _cells(rows: int, columns: int) -> NDArray[np.int64]:
+    """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
+    number = np.arange(rows * columns).reshape(rows, columns)
     a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
-    faces = np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
-    return Mesh(points, faces)
+    return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
 
 
 # ---- still life ----
@@ -131,87 +137,144 @@ def _chessboard(side: int = 12) -> Mesh:
 
 
 def glass() -> Scene:
-    """Return a glass, bottles and marbles before a low sun: what is behind shines through."""
-    clear = Material("smooth", ambient=0.35, diffuse=0.5, specular=2.2, shininess=90)
-    dull = Material("smooth", ambient=0.3, diffuse=0.75, specular=0.25, shininess=20)
+    """Return bottles, a tumbler and marbles of glass before solid things, which shine through."""
+    clear = Material("smooth", ambient=0.55, diffuse=0.6, specular=1.6, shininess=70)
+    dull = Material("smooth", ambient=0.35, diffuse=0.75, specular=0.3, shininess=24)
     bottle = _lathe(
-        [0, 0.28, 0.3, 0.26, 0.27, 0.62, 0.72, 0.72, 0.7, 0], [3.4, 3.4, 3.2, 3.1, 2.5, 2.1, 1.7, 0.6, 0.02, 0], 28
+        [0, 0.26, 0.31, 0.31, 0.26, 0.27, 0.32, 0.62, 0.73, 0.74, 0.74, 0.66, 0],
+        [3.5, 3.5, 3.44, 3.26, 3.2, 2.7, 2.45, 2.05, 1.75, 1.4, 0.16, 0, 0],
+        36,
     )
+    tumbler = _lathe([0.74, 0.6, 0.52, 0], [1.75, 0.12, 0, 0], 36)
     return _scene(
         [
-            _put(_plane(60, "#cfa98a"), Material("flat", ambient=0.42, diffuse=0.55, specular=0, shininess=1)),
-            _put(shapes.sphere(), dull, "#d9482b", (-1.55, 0.85, -1.7), scale=0.85),
-            _put(shapes.cylinder(), dull, "#f0b43c", (1.5, 0.9, -2.2)),
-            _put(bottle, clear, "#2f8f6b", (0.1, 0, -0.4), opacity=0.42),
-            _put(bottle, clear, "#3f6fb0", (2.35, 0, 0.1), scale=0.8, opacity=0.42),
-            _put(_tumbler(), clear, "#e8f4ff", (-1.75, 0, 0.7), opacity=0.3),
-            _put(shapes.sphere(), clear, "#c86ba8", (0.9, 0.42, 1.5), scale=0.42, opacity=0.5),
-            _put(shapes.sphere(), clear, "#8fd0e8", (-0.35, 0.34, 1.9), scale=0.34, opacity=0.45),
+            _floor("#c9b49a"),
+            _put(shapes.sphere(), dull, "#e2502c", (-1.3, 0.9, -1.9), scale=0.9),
+            _put(shapes.cylinder(), dull, "#f2b632", (1.55, 0.9, -2.3)),
+            _put(bottle, clear, "#0d8a5c", (0.15, 0, -0.5), opacity=0.5),
+            _put(bottle, clear, "#2a62c4", (2.45, 0, 0.0), scale=0.82, opacity=0.5),
+            _put(tumbler, clear, "#b8e2f0", (-2.05, 0, 0.4), opacity=0.42, cull=False),
+            _put(shapes.sphere(), clear, "#d0408c", (0.95, 0.42, 1.5), scale=0.42, opacity=0.6),
+            _put(shapes.sphere(), clear, "#12a0c0", (-0.45, 0.34, 1.9), scale=0.34, opacity=0.6),
         ],
-        Camera.perspective((0.5, 2.9, 9.2), (0.2, 1.25, 0), fov=29),
-        [Light.directional((-0.5, 0.75, 0.6), "#fff0dc"), Light.directional((0.9, 0.4, -0.5), "#ffb070")],
-        Background("#f3ddc4"),
-        ambient_light="#f4e4d8",
-        fog=Fog("#f3ddc4", 9.5, 30),
-        rim=Rim("#ffffff", 3),
+        Camera.perspective((0.4, 2.7, 9.2), (0.2, 1.5, 0), fov=29),
+        [Light.directional((-0.5, 0.75, 0.6), "#fff4e4")],
+        Background("#e9dccb", "#e9dccb"),
+        ambient_light="#f0ece4",
+        fog=Fog("#e9dccb", 9, 24),
+        rim=Rim("#5c5c64", 2),
     )
 
 
-def _tumbler() -> Mesh:
-    return _lathe([0.62, 0.5, 0.48, 0], [1.7, 0.06, 0, 0], 28)
+# ---- texture ----
+
+
+def vase() -> Scene:
+    """Return an amphora, painted by a texture."""
+    corners = np.array(
+        [
+            (0.0, 2.56), (0.3, 2.56), (0.36, 2.62), (0.43, 2.6), (0.42, 2.5), (0.31, 2.4), (0.26, 2.2), (0.28, 2.0),
+            (0.5, 1.84), (0.78, 1.62), (0.93, 1.32), (0.92, 1.0), (0.76, 0.66), (0.5, 0.36), (0.31, 0.2), (0.3, 0.14),
+            (0.46, 0.08), (0.47, 0.0), (0.0, 0.0),
+        ]
+    )  # fmt: skip
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))])
+    steps = np.linspace(0, along[-1], 65)
+    radius, height = (np.interp(steps, along, corners[:, axis]) for axis in (0, 1))
+    outward = np.stack([-np.gradient(height), np.gradient(radius)])
+    u = np.linspace(0, 1, 57)[:, None]
+    ring = np.stack([np.cos(2 * np.pi * u), 0 * u, -np.sin(2 * np.pi * u)], axis=-1)
+    up = np.array([0.0, 1.0, 0.0])
+    points = radius[:, None] * ring + height[:, None] * up
+    normals = outward[0][:, None] * ring + outward[1][:, None] * up
+    uvs = np.stack(np.broadcast_arrays(2 * u, 1 - height / 2.62), axis=-1)
+    faces = _cells(len(u), len(height))[:, ::-1]
+    mesh = Mesh(points.reshape(-1, 3), faces, "#ffffff", normals.reshape(-1, 3), uvs.reshape(-1, 2))
+    clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
+    return _scene(
+        [_floor("#d8c8b0"), _put(mesh, clay, turn=(0, 20, 0))],
+        Camera.perspective((0, 2.0, 6.6), (0, 1.3, 0), fov=25),
+        [Light.directional((-0.6, 0.6, 0.7), "#fff2dc")],
+        Background("#efe6d6"),
+        ambient_light="#e8e4f0",
+        fog=Fog("#efe6d6", 7.2, 18),
+    )
+
+
+def _bands() -> Array:
+    """Return half of the painting around the amphora, (256, 256, 3): glaze, meanders, rays and waves."""
+    clay, glaze = np.array([206, 108, 58]), np.array([38, 30, 30])
+    row, column = np.mgrid[:256, :256] / 256
+    black = (row < 0.29) | (row > 0.93)
+    # tongues on the shoulder
+    black |= (row > 0.3) & (row < 0.36) & (np.abs(column * 32 % 1 - 0.5) < 0.34 - 2 * np.maximum(row - 0.33, 0))
+    # lines between the bands
+    for line in (0.375, 0.5, 0.62, 0.75):
+        black |= np.abs(row - line) < 0.009
+    # a meander: 8 by 7 cells, of which there are 8 around
+    key = ["########", "#......#", "#.####.#", "#.#..#.#", "#.##.#.#", "#....#.#", "######.#"]
+    cells = np.array([[cell == "#" for cell in line] for line in key])
+    inside = (row > 0.395) & (row < 0.48)
+    down = np.clip(((row - 0.395) / 0.085 * 7).astype(int), 0, 6)
+    black |= inside & cells[down, (column * 64).astype(int) % 8]
+    # waves
+    phase = 2 * np.pi * 8 * column
+    black |= (row > 0.52) & (row < 0.605) & (row > 0.5625 + 0.03 * np.sin(phase + 1.1 * np.sin(phase)))
+    black |= (row > 0.64) & (row < 0.73)
+    # rays at the foot
+    black |= (row > 0.76) & (row < 0.93) & (np.abs(column * 12 % 1 - 0.5) < 0.5 * (row - 0.76) / 0.17)
+    return np.where(black[..., None], glaze, clay)
 
 
 # ---- fog ----
 
 
 def forest() -> Scene:
-    """Return firs on a slope, paler and paler in the fog of a morning."""
-    rng = np.random.default_rng(8)
-    bark = Material("flat", ambient=0.5, diffuse=0.6, specular=0, shininess=1)
-    depth = np.concatenate([np.linspace(-3, -34, 64), [3.2, 1.8]])
-    side = np.concatenate([rng.uniform(-1, 1, 64) * (3.5 - 0.36 * depth[:-2]), [-3.3, 3.1]])
-    trees = [_fir(rng, x, _hill(x, z), z) for x, z in zip(side, depth, strict=True)]
-    xs, zs = np.linspace(-26, 26, 25), np.linspace(-44, 9, 25)
+    """Return firs on both sides of a valley, paler and paler in the haze of a morning."""
+    rng = np.random.default_rng(12)
+    matt = Material("flat", ambient=0.45, diffuse=0.75, specular=0, shininess=1)
+    depths = np.concatenate([np.linspace(-34, 3.5, 96), [4.6, 5.4]])
+    sides = [float(rng.choice([-1, 1]) * (1.6 + rng.exponential(0.17 * (12 - z)))) for z in depths[:-2]] + [-3.3, 3.4]
+    trees = [_fir(rng, x, float(_hill(x, z)), z) for x, z in zip(sides, depths.tolist(), strict=True)]
+    xs, zs = np.linspace(-32, 32, 25), np.linspace(-46, 9, 25)
     z, x = np.meshgrid(zs, xs, indexing="ij")
-    land = modelling_grid(xs, zs, _hill(x, z))
+    land = _terrain(xs, zs, _hill(x, z))
     return _scene(
-        [_put(shapes.joined(*trees), bark), _put(land, bark, "#6f7f4f")],
-        Camera.perspective((0, 2.6, 10), (0, 2.75, 0), fov=42),
-        [Light.directional((-0.9, 0.55, -0.35), "#ffd9a0")],
-        Background("#8fb4cf", "#fbf3e4"),
-        ambient_light="#8694a8",
-        hemisphere=Hemisphere("#54708a", "#202818"),
-        fog=Fog("#cbd9df", 7, 40),
+        [_put(shapes.joined(*trees), matt), _put(land, matt, "#80874c")],
+        Camera.perspective((0, 2.2, 11), (0, 2.6, 0), fov=38),
+        [Light.directional((-0.9, 0.55, 0.15), "#ffcf94")],
+        Background("#6f9cc4", "#ffe2c0"),
+        ambient_light="#6c7890",
+        hemisphere=Hemisphere("#5a7898", "#181c14"),
+        fog=Fog("#ecdccb", 7, 36),
     )
 
 
 def _hill(x: ArrayLike, z: ArrayLike) -> Array:
     x, z = np.asarray(x), np.asarray(z)
-    return 0.5 * np.sin(0.31 * x + 0.4) * np.cos(0.23 * z) - 0.03 * z + 0.004 * x**2 - 0.6
+    return 0.35 * np.sin(0.31 * x + 0.4) * np.cos(0.23 * z) - 0.02 * z + 0.012 * x**2 - 0.4
 
 
 def _fir(rng: np.random.Generator, x: float, y: float, z: float) -> Mesh:
-    size, turn = rng.uniform(1.6, 3.1), rng.uniform(0, 6)
-    parts = [_cone(0.13, 0.16, 0.0, 0.3, 5, "#4a3626", turn)]
-    for level, (reach, low, high) in enumerate(((0.5, 0.2, 0.62), (0.4, 0.42, 0.82), (0.27, 0.65, 1.05))):
-        parts.append(_cone(0, reach, low, high, 7, ("#2c5a3c", "#346b45", "#3f7d4e")[level], turn + level))
+    size, turn = rng.uniform(1.7, 3.3), rng.uniform(0, 6)
+    green = rng.uniform(-10, 14)
+    parts = [_cone(0.07, 0.08, 0.0, 0.3, 5, "#4a3626", turn)]
+    for level, (reach, low, high) in enumerate(((0.4, 0.16, 0.6), (0.32, 0.4, 0.82), (0.22, 0.62, 1.08))):
+        parts.append(_cone(0, reach, low, high, 7, ("#2a5c3a", "#326a42", "#3c7a4a")[level], turn + level))
     mesh = shapes.joined(*parts)
-    return Mesh(size * mesh.positions * (0.8, 1, 0.8) + (x, y - 0.05, z), mesh.faces, mesh.colors)
+    colors = np.clip(mesh.colors + np.array([green, green, 0]), 0, 255).astype(np.uint8)
+    return Mesh(size * mesh.positions + (x, y - 0.05, z), mesh.faces, colors)
 
 
 def _cone(top: float, bottom: float, low: float, high: float, sides: int, color: str, turn: float) -> Mesh:
-    """Return the side of a cone, cut off at the top unless that is a tip."""
+    """Return the side of a cone, cut off unless its radius at the top is 0."""
     angle = turn + 2 * np.pi * np.arange(sides) / sides
     ring = np.stack([np.cos(angle), 0 * angle, -np.sin(angle)], axis=1)
-    k = np.arange(sides)
-    following = (k + 1) % sides
     points = np.concatenate([bottom * ring + (0, low, 0), top * ring + (0, high, 0)])
+    k, following = np.arange(sides), np.roll(np.arange(sides), -1)
     faces = [np.stack([k, following, sides + k], axis=1)]
     if top:
         faces.append(np.stack([following, sides + following, sides + k], axis=1))
-    else:
-        points = np.concatenate([points[:sides], [(0, high, 0)]])
-        faces = [np.stack([k, following, 0 * k + sides], axis=1)]
     return painted(Mesh(points, np.concatenate(faces)), color)
 
 
@@ -219,25 +282,21 @@ def _cone(top: float, bottom: float, low: float, high: float, sides: int, color:
 
 
 def skull() -> Scene:
-    """Return the icon of a skull in the dark, outlined by light from behind."""
-    scene = _piece("icons/skull", azimuth=-32, elevation=6, margin=0.1)
-    right, up, back = view_axes(-32, 6)
+    """Return the icon of a skull in the dark, outlined by cold light."""
+    scene = _piece("icons/skull", azimuth=-30, elevation=4, margin=0.12)
+    right, up, back = view_axes(-30, 4)
     return evolve(
         scene,
-        objects=[_lit(o, 0.1, 0.6) for o in scene.objects],
-        lights=[Light.directional(0.8 * right + 0.5 * up + 0.3 * back, "#ff8a4a")],
-        background=Background("#0b0e1a", "#1c1230"),
-        rim=Rim("#58c4ff", 2),
+        objects=[evolve(o, material=evolve(o.material, ambient=0.1, diffuse=0.7)) for o in scene.objects],
+        lights=[Light.directional(0.9 * right + 0.55 * up + 0.35 * back, "#ff8a4a")],
+        background=Background("#0a0d18", "#1e1434"),
         ambient_light="#8090c0",
+        rim=Rim("#4cb8ff", 3),
         tone=Tone(1.1, filmic=True, gamma=True),
     )
 
 
-def _lit(o: Object, ambient: float, diffuse: float) -> Object:
-    return evolve(o, material=evolve(o.material, ambient=ambient, diffuse=diffuse))
-
-
-def _piece(name: str, **look: object) -> Scene:
+def _piece(name: str, **look: Any) -> Scene:
     """Return a piece of another dataset on the canvas of the showcase."""
     return look_at(require(name).make(), {"size": SIZE, "antialias": True, **look})
 
@@ -246,7 +305,7 @@ def _piece(name: str, **look: object) -> Scene:
 
 
 def genesis() -> Scene:
-    """Return a piece of Genesis, antialiased; it is lit as its contract draws it."""
+    """Return a piece of Genesis, antialiased."""
     return _piece("genesis/21")
 
 
@@ -254,17 +313,9 @@ def genesis() -> Scene:
 
 
 def rocket() -> Scene:
-    """Return the icon of a rocket; the Turntable contract makes the frames."""
-    return look_at(
-        require("icons/rocket").make(),
-        {
-            "size": (180, 135),
-            "antialias": True,
-            "margin": 0.16,
-            "rim": Rim("#6f8cff", 3),
-            "ambient_light": (200, 205, 255),
-        },
-    )
+    """Return the icon of a rocket, of which the showcase draws a turntable."""
+    look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.1}
+    return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
 
 
 # ---- tone ----
@@ -272,17 +323,17 @@ def rocket() -> Scene:
 
 def knot() -> Scene:
     """Return a knot in bright coloured lights, added up in linear space and compressed as on film."""
-    porcelain = Material("smooth", ambient=0.04, diffuse=0.9, specular=0.9, shininess=60)
+    porcelain = Material("smooth", ambient=0.03, diffuse=0.75, specular=0.9, shininess=70)
     return _scene(
-        [_put(shapes.torus_knot(2, 3, 0.2, 120, 14), porcelain, "#f4efe8")],
-        Camera.perspective((0, 0.5, 5.6), (0, 0, 0), fov=27),
+        [_put(shapes.torus_knot(2, 3, 0.2, 150, 18), porcelain, "#f4efe8")],
+        Camera.perspective((0, 0.4, 5.0), (0, 0, 0), fov=27),
         [
-            Light.directional((-0.9, 0.6, 0.5), "#ff5a3c"),
-            Light.directional((0.9, 0.4, 0.5), "#3c7bff"),
-            Light.directional((0.1, 0.9, 0.2), "#ffe9c8"),
+            Light.directional((-1, 0.2, 0.35), "#ff3a20"),
+            Light.directional((1, 0.1, 0.3), "#2050ff"),
+            Light.directional((0.05, 1, 0.3), "#ffd9a0"),
         ],
-        Background("#191724", "#3a3048"),
-        tone=Tone(1.9, filmic=True, gamma=True),
+        Background("#121018", "#2c2438"),
+        tone=Tone(1.5, filmic=True, gamma=True),
     )
 
 
@@ -291,25 +342,25 @@ def knot() -> Scene:
 
 def plaster() -> Scene:
     """Return solids of plaster under a blue sky, on warm ground that shines back."""
-    chalk = Material("smooth", ambient=0.75, diffuse=0.5, specular=0, shininess=1)
+    chalk = Material("smooth", ambient=0.85, diffuse=0.55, specular=0, shininess=1)
     facets = evolve(chalk, shading="flat")
-    color = "#f2efe9"
+    color = "#f6f3ee"
     return _scene(
         [
-            _put(_plane(60, "#e2b07a"), Material("flat", ambient=0.75, diffuse=0.5, specular=0, shininess=1)),
-            _put(shapes.torus(), chalk, color, (-2.1, 1.0, -0.2), (90, 0, 0)),
-            _put(shapes.dodecahedron(), facets, color, (0.15, 0.98, -0.8), (10, 20, 0), 1.2),
-            _put(shapes.cone(), chalk, color, (2.3, 0.9, -0.3)),
-            _put(shapes.sphere(), chalk, color, (-0.85, 0.55, 1.5), scale=0.55),
+            _floor("#ecc79a"),
+            _put(shapes.torus(), chalk, color, (-2.15, 1.0, -0.2), (90, 0, 0)),
+            _put(shapes.dodecahedron(), facets, color, (0.1, 0.98, -0.9), (10, 20, 0), 1.2),
+            _put(shapes.cone(60), chalk, color, (2.35, 0.9, -0.3)),
+            _put(shapes.sphere(40, 20), chalk, color, (-0.9, 0.55, 1.5), scale=0.55),
             _put(shapes.superellipsoid(), chalk, color, (1.05, 0.62, 1.5), (0, 35, 0), 0.62),
         ],
-        Camera.perspective((0, 3.0, 9.6), (0.05, 0.85, 0), fov=28),
-        [Light.directional((-0.6, 0.8, 0.35), "#fff3dc")],
-        Background("#cfe0ee"),
-        ambient_light="#202020",
-        hemisphere=Hemisphere("#a8c4ea", "#b0763c"),
-        fog=Fog("#cfe0ee", 10, 32),
-        tone=Tone(1.0, gamma=True),
+        Camera.perspective((0, 2.7, 9.4), (0.05, 1.0, 0), fov=28),
+        [Light.directional((-0.7, 0.7, 0.35), "#ffe9c4")],
+        Background("#bcd6ee"),
+        ambient_light="#181818",
+        hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
+        fog=Fog("#bcd6ee", 10, 30),
+        tone=Tone(1.15, gamma=True),
     )
 
 
@@ -317,13 +368,13 @@ def plaster() -> Scene:
 
 
 def wires() -> Scene:
-    """Return a range of hills as a net of wires that fades into the night, before a low sun."""
+    """Return hills as a net of wires that fades into the night, before a low sun."""
     rng = np.random.default_rng(3)
-    xs, zs = np.linspace(-14, 14, 29), np.linspace(-26, 6, 33)
+    xs, zs = np.linspace(-16, 16, 33), np.linspace(-26, 6, 25)
     z, x = np.meshgrid(zs, xs, indexing="ij")
     valley = np.clip(np.abs(x) / 7 - 0.35, 0, 1) ** 1.5
     height = valley * (1.6 + 1.2 * np.sin(0.9 * x + 0.5 * z) + rng.uniform(-0.8, 1.2, x.shape))
-    hills = painted(modelling_grid(xs, zs, height), "#ff5fa8")
+    hills = painted(_terrain(xs, zs, height), "#ff5fa8")
     angle = 2 * np.pi * np.arange(64) / 64
     rim = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
     k = np.arange(64)
@@ -331,10 +382,10 @@ def wires() -> Scene:
     sun = shapes.shaded(disc, "#ff2f7e", "#ffd25a")
     return _scene(
         [
-            Object(sun, (0, 4.6, -40), scale=7.5, material=UNLIT),
-            Object(hills, material=UNLIT, wireframe=True),
+            Object(sun, (0, 4.8, -40), scale=7.5, material=UNLIT),
+            Object(hills, material=UNLIT, wireframe=True, cull=False),
         ],
-        Camera.perspective((0, 2.0, 9.5), (0, 2.3, 0), fov=40),
+        Camera.perspective((0, 2.4, 9.5), (0, 2.5, 0), fov=40),
         [],
         Background("#0d0630", "#4a1060"),
     )
@@ -348,19 +399,18 @@ def cornell_box() -> Scene:
     return evolve(_piece("cornell-box"), tone=Tone(0.9, filmic=True, gamma=True))
 
 
-# ---- crystals ----
+# ---- hemisphere and rim ----
 
 
 def shell() -> Scene:
-    """Return a seashell under a hazy sky, outlined against the sea."""
-    pearl = Material("smooth", ambient=0.35, diffuse=0.7, specular=0.6, shininess=40)
-    scene = look_at(require("seashell").make(), {"size": SIZE, "antialias": True, "margin": 0.1})
+    """Return a seashell by the sea: light from the sky and from the sand, and a fine rim."""
+    pearl = Material("smooth", ambient=0.6, diffuse=0.6, specular=0.5, shininess=50)
+    mesh = shapes.shaded(shapes.seashell(180, 28), "#d9735b", "#f7e3c9")
     return evolve(
-        scene,
-        objects=[evolve(o, material=pearl) for o in scene.objects],
-        background=Background("#173a4a", "#7fb4b4"),
-        ambient_light="#404040",
-        hemisphere=Hemisphere("#9cc4d4", "#c89060"),
-        rim=Rim("#ffd9b0", 4),
+        stage(mesh, SIZE, material=pearl, antialias=True, azimuth=20, elevation=14, margin=0.1, cull=False),
+        background=Background("#1d5a72", "#bfe0d8"),
+        ambient_light="#303030",
+        hemisphere=Hemisphere("#a8d4e8", "#d09860"),
+        rim=Rim("#ffe4c0", 5),
         tone=Tone(1.0, gamma=True),
     )

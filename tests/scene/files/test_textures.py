@@ -1,0 +1,395 @@
+"""Textures of mesh and scene files: what loads, how it is reduced, and files that are wrong."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import struct
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from attrs import evolve
+from numpy.typing import NDArray
+from PIL import Image
+
+import shackled
+from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
+from shackled.errors import InputWarning
+from shackled.scene import TEXTURED, decode, read_mesh, read_model, render_call, simplify, unpack_texture
+
+Pixels = NDArray[np.uint8]
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float32)
+UVS = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], dtype=np.float32)
+FACES = np.array([0, 1, 2, 0, 2, 3], dtype=np.uint16)
+
+
+def pixels_of(width: int, height: int, seed: int = 1) -> Pixels:
+    return np.random.default_rng(seed).integers(0, 256, (height, width, 3), dtype=np.uint8)
+
+
+def png(pixels: Pixels) -> bytes:
+    stream = io.BytesIO()
+    Image.fromarray(pixels).save(stream, "PNG")
+    return stream.getvalue()
+
+
+def glb(path: Path, images: list[bytes | str], samplers: list[dict[str, int]] | None = None, **more: Any) -> Path:
+    """A GLB with a square for each image: its bytes, or a URI. more: uvs, colors, factor."""
+    data = bytearray()
+    document: dict[str, Any] = {"asset": {"version": "2.0"}, "scene": 0, "bufferViews": [], "accessors": []}
+
+    def view(content: bytes) -> int:
+        document["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": len(content)})
+        data.extend(content + bytes(-len(content) % 4))
+        return len(document["bufferViews"]) - 1
+
+    def accessor(values: NDArray[Any], kind: str) -> int:
+        component = {"f4": 5126, "u2": 5123}[values.dtype.str[1:]]
+        document["accessors"].append(
+            {"bufferView": view(values.tobytes()), "componentType": component, "count": len(values), "type": kind}
+        )
+        return len(document["accessors"]) - 1
+
+    attributes = {
+        "POSITION": accessor(SQUARE, "VEC3"),
+        "TEXCOORD_0": accessor(np.asarray(more.get("uvs", UVS), dtype=np.float32), "VEC2"),
+    }
+    if "colors" in more:
+        attributes["COLOR_0"] = accessor(np.asarray(more["colors"], dtype=np.float32), "VEC3")
+    indices = accessor(FACES, "SCALAR")
+    count = len(images)
+    document |= {
+        "images": [{"uri": each} if isinstance(each, str) else {"bufferView": view(each)} for each in images],
+        "samplers": samplers or [{}],
+        "textures": [{"source": number, "sampler": number if samplers else 0} for number in range(count)],
+        "materials": [
+            {
+                "pbrMetallicRoughness": {
+                    "baseColorTexture": {"index": more.get("index", number)},
+                    **more.get("factor", {}),
+                }
+            }
+            for number in range(count)
+        ],
+        "meshes": [
+            {"primitives": [{"attributes": attributes, "indices": indices, "material": number}]}
+            for number in range(count)
+        ],
+        "nodes": [{"mesh": number, "translation": [2 * number, 0, 0]} for number in range(count)],
+        "scenes": [{"nodes": list(range(count))}],
+        "buffers": [{"byteLength": len(data)}],
+    }
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + bytes(data)
+    path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
+    return path
+
+
+def texture_of(scene: Scene, number: int = 0) -> Texture:
+    found = scene.objects[number].material.texture
+    assert found is not None
+    return found
+
+
+def messages(told: Any) -> list[str]:
+    return [str(warning.message) for warning in told]
+
+
+# ---- glTF ----
+
+
+def test_a_textured_glb(tmp_path: Path) -> None:
+    pixels = pixels_of(8, 4)
+    scene = load(glb(tmp_path / "a.glb", [png(pixels)]))
+    (thing,) = scene.objects
+    assert texture_of(scene) == Texture(pixels, "bilinear", "repeat")
+    assert thing.mesh.uvs is not None
+    corners = np.hstack([thing.mesh.positions, thing.mesh.uvs])[thing.mesh.faces].reshape(-1, 5)
+    np.testing.assert_allclose(corners, np.hstack([SQUARE, UVS])[FACES], atol=1e-6)
+    assert (thing.mesh.colors == 255).all()
+
+
+def test_samplers(tmp_path: Path) -> None:
+    samplers = [{"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}, {"magFilter": 9729, "wrapS": 10497}]
+    scene = load(glb(tmp_path / "a.glb", [png(pixels_of(4, 4, 1)), png(pixels_of(4, 4, 2))], samplers))
+    assert [(texture_of(scene, i).filter, texture_of(scene, i).wrap) for i in range(2)] == [
+        ("nearest", "clamp"),
+        ("bilinear", "repeat"),
+    ]
+
+
+def test_each_texture_is_an_object_and_all_stand_together(tmp_path: Path) -> None:
+    images: list[bytes | str] = [png(pixels_of(4, 4, 1)), png(pixels_of(4, 4, 2)), png(np.full((2, 2, 3), 9, np.uint8))]
+    scene = load(glb(tmp_path / "a.glb", images), size=64)
+    # an image of one colour is that of the vertices
+    assert [o.material.texture is not None for o in scene.objects] == [True, True, False]
+    assert (scene.objects[2].mesh.colors == 9).all()
+    assert len({(tuple(o.position), o.scale, o.cull) for o in scene.objects}) == 1
+    low, high = scene.bounds
+    assert np.linalg.norm(high - low) == pytest.approx(2, rel=0.01)
+
+
+def test_factor_and_vertex_colors_are_linear(tmp_path: Path) -> None:
+    path = glb(
+        tmp_path / "a.glb",
+        [png(pixels_of(4, 4))],
+        colors=[[1, 0.5, 0]] * 4,
+        factor={"baseColorFactor": [0.5, 0.5, 1, 1]},
+    )
+    # 1.055 * 0.5^(1 / 2.4) - 0.055 = 0.735, and 0.537 of a quarter
+    assert load(path).objects[0].mesh.colors.tolist() == [[188, 137, 0]] * 4
+
+
+def test_a_mirrored_image_is_doubled(tmp_path: Path) -> None:
+    pixels = pixels_of(3, 2)
+    scene = load(glb(tmp_path / "a.glb", [png(pixels)], [{"wrapS": 33648, "wrapT": 33648}], uvs=UVS * 2))
+    across = np.concatenate([pixels, pixels[:, ::-1]], axis=1)
+    assert (texture_of(scene).pixels == np.concatenate([across, across[::-1]])).all()
+    uvs = scene.objects[0].mesh.uvs
+    assert uvs is not None
+    assert uvs.max() == 1
+    # within 0..1 it is not seen
+    scene = load(glb(tmp_path / "a.glb", [png(pixels)], [{"wrapS": 33648, "wrapT": 33648}]))
+    assert (texture_of(scene).pixels == pixels).all()
+    assert texture_of(scene).wrap == "clamp"
+
+
+def test_a_large_image_is_reduced_with_a_note(tmp_path: Path) -> None:
+    path = glb(tmp_path / "a.glb", [png(np.tile(pixels_of(8, 8), (64, 128, 1)))])
+    with pytest.warns(InputWarning) as told:
+        scene = load(path)
+    assert messages(told) == [f"{path}: textures[0] is reduced from 1024 x 512 to 256 x 128 texels"]
+    assert (texture_of(scene).width, texture_of(scene).height) == (256, 128)
+
+
+def test_many_textures_are_smaller(tmp_path: Path) -> None:
+    path = glb(tmp_path / "a.glb", [png(pixels_of(300, 300, seed)) for seed in range(5)])
+    with pytest.warns(InputWarning):
+        scene = load(path)
+    assert {texture_of(scene, number).width for number in range(5)} == {128}
+
+
+def test_far_coordinates_of_an_image_that_repeats_are_moved(tmp_path: Path) -> None:
+    scene = load(glb(tmp_path / "a.glb", [png(pixels_of(4, 4))], uvs=UVS + 5000))
+    uvs = scene.objects[0].mesh.uvs
+    assert uvs is not None
+    assert (uvs.min(), uvs.max()) == (0, 1)
+    render_call(scene)
+    scene = load(glb(tmp_path / "a.glb", [png(pixels_of(4, 4))], [{"wrapS": 33071, "wrapT": 33071}], uvs=UVS + 5000))
+    with pytest.raises(
+        InputError, match=r"objects\[0\]: the texture coordinates of vertex 0 must be from -128 to below"
+    ):
+        render_call(scene)
+
+
+# ---- files that are wrong ----
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_coordinates_that_are_no_numbers(tmp_path: Path, value: float) -> None:
+    uvs = UVS.copy()
+    uvs[2, 1] = value
+    path = glb(tmp_path / "a.glb", [png(pixels_of(4, 4))], uvs=uvs)
+    with pytest.warns(InputWarning) as told:
+        render_call(load(path))
+    assert messages(told) == [
+        f"{path}: textures[0] has texture coordinates that are not finite numbers; they are taken as 0"
+    ]
+
+
+def test_a_missing_image_leaves_white(tmp_path: Path) -> None:
+    path = glb(tmp_path / "a.glb", ["lost.png"])
+    with pytest.warns(InputWarning) as told:
+        scene = load(path)
+    assert messages(told) == [f"{path}: a texture is left out: images[0].uri: {tmp_path / 'lost.png'} does not exist"]
+    assert scene.objects[0].material.texture is None
+    assert (scene.objects[0].mesh.colors == 255).all()
+
+
+def test_an_image_inside_of_the_document(tmp_path: Path) -> None:
+    pixels = pixels_of(4, 4)
+    uri = "data:image/png;base64," + base64.b64encode(png(pixels)).decode()
+    assert (texture_of(load(glb(tmp_path / "a.glb", [uri]))).pixels == pixels).all()
+
+
+@pytest.mark.parametrize(
+    "uri", ["data:image/png;base64,####", "data:image/png;base64,AAAA", "data:,no image", "../a.png", "http://x/a.png"]
+)
+def test_data_that_are_no_image(tmp_path: Path, uri: str) -> None:
+    path = glb(tmp_path / "a.glb", [uri])
+    with pytest.warns(InputWarning, match=r"a texture is left out: images\[0\]"):
+        assert load(path).objects[0].material.texture is None
+
+
+def chunk(kind: bytes, content: bytes) -> bytes:
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+
+
+def test_an_image_that_says_it_is_huge(tmp_path: Path) -> None:
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0))
+    data = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b"")
+    path = glb(tmp_path / "a.glb", [data])
+    with pytest.warns(InputWarning, match=r"a texture is left out: images\[0\]"):
+        assert load(path).objects[0].material.texture is None
+
+
+def test_a_texture_that_is_not_there(tmp_path: Path) -> None:
+    path = glb(tmp_path / "a.glb", [png(pixels_of(4, 4))], index=7)
+    with pytest.raises(InputError, match="index is 7, but there are 1 textures, numbered from 0"):
+        load(path)
+
+
+# ---- OBJ ----
+
+OBJ = """mtllib m.mtl
+v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0
+vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1
+usemtl a\nf 1/1 2/2 3/3\nf 1/2 3/3 4/4
+"""
+
+
+def obj(folder: Path, materials: str, text: str = OBJ) -> Path:
+    (folder / "m.mtl").write_text(materials)
+    (folder / "a.obj").write_text(text)
+    return folder / "a.obj"
+
+
+def test_corners_of_an_obj_have_their_own_coordinates(tmp_path: Path) -> None:
+    pixels = pixels_of(5, 5)
+    Image.fromarray(pixels).save(tmp_path / "wood.png")
+    scene = load(obj(tmp_path, "newmtl a\nKd 0.1 0.1 0.1\nmap_Kd wood.png\n"))
+    assert texture_of(scene) == Texture(pixels)
+    mesh = scene.objects[0].mesh
+    assert mesh.uvs is not None
+    # v is upward in the file
+    assert mesh.uvs[mesh.faces].tolist() == [[[0, 1], [1, 1], [1, 0]], [[1, 1], [1, 0], [0, 0]]]
+    assert len(mesh.positions) == 5
+    assert (mesh.colors == 255).all()
+
+
+def test_an_obj_with_two_textures_and_a_color(tmp_path: Path) -> None:
+    for name in ("wood", "bark"):
+        Image.fromarray(pixels_of(4, 4, len(name) + ord(name[0]))).save(tmp_path / f"{name}.png")
+    materials = "newmtl a\nmap_Kd wood.png\nnewmtl b\nmap_Kd -clamp on bark.png\nnewmtl c\nKd 1 0 0\n"
+    text = OBJ + "usemtl b\nf 1/1 2/2 4/4\nusemtl c\nf 2 3 4\n"
+    parts = read_model(obj(tmp_path, materials, text))
+    assert [part.mesh.triangles for part in parts] == [1, 2, 1]
+    assert [getattr(part.material.get("texture"), "wrap", None) for part in parts] == [None, "repeat", "clamp"]
+    with pytest.warns(InputWarning, match=TEXTURED):
+        assert read_mesh(tmp_path / "a.obj").triangles == 4
+
+
+# ---- other ways ----
+
+
+def textured(pixels: Pixels | None = None) -> Object:
+    mesh = Mesh(SQUARE, FACES.reshape(-1, 3), [[255, 255, 255]] * 4, None, UVS)
+    return Object(mesh, material=Material(texture=Texture(pixels_of(6, 5) if pixels is None else pixels, "nearest")))
+
+
+def test_scene_files_links_and_pictures_keep_textures(tmp_path: Path) -> None:
+    scene = Scene([textured(), textured(pixels_of(20, 20))], width=32, height=32)
+    scene.save(tmp_path / "scene.json")
+    assert load(tmp_path / "scene.json") == scene
+    call = render_call(scene)
+    assert render_call(decode(call)) == call
+    shackled.render(scene).save(tmp_path / "scene.png")
+    assert render_call(load(tmp_path / "scene.png")) == call
+
+
+def test_a_texture_by_its_path_in_a_scene_file(tmp_path: Path) -> None:
+    pixels = pixels_of(3, 3)
+    Image.fromarray(pixels).save(tmp_path / "wood.png")
+    mesh = f"{{ positions = {SQUARE.tolist()}, faces = {FACES.reshape(-1, 3).tolist()}, uvs = {UVS.tolist()} }}"
+    path = tmp_path / "scene.toml"
+    path.write_text(f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = "wood.png" }}\n')
+    assert texture_of(load(path)) == Texture(pixels)
+    keys = 'image = "wood.png", filter = "nearest", wrap = "clamp"'
+    path.write_text(f"[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = {{ {keys} }} }}\n")
+    assert texture_of(load(path)) == Texture(pixels, "nearest", "clamp")
+    path.write_text(f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = "lost.png" }}\n')
+    with pytest.raises(InputError, match=r"objects\[0\]\.material\.texture: .*lost\.png does not exist"):
+        load(path)
+    path.write_text(
+        f'[[objects]]\nmesh = {mesh}\nmaterial = {{ texture = {{ width = 1, height = 1, pixels = "AAA=" }} }}\n'
+    )
+    with pytest.raises(InputError, match="1 x 1 pixels need 3 bytes, not 2"):
+        load(path)
+
+
+def test_a_texture_of_trimesh(tmp_path: Path) -> None:
+    pixels = pixels_of(8, 8)
+    path = glb(tmp_path / "a.glb", [png(pixels)])
+    mesh: Any = trimesh.load(path, force="mesh")
+    ours, theirs = load(path), load(mesh)
+    assert texture_of(theirs) == texture_of(ours)
+    assert shackled.render(theirs, 48).pixels.tolist() == shackled.render(ours, 48).pixels.tolist()
+
+
+def test_one_color_for_all_is_without_texture() -> None:
+    scene = load([textured()], color="tomato")
+    assert scene.objects[0].material.texture is None
+
+
+def test_simplified_meshes_keep_seams() -> None:
+    """A tube of which the texture goes around: no triangle may span the image from its end back to its beginning."""
+    angles, rows = np.meshgrid(np.linspace(0, 1, 33), np.linspace(0, 1, 17))
+    turns = 2 * np.pi * np.round(angles % 1, 9)
+    positions = np.stack([np.cos(turns), 2 * rows, np.sin(turns)], axis=2).reshape(-1, 3)
+    uvs = np.stack([angles, rows], axis=2).reshape(-1, 2)
+    numbers = np.arange(33 * 17).reshape(17, 33)
+    a, b, c, d = numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]
+    faces = np.concatenate([np.stack([a, b, c], 2).reshape(-1, 3), np.stack([a, c, d], 2).reshape(-1, 3)])
+    mesh = simplify(Mesh(positions, faces, uvs=uvs), 200)
+    assert mesh.triangles <= 200
+    assert mesh.uvs is not None
+    corners = mesh.uvs[mesh.faces]
+    assert np.ptp(corners[:, :, 0], axis=1).max() < 0.5
+    # and they are where they were
+    u = np.arctan2(mesh.positions[:, 2], mesh.positions[:, 0]) / (2 * np.pi) % 1
+    off = np.abs(u - mesh.uvs[:, 0])
+    assert np.minimum(off, 1 - off).max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("pixels", "message"),
+    [
+        (np.zeros((3, 3)), "must be of shape"),
+        (np.zeros((3, 3, 4)), "must be of shape"),
+        (np.zeros((257, 3, 3)), "from 1 to 256 texels along each side, not 3 x 257"),
+        (np.zeros((0, 3, 3)), "from 1 to 256 texels"),
+        (np.full((3, 3, 3), 0.5), "whole numbers from 0 to 255"),
+        (np.full((3, 3, 3), 256), "whole numbers from 0 to 255"),
+    ],
+)
+def test_pixels_that_are_none(pixels: Any, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Texture(pixels)
+
+
+def test_what_a_texture_needs() -> None:
+    with pytest.raises(InputError, match="needs a mesh with uvs"):
+        Object(Mesh(SQUARE, FACES.reshape(-1, 3)), material=Material(texture=Texture(pixels_of(2, 2))))
+    with pytest.raises(InputError, match="finite texture coordinates for each of its 4 vertices, not 3"):
+        Mesh(SQUARE, FACES.reshape(-1, 3), uvs=UVS[:3])
+    with pytest.raises(InputError, match="finite texture coordinates"):
+        Mesh(SQUARE, FACES.reshape(-1, 3), uvs=UVS * np.nan)
+    with pytest.raises(InputError, match=r"must be a shackled\.Texture"):
+        Material(texture="wood.png")  # type: ignore[arg-type]
+    out = evolve(textured(), mesh=evolve(textured().mesh, uvs=UVS * 128))
+    with pytest.raises(InputError, match=r"must be from -128 to below 128, not \(0, 128\)"):
+        render_call(Scene([out]))
+
+
+@pytest.mark.parametrize("place", range(8))
+def test_packed_bytes_that_are_wrong(place: int) -> None:
+    data = bytearray(100)
+    data[place] = 255
+    with pytest.raises(InputError, match="a packed texture"):
+        unpack_texture(bytes(data), 4)
