@@ -18,7 +18,7 @@ uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
 uint256 constant SHADOW_DARK = 1;
 /// @dev In rows of fewer pixels the functions are taken at all samples.
-uint256 constant SHORT_SPAN = 10;
+uint256 constant SHORT_SPAN = 8;
 /// @dev How far the value of a function is below the top of a word, and where it is there.
 uint256 constant CONSTANT_TO_TOP = 96;
 uint256 constant LANE_AT_TOP = 192;
@@ -59,45 +59,30 @@ library ShadowRows {
                 calldatacopy(pixel, calldatasize(), shl(5, sub(end, column)))
             }
             (column, end, row) = (column - PIXEL_BIAS, end - PIXEL_BIAS, row - PIXEL_BIAS);
-            pixel -= 32 * column;
-            uint256 leading = shadow;
-            while (shadow != 0) {
-                uint256 first;
-                uint256 last;
-                uint256 next;
-                assembly ("memory-safe") {
-                    // the next shadow in this row
-                    for {} shadow { shadow := next } {
-                        let word := calldataload(shadow)
-                        if gt(and(shr(TOP_AT, word), ROW_MASK), row) {
-                            shadow := 0
-                            break
-                        }
-                        next := mul(add(shadow, shl(5, and(word, SHADOW_COUNT_MASK))), iszero(and(word, LAST_SHADOW)))
-                        if gt(and(shr(BOTTOM_AT, word), ROW_MASK), row) {
-                            first := and(shr(LEFT_AT, word), ROW_MASK)
-                            last := and(shr(RIGHT_AT, word), ROW_MASK)
-                            if lt(first, column) { first := column }
-                            if gt(last, end) { last := end }
-                            // nothing is passed over any more
-                            leading := 0
-                            if lt(first, last) { break }
-                            continue
-                        }
-                        // those above are passed over from now on
-                        if and(eq(leading, shadow), gt(next, 0)) {
-                            leading := next
-                            mstore(SHADOW_BEGIN, next)
-                        }
+            bool isLeading = true;
+            while (true) {
+                uint256 word = loadCalldata(shadow);
+                if ((word >> TOP_AT) & ROW_MASK > row) return;
+                uint256 next = shadow + 32 * (word & SHADOW_COUNT_MASK);
+                if ((word >> BOTTOM_AT) & ROW_MASK > row) {
+                    isLeading = false;
+                    uint256 first;
+                    uint256 last;
+                    assembly ("memory-safe") {
+                        first := and(shr(LEFT_AT, word), ROW_MASK)
+                        last := and(shr(RIGHT_AT, word), ROW_MASK)
+                        if lt(first, column) { first := column }
+                        if gt(last, end) { last := end }
                     }
+                    uint256 inner;
+                    uint256 innerEnd;
+                    if (first < last) (first, last, inner, innerEnd) = setFunctions(shadow, next, row, first, last);
+                    if (first < last) fill(pixel + 32 * (first - column), first, last, inner, innerEnd, next - shadow);
                 }
-                if (shadow == 0) return;
-                uint256 size = 32 * (loadCalldata(shadow) & SHADOW_COUNT_MASK);
-                uint256 inner;
-                uint256 innerEnd;
-                (first, last, inner, innerEnd) = setFunctions(shadow, shadow + size, row, first, last);
-                if (first < last) fill(pixel + 32 * first, first, last, inner, innerEnd, size);
+                if (word & LAST_SHADOW != 0) return;
                 shadow = next;
+                // those above are passed over from now on
+                if (isLeading) store(SHADOW_BEGIN, shadow);
             }
         }
     }
