@@ -233,8 +233,8 @@ library StageMaker {
 
     /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
     /// antialiased, as with each of the following.
-    function hemisphere(Stage memory made, uint256 sky, uint256 ground) internal pure {
-        extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(ground)));
+    function hemisphere(Stage memory made, uint256 sky, uint256 earth) internal pure {
+        extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(earth)));
     }
 
     /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
