@@ -60,7 +60,7 @@ contract Shadows is SceneErrors {
 
     /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
     /// checked.
-    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, four bytes
+    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, 4 bytes
     /// for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of it, as words:
     /// see Receivers. The entries are filled up to whole words. Nothing if no light casts shadows. Without the ABI's offset and length.
     function cast(Scene calldata scene) external pure returns (bytes memory) {

@@ -277,7 +277,7 @@ def _inner(face: NDArray[np.int64], corners: Array) -> NDArray[np.bool_]:
         edge[dy:, max(dx, 0) : size + min(dx, 0)] |= other
     wide = np.pad(edge, 1)
     near = [wide[i : i + size, j : j + size] for i in range(3) for j in range(3)]
-    return np.logical_not(np.any(near, axis=0))
+    return np.asarray(np.logical_not(np.any(near, axis=0)))
 
 
 # ---- comparison ----

@@ -233,8 +233,13 @@ library StageMaker {
 
     /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
     /// antialiased, as with each of the following.
+<<<<<<< HEAD
     function hemisphere(Stage memory made, uint256 sky, uint256 earth) internal pure {
         extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(earth)));
+=======
+    function hemisphere(Stage memory made, uint256 above, uint256 below) internal pure {
+        extend(made, HEMISPHERE, abi.encodePacked(uint24(above), uint24(below)));
+>>>>>>> shadows
     }
 
     /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
@@ -247,7 +252,7 @@ library StageMaker {
         extend(made, FOG, abi.encodePacked(uint24(color), uint64(near << 32), uint64(far << 32)));
     }
 
-    /// @notice How light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film, or cut off; added
+    /// @notice How light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film or cut off; added
     /// up in linear space, or as sRGB values.
     function tone(Stage memory made, uint256 exposure, bool filmic, bool gamma) internal pure {
         uint256 flags = (filmic ? TONE_FILMIC : 0) | (gamma ? TONE_GAMMA : 0);
