@@ -233,13 +233,8 @@ library StageMaker {
 
     /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
     /// antialiased, as with each of the following.
-<<<<<<< HEAD
-    function hemisphere(Stage memory made, uint256 sky, uint256 earth) internal pure {
-        extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(earth)));
-=======
     function hemisphere(Stage memory made, uint256 above, uint256 below) internal pure {
         extend(made, HEMISPHERE, abi.encodePacked(uint24(above), uint24(below)));
->>>>>>> shadows
     }
 
     /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
