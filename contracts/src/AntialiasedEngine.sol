@@ -6,7 +6,6 @@ import {FlatShading} from "./pipeline/FlatShading.sol";
 import {LinearSamples} from "./pipeline/LinearSamples.sol";
 import {PatchSamples} from "./pipeline/PatchSamples.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
-import {Samples} from "./pipeline/Samples.sol";
 import "./pipeline/Registers.sol";
 
 /// @title AntialiasedEngine: what the Engine does, with four samples for each pixel.
@@ -14,13 +13,16 @@ import "./pipeline/Registers.sol";
 contract AntialiasedEngine is SampleBuffer, PatchSamples, FlatShading {
     function drawFragments(uint256 row, uint256 last) internal pure override {
         if (load(MODE) & IS_PATCHED == 0) LinearSamples.draw(row, last);
-        else if (load(PATCH_SIZE) < 2) drawSpans(row, last);
-        else drawCells(row, last);
+        else drawPatches(row, last);
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        if (load(PATCH_SIZE) != 1) Samples.quadratic(left, right, column, end, row);
-        else ExactSamples.draw(left, right, column, end, row);
+        if (load(PATCH_SIZE) != 1) drawQuadratic(left, right, column, end, row);
+        else drawEach(left, right, column, end, row);
+    }
+
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
+        ExactSamples.fragment(attribute, covered, column, row);
     }
 
     /// @dev Wires are drawn by the AntialiasedFragmentEngine.

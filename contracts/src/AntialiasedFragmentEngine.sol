@@ -17,10 +17,13 @@ contract AntialiasedFragmentEngine is SampleBuffer, SampleWires {
     }
 
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure override {
-        uint256 mode = load(MODE);
-        if (mode & IS_QUADRATIC != 0) SmoothSamples.draw(left, right, column, end, row);
-        else if (mode & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSamples.draw(left, right, column, end, row);
-        else ExactSamples.draw(left, right, column, end, row);
+        if (load(MODE) & IS_QUADRATIC != 0) SmoothSamples.draw(left, right, column, end, row);
+        else drawEach(left, right, column, end, row);
+    }
+
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure override {
+        if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) != 0) BlendedSamples.fragment(attribute, covered, column, row);
+        else ExactSamples.fragment(attribute, covered, column, row);
     }
 
     function drawWires(uint256 list, uint256 end) internal pure override(Pipeline, SampleWires) {

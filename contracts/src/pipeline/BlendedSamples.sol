@@ -11,19 +11,8 @@ import "./Registers.sol";
 uint256 constant BYTE_OF_SAMPLES = 0xff * ONES_64;
 
 library BlendedSamples {
-    /// @notice Draws the fragments of a row: see SampleRasterizer.drawSpan.
-    function draw(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
-        unchecked {
-            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
-            for (; column != end; ++column) {
-                uint256 covered = Samples.coverage(left, right, column);
-                if (covered != 0) fragment(attribute, covered, column, row);
-                attribute += load(DX);
-            }
-        }
-    }
-
-    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+    /// @notice Draws a fragment: see SampleRasterizer.drawFragment.
+    function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure {
         unchecked {
             uint256 old = load(Samples.place(row, column));
             uint256 depths = Samples.depthsOf(attribute);

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev Where registers begin: what the compiler keeps in memory must end before.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x3e80;
+uint256 constant REGISTERS_END = 0x4040;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -409,46 +409,68 @@ uint256 constant MIXED_END = 0x3a60;
 /// @dev The row for which START is told; an eighth of DY.
 uint256 constant START_ROW = 0x3a80;
 uint256 constant DY_8 = 0x3aa0;
-/// @dev What the depths of the samples are above that of the centre of their pixel, signed lanes.
+/// @dev What the depths of the samples are above SAMPLE_SCALE times that of the centre of their pixel, signed lanes; of which: from
+/// SAMPLE_BASE.
 uint256 constant DEPTH_OFFSETS = 0x3ac0;
-/// @dev The row for which the sides are told: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3ae0;
+uint256 constant DEPTH_BASE = 0x3ae0;
+/// @dev The row for which sides and bounds are told: the first with a sample of the triangle in the band.
+uint256 constant SIDE_ROW = 0x3b00;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and what they change per row.
-uint256 constant SIDE_LEFT = 0x3b00;
-uint256 constant SIDE_RIGHT = 0x3b20;
-uint256 constant SIDE_LEFT_STEP = 0x3b40;
-uint256 constant SIDE_RIGHT_STEP = 0x3b60;
+uint256 constant SIDE_LEFT = 0x3b20;
+uint256 constant SIDE_RIGHT = 0x3b40;
+uint256 constant SIDE_LEFT_STEP = 0x3b60;
+uint256 constant SIDE_RIGHT_STEP = 0x3b80;
+/// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; what they change per
+/// row; what those have more between which all samples are covered.
+uint256 constant BOUNDS = 0x3ba0;
+uint256 constant BOUND_STEPS = 0x3bc0;
+uint256 constant INSETS = 0x3be0;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; which: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3b80;
-uint256 constant KINK_SIDE = 0x3ba0;
+uint256 constant KINK_ROW = 0x3c00;
+uint256 constant KINK_SIDE = 0x3c20;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3bc0;
-uint256 constant KINK_EDGE = 0x3be0;
-uint256 constant KINK_STEP = 0x3c00;
-/// @dev The columns that the vertex there may touch: the first, and the one after the last.
-uint256 constant KINK_BEGIN = 0x3c20;
-uint256 constant KINK_END = 0x3c40;
+uint256 constant KINK_MASK = 0x3c40;
+uint256 constant KINK_EDGE = 0x3c60;
+uint256 constant KINK_STEP = 0x3c80;
+/// @dev From that row on: what is kept of the bounds, what takes the place of the rest; their changes, and INSETS.
+uint256 constant KINK_KEPT = 0x3ca0;
+uint256 constant KINK_BOUND = 0x3cc0;
+uint256 constant KINK_BOUND_STEPS = 0x3ce0;
+uint256 constant KINK_INSETS = 0x3d00;
+/// @dev Whether SPAN_BEGIN and SPAN_END are to be asked in each row: the bounds may be far outside.
+uint256 constant IS_CLAMPED = 0x3d20;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3c60;
-uint256 constant SPAN_END = 0x3c80;
-/// @dev Those of triangle and tile as bytes of samples.
-uint256 constant SPAN_BEGIN_BYTES = 0x3ca0;
-uint256 constant SPAN_END_BYTES = 0x3cc0;
+uint256 constant SPAN_BEGIN = 0x3d40;
+uint256 constant SPAN_END = 0x3d60;
+/// @dev SAMPLE_STRIDE as addresses of samples are told, Q37.
+uint256 constant STRIDE_37 = 0x3d80;
+/// @dev What START changes per row if it is told by addresses.
+uint256 constant ROW_STEP_32 = 0x3da0;
+/// @dev The bounds of the row that is drawn by drawSpans, their changes, and INSETS.
+uint256 constant ROW_BOUNDS = 0x3dc0;
+uint256 constant ROW_BOUND_STEPS = 0x3de0;
+uint256 constant ROW_INSETS = 0x3e00;
+/// @dev What its sides change.
+uint256 constant ROW_LEFT_STEP = 0x3e20;
+uint256 constant ROW_RIGHT_STEP = 0x3e40;
+/// @dev The addresses of the first pixel of the row of which all samples are covered, and of the one after the last.
+uint256 constant INNER_BEGIN = 0x3e60;
+uint256 constant INNER_END = 0x3e80;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3ce0;
+uint256 constant QUADRATIC_DOWN = 0x3ea0;
 /// @dev The row for which the quadratic functions are told.
-uint256 constant QUADRATIC_ROW = 0x3d00;
+uint256 constant QUADRATIC_ROW = 0x3ec0;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3d20;
+uint256 constant FARTHEST = 0x3ee0;
 
 // ------------------------------------------------------------------------------------------------------------------------- tables of sRGB
 // Where colours are lit as linear ones: see Gamma.
 
 /// @dev 16 bits each: the linear level of every fourth level, Q7.
-uint256 constant DECODE_TABLE = 0x3d40;
+uint256 constant DECODE_TABLE = 0x3f00;
 /// @dev 16 bits each: the level of a linear value, eight for each power of two from 2^7 in Q16 on, Q8.
-uint256 constant ENCODE_TABLE = 0x3de0;
+uint256 constant ENCODE_TABLE = 0x3fa0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // What a light is to the frame, at LIGHTS.

@@ -27,7 +27,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
         unchecked {
             uint256 borders = (image + 3 * tile.width * tile.height + OVERHANG + 31) & ~uint256(31);
             uint256 before = load(DRAWN_BEFORE);
-            setReach(tile, lists);
+            setBorders(tile, lists);
             if (before == 0) {
                 Compositor.background(image, tile);
             } else {
@@ -46,6 +46,8 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
             store(DEPTHS, borders + BORDERS_SIZE);
             uint256 stride = (load(SAMPLE_END) - load(SAMPLE_BEGIN)) << SAMPLE_SIZE_BITS;
             store(SAMPLE_STRIDE, stride);
+            store(STRIDE_37, stride << ADDRESS_FRACTION);
+            store(DEPTH_BASE, load(SAMPLE_BASE) * load(SAMPLE_SCALE));
             store(ROW_IMAGE_STEP, 3 * tile.width - 3 * (stride >> SAMPLE_SIZE_BITS));
             if (load(RETURNS_DEPTHS) == 0) return 3 * tile.width * tile.height;
             return borders + BORDERS_SIZE + stride * (load(SAMPLE_BOTTOM) - load(SAMPLE_TOP)) - image;
@@ -122,7 +124,7 @@ abstract contract SampleBuffer is Pipeline, SampleRasterizer {
     }
 
     /// @dev The columns and rows of the tile that the vertices reach; all, if any is clipped.
-    function setReach(Rectangle memory tile, uint256[3][] memory lists) private pure {
+    function setBorders(Rectangle memory tile, uint256[3][] memory lists) private pure {
         unchecked {
             uint256 least = type(uint256).max;
             uint256 most;

@@ -2,23 +2,33 @@
 pragma solidity 0.8.37;
 
 import {Rasterizer} from "./Rasterizer.sol";
+import {Samples} from "./Samples.sol";
 import "./Registers.sol";
 
 // From triangles to fragments with four samples for each pixel (multisampling). A fragment is a pixel of which a triangle covers a sample.
 // Its colour is computed once; its depth for each sample.
 //
-// A side of a triangle in a row is four columns, one for each sample, Q42 in lanes of 64 bits: where the edge crosses the height of the
-// sample, less the place of the sample in the pixel. A pixel at column x has the sample inside if x is not left of the left side and left
-// of the right one. Sides are kept so that one addition, or subtraction, of x in all lanes tells it by the highest bit of each:
+// A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: where the edge crosses the height of the sample,
+// less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are
+// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are kept so
+// that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
 //
-//   left = 2^63 - side                  left + x  >= 2^63 where x >= side
-//   right = 2^63 - 1 + side             right - x >= 2^63 where x < side
+//   left = 2^63 - side                  left + p  >= 2^63 where p >= side
+//   right = 2^63 - 1 + side             right - p >= 2^63 where p < side
 //
 // Edges are told by their upper vertex, whichever triangle they belong to, so that triangles leave no gap between them and do not overlap.
 // Above the upper vertex of two edges, and below the lower one, the sides have changed places, and nothing is between them.
+//
+// With x and y for the places of the samples in eighths of a pixel, a side is that of the centre of the pixel, at column c and with the
+// slope s, and s * y - x eighths: its outermost samples are max(s + 3, 3 * s - 1, 1 - 3 * s) eighths from c. These are the bounds.
 abstract contract SampleRasterizer is Rasterizer {
     /// @notice Draws the fragments of a row from `column` to before `end`.
     function drawSpan(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure virtual;
+
+    /// @notice Draws a fragment of which each is shaded for itself.
+    /// @param attribute The accumulator at the centre of its pixel.
+    /// @param covered The highest bit of each sample that the triangle covers: one at least.
+    function drawFragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure virtual;
 
     /// @notice Draws the rows from `row` to before `last` of the triangle that was set up, as its mode says.
     function drawFragments(uint256 row, uint256 last) internal pure virtual;
@@ -34,9 +44,10 @@ abstract contract SampleRasterizer is Rasterizer {
             uint256 row = max((a + ((SUBPIXEL_MASK - OUTERMOST_SAMPLE) << SCREEN_ROW_AT)) >> SCREEN_PIXEL_ROW_AT, load(BAND_TOP));
             uint256 last = min(lowest >> SCREEN_PIXEL_ROW_AT, load(BAND_BOTTOM));
             if (row >= last) return;
-            setGradients(a, b, c);
+            if (load(MODE) & (IS_PATCHED | IS_QUADRATIC) != 0) setFarthest(a, b, c);
             setSides(a, b, c, row);
-            setReach(a, b, c);
+            setGradients(a, b, c);
+            if (load(IS_CLAMPED) != 0) setSpan(a, b, c);
             drawFragments(row, last);
         }
     }
@@ -52,7 +63,7 @@ abstract contract SampleRasterizer is Rasterizer {
             c := sub(shr(SCREEN_ROW_AT, c), a)
             let y := and(sub(0, a), SUBPIXEL_MASK)
             mstore(START_ROW, shr(SUBPIXEL_BITS, add(a, SUBPIXEL_MASK)))
-            // as in Rasterizer
+            // as in PixelRasterizer
             a := sub(mul(xc, b), mul(xb, c))
             b := sdiv(shl(GRADIENT_SHIFT, b), a)
             xb := sdiv(shl(GRADIENT_SHIFT, xb), a)
@@ -60,110 +71,146 @@ abstract contract SampleRasterizer is Rasterizer {
             xc := sdiv(shl(GRADIENT_SHIFT, xc), a)
             let toB := mload(DELTA_1)
             let toC := mload(DELTA_2)
-            if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
-                // Colours are taken up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by 16 at
-                // most: triangles that are thinner have the colour of their first vertex.
-                let steep := or(gt(add(b, LEAST_WIDTH), TWICE_LEAST_WIDTH), gt(add(xb, LEAST_WIDTH), TWICE_LEAST_WIDTH))
-                steep := or(steep, gt(add(c, LEAST_WIDTH), TWICE_LEAST_WIDTH))
-                if or(steep, gt(add(xc, LEAST_WIDTH), TWICE_LEAST_WIDTH)) {
+            // Colours are taken up to a pixel outside the triangle. They fit their lanes if a barycentric coordinate changes by 16 at
+            // most: triangles that are thinner have the colour of their first vertex.
+            a := or(or(add(b, LEAST_WIDTH), add(xb, LEAST_WIDTH)), or(add(c, LEAST_WIDTH), add(xc, LEAST_WIDTH)))
+            if and(a, ABOVE_LEAST_WIDTH) {
+                if iszero(and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC))) {
                     toB := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toB, HALF_DEPTH)))
                     toC := shl(ATTRIBUTE_DEPTH_AT, sar(ATTRIBUTE_DEPTH_AT, add(toC, HALF_DEPTH)))
                 }
             }
             let start := sub(mload(ATTRIBUTE_0), mul(toC, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, b), mul(y, xb)))))
             start := add(start, mul(toB, sar(GRADIENT_TO_ACCUMULATOR, add(mul(x, c), mul(y, xc)))))
-            let dx := sub(mul(toC, b), mul(toB, c))
-            let dy := sub(mul(toB, xc), mul(toC, xb))
-            mstore(DX_8, dx)
-            mstore(DY_8, dy)
-            dx := shl(3, dx)
-            dy := shl(3, dy)
-            if and(mload(MODE), IS_DEEP) {
-                start := add(start, mload(DEEP_START))
-                dx := add(dx, mload(DEEP_DX))
-                dy := add(dy, mload(DEEP_DY))
+            b := sub(mul(toC, b), mul(toB, c))
+            c := sub(mul(toB, xc), mul(toC, xb))
+            x := 0
+            y := 0
+            if and(mload(MODE), or(IS_PATCHED, IS_QUADRATIC)) {
+                mstore(DX_8, b)
+                mstore(DY_8, c)
+                if and(mload(MODE), IS_DEEP) {
+                    start := add(start, mload(DEEP_START))
+                    x := mload(DEEP_DX)
+                    y := mload(DEEP_DY)
+                }
             }
+            b := add(shl(3, b), x)
+            c := add(shl(3, c), y)
             mstore(START, start)
-            mstore(DX, dx)
-            mstore(DY, dy)
-            mstore(
-                DEPTH_OFFSETS,
-                shl(mload(SAMPLE_SHIFT), add(mul(sar(DEPTH_8_AT, dx), SAMPLE_X_8), mul(sar(DEPTH_8_AT, dy), SAMPLE_Y_8)))
-            )
+            mstore(DX, b)
+            mstore(DY, c)
+            b := add(mul(sar(DEPTH_8_AT, b), SAMPLE_X_8), mul(sar(DEPTH_8_AT, c), SAMPLE_Y_8))
+            mstore(DEPTH_OFFSETS, sub(shl(mload(SAMPLE_SHIFT), b), mload(DEPTH_BASE)))
         }
     }
 
-    /// @dev The sides at the first row that is drawn, and where one of them continues with another edge.
+    /// @dev The sides and bounds at the first row that is drawn, and where one of them continues with another edge.
     function setSides(uint256 a, uint256 b, uint256 c, uint256 row) private pure {
         assembly ("memory-safe") {
-            // the edge between two vertices, the upper first, at a row; and its change per row
-            function edge(u, v, row_) -> line, step {
-                let y := shr(SCREEN_ROW_AT, u)
-                let x := and(shr(SCREEN_COLUMN_AT, u), SCREEN_COLUMN_MASK)
-                step := sdiv(
-                    shl(COLUMN_FRACTION, sub(and(shr(SCREEN_COLUMN_AT, v), SCREEN_COLUMN_MASK), x)),
-                    sub(shr(SCREEN_ROW_AT, v), y)
-                )
-                line := add(shl(SUBPIXEL_TO_COLUMN, x), sar(SUBPIXEL_BITS, mul(sub(shl(SUBPIXEL_BITS, row_), y), step)))
-                line := sub(add(mul(line, ONES_64), mul(sar(3, step), SAMPLE_Y_8)), SAMPLE_COLUMNS)
-                step := mul(step, ONES_64)
+            // An edge that goes on by dx while rows go down by dy, so many sub-pixels below the vertex, which is at an address: a left
+            // side, of which the complement is a right one; its change per row; where it is, rounded up; how far its outermost samples
+            // are away
+            function edge(dx, dy, at, below) -> side, step, line, reach {
+                step := sdiv(shl(COLUMN_FRACTION, dx), dy)
+                mstore(IS_CLAMPED, or(mload(IS_CLAMPED), add(step, STEEPEST_42)))
+                line := add(at, sar(SUBPIXEL_BITS, mul(below, step)))
+                reach := sar(3, step)
+                side := sub(LEFT_AT_0, add(mul(line, ONES_64), mul(reach, SAMPLE_Y_8)))
+                line := add(line, CEIL_42)
+                step := sub(step, mload(STRIDE_37))
+                dx := sub(mul(3, reach), EIGHTH_42)
+                dx := xor(dx, sar(255, dx))
+                reach := add(reach, THREE_EIGHTHS_42)
+                if sgt(dx, reach) { reach := dx }
             }
 
+            let x := and(shr(SCREEN_COLUMN_AT, a), SCREEN_COLUMN_MASK)
+            let xb := sub(and(shr(SCREEN_COLUMN_AT, b), SCREEN_COLUMN_MASK), x)
+            let xc := sub(and(shr(SCREEN_COLUMN_AT, c), SCREEN_COLUMN_MASK), x)
+            a := shr(SCREEN_ROW_AT, a)
+            b := sub(shr(SCREEN_ROW_AT, b), a)
+            c := sub(shr(SCREEN_ROW_AT, c), a)
             mstore(SIDE_ROW, row)
-            let yb := shr(SCREEN_ROW_AT, b)
-            let yc := shr(SCREEN_ROW_AT, c)
+            mstore(IS_CLAMPED, 0)
+            // where the first vertex is
+            x := add(
+                shl(ADDRESS_FRACTION, sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))),
+                shl(SUBPIXEL_TO_COLUMN, x)
+            )
+            row := sub(shl(SUBPIXEL_BITS, row), a)
             {
-                let left, step := edge(a, b, row)
+                // to the second vertex on the left
+                let side, step, line, reach := edge(xb, b, x, row)
+                mstore(SIDE_LEFT, side)
+                mstore(SIDE_LEFT_STEP, mul(sub(0, step), ONES_64))
+                mstore(BOUNDS, sub(line, reach))
+                mstore(BOUND_STEPS, step)
+                mstore(INSETS, reach)
+                // to the third one on the right
+                side, step, line, reach := edge(xc, c, x, row)
                 // a horizontal edge has no side below it
-                if eq(yb, shr(SCREEN_ROW_AT, a)) { left := NEVER_LEFT }
-                mstore(SIDE_LEFT, sub(TOPS_64, left))
-                mstore(SIDE_LEFT_STEP, sub(0, step))
-                let right
-                right, step := edge(a, c, row)
-                if eq(yc, shr(SCREEN_ROW_AT, a)) { right := sub(0, NEVER_LEFT) }
-                mstore(SIDE_RIGHT, add(BELOW_TOPS_64, right))
-                mstore(SIDE_RIGHT_STEP, step)
+                mstore(SIDE_RIGHT, not(side))
+                if iszero(c) { mstore(SIDE_RIGHT, BELOW_TOPS_64) }
+                mstore(SIDE_RIGHT_STEP, mul(step, ONES_64))
+                mstore(BOUNDS, add(mload(BOUNDS), shl(128, add(line, reach))))
+                mstore(BOUND_STEPS, add(mload(BOUND_STEPS), shl(128, step)))
+                mstore(INSETS, sub(mload(INSETS), shl(128, reach)))
             }
-            let other
-            switch lt(yb, yc)
-            case 1 {
-                row := shr(SUBPIXEL_BITS, add(yb, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE)))
-                other, a := edge(b, c, row)
-                b := shr(SCREEN_COLUMN_AT, b)
-                mstore(KINK_SIDE, SIDE_LEFT)
-                mstore(KINK_EDGE, sub(TOPS_64, other))
-                mstore(KINK_STEP, sub(0, a))
+            // from the upper of both to the other one: 0 and -1 on the left, or 128 and 1 on the right
+            let shift := shl(7, iszero(lt(b, c)))
+            let sign := sub(shr(6, shift), 1)
+            mstore(KINK_SIDE, add(SIDE_LEFT, shr(2, shift)))
+            let kept := shl(sub(128, shift), LANE_128)
+            mstore(KINK_KEPT, kept)
+            // where it begins; the first row with a sample below, in which those above are still on the upper edge
+            switch shift
+            case 0 {
+                row := add(a, b)
+                x := add(x, shl(SUBPIXEL_TO_COLUMN, xb))
             }
             default {
-                row := shr(SUBPIXEL_BITS, add(yc, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE)))
-                other, a := edge(c, b, row)
-                if eq(yb, yc) { other := sub(0, NEVER_LEFT) }
-                b := shr(SCREEN_COLUMN_AT, c)
-                mstore(KINK_SIDE, SIDE_RIGHT)
-                mstore(KINK_EDGE, add(BELOW_TOPS_64, other))
-                mstore(KINK_STEP, a)
-                yb := yc
+                row := add(a, c)
+                x := add(x, shl(SUBPIXEL_TO_COLUMN, xc))
             }
-            if slt(row, mload(SIDE_ROW)) {
-                // only the lower edge is in the band
-                row := mul(sub(mload(SIDE_ROW), row), mload(KINK_STEP))
-                mstore(mload(KINK_SIDE), add(mload(KINK_EDGE), row))
-                mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
-                row := GUARD_BAND
+            a := add(row, TO_FIRST_ROW)
+            mstore(KINK_MASK, shl(and(a, SAMPLES_ABOVE), not(0)))
+            a := shr(SUBPIXEL_BITS, a)
+            mstore(KINK_ROW, a)
+            row := sub(shl(SUBPIXEL_BITS, a), row)
+            a := sub(a, mload(SIDE_ROW))
+            {
+                let side, step, line, reach := edge(sub(xc, xb), sub(c, b), sub(x, mul(a, mload(STRIDE_37))), row)
+                mstore(KINK_EDGE, xor(side, sub(0, gt(shift, 0))))
+                mstore(KINK_STEP, mul(mul(sign, step), ONES_64))
+                // lanes borrow from each other less than bounds are rounded by
+                step := shl(shift, step)
+                mstore(KINK_BOUND, and(shl(shift, add(line, mul(sign, reach))), not(kept)))
+                mstore(KINK_BOUND_STEPS, add(and(mload(BOUND_STEPS), kept), step))
+                mstore(KINK_INSETS, sub(and(mload(INSETS), kept), shl(shift, mul(sign, reach))))
+                mstore(IS_CLAMPED, or(and(mload(IS_CLAMPED), STEEP_42), and(mload(MODE), IS_CLAMPED_MODE)))
+                if eq(b, c) {
+                    // nothing is below
+                    mstore(KINK_EDGE, BELOW_TOPS_64)
+                    mstore(KINK_KEPT, not(0))
+                    mstore(KINK_BOUND, 0)
+                }
+                if slt(a, 0) {
+                    // only the lower edge is in the band
+                    a := sub(0, a)
+                    mstore(mload(KINK_SIDE), add(mload(KINK_EDGE), mul(a, mload(KINK_STEP))))
+                    mstore(sub(add(mload(KINK_SIDE), SIDE_LEFT_STEP), SIDE_LEFT), mload(KINK_STEP))
+                    mstore(BOUNDS, add(or(and(mload(BOUNDS), mload(KINK_KEPT)), mload(KINK_BOUND)), mul(a, step)))
+                    mstore(BOUND_STEPS, mload(KINK_BOUND_STEPS))
+                    mstore(INSETS, mload(KINK_INSETS))
+                    mstore(KINK_ROW, GUARD_BAND)
+                }
             }
-            mstore(KINK_ROW, row)
-            b := and(b, SCREEN_COLUMN_MASK)
-            mstore(KINK_BEGIN, shr(SUBPIXEL_BITS, add(b, sub(SUBPIXEL_MASK, OUTERMOST_SAMPLE))))
-            mstore(KINK_END, add(shr(SUBPIXEL_BITS, add(b, OUTERMOST_SAMPLE)), 1))
-            // samples above the vertex are still on the upper edge
-            yb := sub(yb, shl(SUBPIXEL_BITS, row))
-            yb := add(add(sgt(yb, sub(0, OUTERMOST_SAMPLE)), sgt(yb, sub(0, INNERMOST_SAMPLE))), sgt(yb, INNERMOST_SAMPLE))
-            mstore(KINK_MASK, shl(shl(SAMPLE_LANE_BITS, yb), not(0)))
         }
     }
 
-    /// @dev The columns that the triangle may touch, and what the ways to shade it need besides.
-    function setReach(uint256 a, uint256 b, uint256 c) private pure {
+    /// @dev The columns that the triangle may touch.
+    function setSpan(uint256 a, uint256 b, uint256 c) private pure {
         assembly ("memory-safe") {
             let x := and(a, SCREEN_COLUMNS)
             let end := x
@@ -179,11 +226,12 @@ abstract contract SampleRasterizer is Rasterizer {
             if gt(end, mload(COLUMN_END)) { end := mload(COLUMN_END) }
             mstore(SPAN_BEGIN, x)
             mstore(SPAN_END, end)
-            mstore(SPAN_BEGIN_BYTES, shl(SAMPLE_SIZE_BITS, x))
-            mstore(SPAN_END_BYTES, shl(SAMPLE_SIZE_BITS, end))
         }
+    }
+
+    /// @dev What quadratic functions need besides.
+    function setFarthest(uint256 a, uint256 b, uint256 c) private pure {
         unchecked {
-            if (load(MODE) & (IS_PATCHED | IS_QUADRATIC) == 0) return;
             uint256 farthest = load((a & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES);
             farthest = min(farthest, load((b & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
             farthest = min(farthest, load((c & SCREEN_RECORD_MASK) + VERTEX_ATTRIBUTES));
@@ -199,54 +247,83 @@ abstract contract SampleRasterizer is Rasterizer {
             while (row != last) {
                 // the rows above the kink, the one that has it, the rows below
                 uint256 next = row < kink ? min(kink, last) : row == kink ? row + 1 : last;
-                (uint256 left, uint256 right, uint256 leftStep, uint256 rightStep) = sidesAt(row);
+                (uint256 left, uint256 right) = sidesAt(row);
                 for (; row != next; ++row) {
-                    (uint256 first, uint256 end) = columnsBetween(left, right, row);
+                    (uint256 first, uint256 end) = columnsBetween(row);
                     if (first < end) drawSpan(left, right, first, end, row);
-                    left += leftStep;
-                    right += rightStep;
+                    left += load(ROW_LEFT_STEP);
+                    right += load(ROW_RIGHT_STEP);
+                    store(ROW_BOUNDS, load(ROW_BOUNDS) + load(ROW_BOUND_STEPS));
                 }
             }
         }
     }
 
-    /// @dev The sides at a row, and their changes to the next, which the row of the kink does not have.
-    function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right, uint256 leftStep, uint256 rightStep) {
+    /// @dev Draws the fragments of a row one by one.
+    function drawEach(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
         unchecked {
-            uint256 n = row - load(SIDE_ROW);
-            (leftStep, rightStep) = (load(SIDE_LEFT_STEP), load(SIDE_RIGHT_STEP));
-            (left, right) = (load(SIDE_LEFT) + n * leftStep, load(SIDE_RIGHT) + n * rightStep);
-            n = row - load(KINK_ROW);
-            if (int256(n) < 0) return (left, right, leftStep, rightStep);
-            bool isLeft = load(KINK_SIDE) == SIDE_LEFT;
-            uint256 step = load(KINK_STEP);
-            uint256 edge = load(KINK_EDGE) + n * step;
-            if (n == 0) {
-                uint256 mask = load(KINK_MASK);
-                edge = (edge & mask) | ((isLeft ? left : right) & ~mask);
+            uint256 attribute = load(START) + (row - load(START_ROW)) * load(DY) + column * load(DX);
+            for (; column != end; ++column) {
+                uint256 covered = Samples.coverage(left, right, Samples.place(row, column));
+                if (covered != 0) drawFragment(attribute, covered, column, row);
+                attribute += load(DX);
             }
-            if (isLeft) return (edge, right, step, rightStep);
-            return (left, edge, leftStep, step);
         }
     }
 
+    /// @dev The sides at a row; their changes to the next, and the bounds, in registers. In the row of the kink no pixel counts as inside.
+    function sidesAt(uint256 row) private pure returns (uint256 left, uint256 right) {
+        unchecked {
+            uint256 n = row - load(SIDE_ROW);
+            store(ROW_LEFT_STEP, load(SIDE_LEFT_STEP));
+            store(ROW_RIGHT_STEP, load(SIDE_RIGHT_STEP));
+            store(ROW_BOUND_STEPS, load(BOUND_STEPS));
+            store(ROW_INSETS, load(INSETS));
+            (left, right) = (load(SIDE_LEFT) + n * load(SIDE_LEFT_STEP), load(SIDE_RIGHT) + n * load(SIDE_RIGHT_STEP));
+            uint256 bounds = load(BOUNDS) + n * load(BOUND_STEPS);
+            n = row - load(KINK_ROW);
+            if (int256(n) >= 0) {
+                bool isLeft = load(KINK_SIDE) == SIDE_LEFT;
+                uint256 step = load(KINK_STEP);
+                uint256 edge = load(KINK_EDGE) + n * step;
+                if (n == 0) {
+                    uint256 mask = load(KINK_MASK);
+                    edge = (edge & mask) | ((isLeft ? left : right) & ~mask);
+                }
+                if (isLeft) {
+                    left = edge;
+                    store(ROW_LEFT_STEP, step);
+                    step = signed128(load(KINK_BOUND_STEPS));
+                } else {
+                    right = edge;
+                    store(ROW_RIGHT_STEP, step);
+                    step = load(KINK_BOUND_STEPS) - signed128(load(KINK_BOUND_STEPS));
+                }
+                bounds = ((bounds & load(KINK_KEPT)) | load(KINK_BOUND)) + n * step;
+                store(ROW_BOUND_STEPS, load(KINK_BOUND_STEPS));
+                store(ROW_INSETS, n == 0 ? NO_INSIDE : load(KINK_INSETS));
+            }
+            store(ROW_BOUNDS, bounds);
+        }
+    }
+
+    function signed128(uint256 word) private pure returns (uint256) {
+        return uint256(int256(int128(int256(word))));
+    }
+
     /// @dev The first column of a row that may have a fragment, and the one after the last; none if they are not in this order.
-    function columnsBetween(uint256 left, uint256 right, uint256 row) private pure returns (uint256 first, uint256 end) {
+    function columnsBetween(uint256 row) private pure returns (uint256 first, uint256 end) {
         assembly ("memory-safe") {
-            let isKink := eq(row, mload(KINK_ROW))
-            end := shr(UPPER_LANE_64_AT, left)
-            first := and(left, LANE_64)
-            if gt(end, first) { first := end }
-            first := sar(COLUMN_FRACTION, sub(TO_FIRST_COLUMN, first))
-            if and(isKink, slt(mload(KINK_BEGIN), first)) { first := mload(KINK_BEGIN) }
+            let base := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
+            let bounds := mload(ROW_BOUNDS)
+            first := sar(SAMPLE_SIZE_BITS, sub(sar(ADDRESS_FRACTION, signextend(15, bounds)), base))
             if slt(first, mload(SPAN_BEGIN)) { first := mload(SPAN_BEGIN) }
-            end := shr(UPPER_LANE_64_AT, right)
-            let lowest := and(right, LANE_64)
-            if gt(lowest, end) { end := lowest }
-            end := sar(COLUMN_FRACTION, sub(end, TO_LAST_COLUMN))
-            if and(isKink, sgt(mload(KINK_END), end)) { end := mload(KINK_END) }
+            end := sar(SAMPLE_SIZE_BITS, sub(sar(UPPER_ADDRESS_AT, bounds), base))
             if sgt(end, mload(SPAN_END)) { end := mload(SPAN_END) }
             end := mul(end, sgt(end, 0))
+            bounds := add(bounds, shl(1, mload(ROW_INSETS)))
+            mstore(INNER_BEGIN, and(sar(ADDRESS_FRACTION, signextend(15, bounds)), WHOLE_SAMPLES))
+            mstore(INNER_END, and(sar(UPPER_ADDRESS_AT, bounds), WHOLE_SAMPLES))
         }
     }
 
@@ -254,17 +331,20 @@ abstract contract SampleRasterizer is Rasterizer {
     function columnsOf(uint256 row, uint256 last) internal pure returns (uint256 first, uint256 end) {
         unchecked {
             uint256 kink = load(KINK_ROW);
-            (uint256 left, uint256 right,,) = sidesAt(row);
-            (first, end) = columnsBetween(left, right, row);
+            (first, end) = (load(SPAN_END), 0);
             // sides are straight but for the kink
-            if (kink > row && kink < last) (first, end) = widened(first, end, kink);
+            (first, end) = widened(first, end, row);
+            if (kink >= row && kink < last) {
+                if (kink != row) (first, end) = widened(first, end, kink - 1);
+                (first, end) = widened(first, end, kink);
+            }
             return widened(first, end, last - 1);
         }
     }
 
     function widened(uint256 first, uint256 end, uint256 row) private pure returns (uint256, uint256) {
-        (uint256 left, uint256 right,,) = sidesAt(row);
-        (uint256 begin, uint256 last) = columnsBetween(left, right, row);
+        sidesAt(row);
+        (uint256 begin, uint256 last) = columnsBetween(row);
         return (min(first, begin), max(end, last));
     }
 

@@ -13,81 +13,11 @@ import "./Registers.sol";
 // (`centroid` in OpenGL).
 
 library Samples {
-    /// @notice Fragments whose colours are a quadratic function of the place: see Patches.
-    function quadratic(uint256 left, uint256 right, uint256 column, uint256 end, uint256 row) internal pure {
-        assembly ("memory-safe") {
-            let attribute := add(add(mload(START), mul(sub(row, mload(START_ROW)), mload(DY))), mul(column, mload(DX)))
-            let p := sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE)))
-            mstore(ROW_IMAGE, sub(mload(SAMPLE_IMAGE), mul(3, add(mul(row, mload(TILE_WIDTH)), sar(SAMPLE_SIZE_BITS, p)))))
-            end := add(p, shl(SAMPLE_SIZE_BITS, end))
-            p := add(p, shl(SAMPLE_SIZE_BITS, column))
-            row := sub(row, mload(QUADRATIC_ROW))
-            // the colour at column 0, Q58, then at the column; its change to the next
-            let f := add(mload(QUADRATIC_START), mul(row, mload(QUADRATIC_DY)))
-            f := add(f, mul(shr(1, mul(row, sub(row, 1))), mload(QUADRATIC_DYY)))
-            let g := add(mload(QUADRATIC_DX), mul(row, mload(QUADRATIC_DXY)))
-            f := add(f, add(mul(column, g), mul(shr(1, mul(column, sub(column, 1))), mload(QUADRATIC_DXX))))
-            g := add(g, mul(column, mload(QUADRATIC_DXX)))
-            column := mul(shl(COLUMN_FRACTION, column), ONES_64)
-            for {} 1 {} {
-                let z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
-                z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
-                let old := mload(p)
-                let seen := and(and(add(left, column), sub(right, column)), and(sub(add(z, BELOW_TOPS_64), old), TOPS_64))
-                if seen {
-                    row := f
-                    if mload(PATCH_WEIGHT) {
-                        // beside the triangle the depth may be anything
-                        row := shr(ACCUMULATOR_DEPTH_AT, attribute)
-                        if slt(shl(UPPER_LANE_64_AT, row), shl(UPPER_LANE_64_AT, mload(FARTHEST))) { row := mload(FARTHEST) }
-                        row := div(shl(34, mload(PATCH_WEIGHT)), row)
-                        row := add(mul(sub(and(shr(Q48, f), LANES_37), BIAS_36), row), HALF_85)
-                    }
-                    let color := and(row, BYTES_Q58)
-                    {
-                        let beyond := and(row, ABOVE_Q58)
-                        if beyond {
-                            beyond := and(add(beyond, ABOVE_Q58), CARRIES_85)
-                            color := or(color, mul(shr(CARRY_85, beyond), BYTE_Q58))
-                            color := and(color, not(mul(shr(SIGN_85, and(row, SIGNS_85)), BYTE_Q58)))
-                        }
-                    }
-                    color := or(
-                        or(shl(BLUE_TO_TOP, color), and(shl(GREEN_TO_TOP, color), SECOND_BYTE)),
-                        and(shl(RED_TO_TOP, color), THIRD_BYTE)
-                    )
-                    color := shr(PIXEL_AT, color)
-                    z := or(z, mul(color, ONES_64))
-                    switch eq(seen, TOPS_64)
-                    case 1 {
-                        mstore(0, shl(PIXEL_AT, color))
-                        mcopy(add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p))), 0, 3)
-                    }
-                    default {
-                        z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
-                        z := or(z, IS_LISTED)
-                        if iszero(and(old, IS_LISTED)) {
-                            seen := add(mload(ROW_IMAGE), mul(3, shr(SAMPLE_SIZE_BITS, p)))
-                            mstore(mload(MIXED_END), or(shl(MIXED_AT, p), shl(MIXED_PIXEL_AT, seen)))
-                            mstore(MIXED_END, add(mload(MIXED_END), MIXED_SIZE))
-                        }
-                    }
-                    mstore(p, z)
-                }
-                p := add(p, 32)
-                if eq(p, end) { break }
-                column := add(column, COLUMN_64)
-                attribute := add(attribute, mload(DX))
-                f := add(f, g)
-                g := add(g, mload(QUADRATIC_DXX))
-            }
-        }
-    }
-
     /// @dev The highest bit of each sample of a pixel that lies between two sides.
-    function coverage(uint256 left, uint256 right, uint256 column) internal pure returns (uint256 lanes) {
+    /// @param p Where the pixel has its samples.
+    function coverage(uint256 left, uint256 right, uint256 p) internal pure returns (uint256 lanes) {
         assembly ("memory-safe") {
-            lanes := mul(shl(COLUMN_FRACTION, column), ONES_64)
+            lanes := mul(p, ADDRESS_64)
             lanes := and(and(add(left, lanes), sub(right, lanes)), TOPS_64)
         }
     }
@@ -115,7 +45,7 @@ library Samples {
     /// @dev The depths of the four samples.
     function depthsOf(uint256 attribute) internal pure returns (uint256 z) {
         assembly ("memory-safe") {
-            z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+            z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
             z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
         }
     }

@@ -74,12 +74,12 @@ library SmoothSamples {
             step := add(step, mul(column, mload(QUADRATIC_DXX)))
             // and to the next row
             mstore(QUADRATIC_DOWN, add(mload(QUADRATIC_DY), mul(row, mload(QUADRATIC_DYY))))
-            column := mul(shl(COLUMN_FRACTION, column), ONES_64)
             for {} 1 {} {
-                let z := mul(sub(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_BASE)), mload(SAMPLE_SCALE))
+                let z := mul(shr(ACCUMULATOR_DEPTH_AT, attribute), mload(SAMPLE_SCALE))
                 z := and(add(z, mload(DEPTH_OFFSETS)), SAMPLE_DEPTHS)
                 let old := mload(p)
-                let covered := and(add(left, column), sub(right, column))
+                let covered := mul(p, ADDRESS_64)
+                covered := and(add(left, covered), sub(right, covered))
                 let seen := and(and(covered, sub(add(z, BELOW_TOPS_64), old)), TOPS_64)
                 if seen {
                     row := attribute
@@ -92,8 +92,7 @@ library SmoothSamples {
                         color := add(color, mul(by, step))
                         by := signextend(0, shr(covered, CENTROIDS))
                         row := add(row, mul(by, mload(DY_8)))
-                        covered := shr(COLUMN_OF_LANE_AT, column)
-                        color := add(color, mul(by, add(mload(QUADRATIC_DOWN), mul(covered, mload(QUADRATIC_DXY)))))
+                        color := add(color, mul(by, add(mload(QUADRATIC_DOWN), mul(column, mload(QUADRATIC_DXY)))))
                     }
                     color := colorAt(row, color)
                     z := or(z, mul(color, ONES_64))
@@ -115,7 +114,7 @@ library SmoothSamples {
                 }
                 p := add(p, 32)
                 if eq(p, end) { break }
-                column := add(column, COLUMN_64)
+                column := add(column, 1)
                 attribute := add(attribute, mload(DX))
                 light := add(light, step)
                 step := add(step, mload(QUADRATIC_DXX))

@@ -173,7 +173,6 @@ uint256 constant Q10_TO_PIXEL = 0x4000000000000000400000000000000040000000000000
 
 // ----------------------------------------------------------------------------------------------------------------------- parts of samples
 
-uint256 constant LANE_64 = 0xffffffffffffffff;
 /// @dev In the lowest lane: the pixel is on the list of those whose samples may differ.
 uint256 constant IS_LISTED = 0x4000000;
 /// @dev Where an entry of that list has the address of the samples; that of the colour, and its bits; the bytes of an entry.
@@ -190,26 +189,33 @@ uint256 constant SUBPIXEL_TO_COLUMN = 34;
 /// @dev The same of an address of samples; addresses of whole pixels.
 uint256 constant ADDRESS_FRACTION = 37;
 uint256 constant WHOLE_SAMPLES = 0xffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffffe0;
+/// @dev The same of an address that is not below 0; where the upper bound has its address.
+uint256 constant ADDRESS_32 = 0xffffffe0;
+uint256 constant UPPER_ADDRESS_AT = 165;
 /// @dev The column of a screen word in whole pixels; what is added to get the first column with a sample, and the last.
 uint256 constant SCREEN_PIXEL_COLUMN_AT = 72;
 uint256 constant FROM_FIRST_SAMPLE = 0x9f0000000000000000;
 uint256 constant TO_LAST_SAMPLE = 0x600000000000000000;
-/// @dev Where the uppermost lane has the whole column.
-uint256 constant COLUMN_OF_LANE_AT = 234;
-/// @dev Less the larger of a side's outer lanes: the first column that it may leave in, Q42. Those between are up to half a column farther.
-uint256 constant TO_FIRST_COLUMN = 0x800001ffffffffff;
-/// @dev The same for the right side: less this, its larger outer lane is the column after the last.
-uint256 constant TO_LAST_COLUMN = 0x7ffffa0000000000;
-/// @dev A side that nothing is to the right of, and one that nothing is to the left of.
-uint256 constant NEVER_LEFT = 0x2000000000000000;
-/// @dev Sub-pixels from the centre of a pixel to the outermost of its samples, and to the others.
+/// @dev An eighth of a column, and three, Q42.
+uint256 constant EIGHTH_42 = 0x8000000000;
+uint256 constant THREE_EIGHTHS_42 = 0x18000000000;
+/// @dev Makes the integer part of a side's outermost sample, without what LEFT_AT_0 adds, the next integer.
+uint256 constant CEIL_42 = 0x3ffffffdfff;
+/// @dev An inset of the left side that leaves nothing inside.
+uint256 constant NO_INSIDE = 0x1000000000000000;
+/// @dev Sides that change by less than 16 columns per row have bounds that are nowhere far outside the triangle; the bits of the sum of
+/// both.
+uint256 constant STEEPEST_42 = 0x400000000000;
+uint256 constant STEEP_42 = 0xffffffffffffffffffffffffffffffffffffffffffffffffffff800000000000;
+/// @dev Sub-pixels from the centre of a pixel to the outermost of its samples.
 uint256 constant OUTERMOST_SAMPLE = 96;
-uint256 constant INNERMOST_SAMPLE = 32;
-/// @dev A lane has 2^6 bits.
-uint256 constant SAMPLE_LANE_BITS = 6;
-/// @dev 16 as a gradient, Q29 per pixel, and twice that; half a depth in an attribute word.
+/// @dev Added to the row of a vertex, in sub-pixels, it gives that of the first pixel with a sample below; then these bits are 64 times the
+/// samples above.
+uint256 constant TO_FIRST_ROW = 159;
+uint256 constant SAMPLES_ABOVE = 192;
+/// @dev 16 as a gradient, Q29 per pixel; what is set above twice that; half a depth in an attribute word.
 uint256 constant LEAST_WIDTH = 0x200000000;
-uint256 constant TWICE_LEAST_WIDTH = 0x400000000;
+uint256 constant ABOVE_LEAST_WIDTH = 0xfffffffffffffffffffffffffffffffffffffffffffffffffffffffc00000000;
 uint256 constant HALF_DEPTH = 0x800000000000000000000000000000000000000000;
 /// @dev An eighth of a depth in an accumulator.
 uint256 constant DEPTH_8_AT = 195;
@@ -266,6 +272,8 @@ uint256 constant GREEN_Q9_AT = 134;
 uint256 constant RED_Q9_AT = 219;
 /// @dev The byte of the lowest lane.
 uint256 constant BYTE_Q58 = 0x3fc00000000000000;
+/// @dev Brings BYTES_Q58 together at the top of a word, besides others below.
+uint256 constant Q58_TO_TOP = 0x400000000000000000000002000000000000000000000010;
 /// @dev Shifts that bring BYTES_Q58 to the top of a word: blue, green, red.
 uint256 constant BLUE_TO_TOP = 190;
 uint256 constant GREEN_TO_TOP = 97;
@@ -406,6 +414,8 @@ uint256 constant IS_NOT_PLAIN = 0x1f00000000;
 /// @dev What tells how the rows of a smooth triangle are drawn.
 uint256 constant IS_GREY_OR_STEEP = 0xc00;
 uint256 constant IS_CUT_OR_CROSSING = 0x2080;
+/// @dev Triangles of samples for which SPAN_BEGIN and SPAN_END are asked: see IS_CLAMPED.
+uint256 constant IS_CLAMPED_MODE = 0x380;
 
 // ----------------------------------------------------------------------------------------------------------------- flags that are shifted
 
@@ -481,11 +491,11 @@ uint256 constant SAMPLE_COLORS = 0xffffff0000000000ffffff0000000000ffffff0000000
 /// @dev Where they are from the centre of the pixel, in eighths of it: columns, and rows.
 uint256 constant SAMPLE_X_8 = 0xfffffffffffffffd0000000000000002ffffffffffffffff;
 uint256 constant SAMPLE_Y_8 = 0x30000000000000000fffffffffffffffefffffffffffffffd;
-/// @dev The columns as Q42, and 2^-29, which makes samples that lie exactly on an edge come out as being to the right of it. Edges are off
-/// by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from it at least.
-uint256 constant SAMPLE_COLUMNS = 0x8000001ffffffffe80000020000000018000001fffffffff8000002000;
-/// @dev A column, Q42; a byte of samples, of which a column has 32.
-uint256 constant COLUMN_64 = 0x40000000000000004000000000000000400000000000000040000000000;
+/// @dev A left side at column 0: its bias, the places of the samples in the pixel, and 2^-29, which makes samples that lie exactly on an
+/// edge come out as being to the right of it. Edges are off by less than 2^-30, and samples that do not lie on an edge are 2^-28 away from
+/// it at least.
+uint256 constant LEFT_AT_0 = 0x80000080000020007ffffe800000200080000180000020007fffff8000002000;
+/// @dev A byte of samples, Q37, of which a column has 32.
 uint256 constant ADDRESS_64 = 0x2000000000000000200000000000000020000000000000002000000000;
 /// @dev Red and blue, green.
 uint256 constant RED_BLUE_64 = 0xff00ff0000000000ff00ff0000000000ff00ff0000000000ff00ff;

@@ -52,7 +52,7 @@ library Transform {
             uint256 down = HALF_PIXEL + wider;
             uint256 up = wireframe ? HALF_PIXEL + 256 : SUBPIXEL_MASK;
             if (load(FRAME_IS_ANTIALIASED) != 0) {
-                wider = 127;
+                wider = wireframe ? 127 : 0;
                 down = SUBPIXEL_MASK - OUTERMOST_SAMPLE - (wireframe ? HALF_PIXEL : 0);
                 up = 2 * SUBPIXEL_MASK - down;
             }

@@ -193,7 +193,7 @@ def gradients(a: Vertex, b: Vertex, c: Vertex, attributes: tuple[int, int, int],
         first, to_b, to_c = 0, layout.ATTRIBUTE_S, 1
     xb, xc, yb, yc = (divide_signed(value << layout.GRADIENT_SHIFT, area) for value in (xb, xc, yb, yc))
     if r.mode & (layout.IS_PATCHED | layout.IS_QUADRATIC) == 0 and not all(
-        -STEEP <= value <= STEEP for value in (xb, xc, yb, yc)
+        -STEEP <= value < STEEP for value in (xb, xc, yb, yc)
     ):
         # colours would leave their lanes outside so thin a triangle
         depths = [word >> 168 for word in attributes]

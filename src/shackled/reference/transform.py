@@ -49,7 +49,7 @@ def set_rounding(tile: Rectangle, wireframe: bool, registers: Registers) -> None
     down, up = (layout.HALF_PIXEL, layout.HALF_PIXEL + 256) if wireframe else (layout.SUBPIXEL_MASK,) * 2
     if registers.antialiased:
         # to the outermost samples, and for a line, which is a pixel wide, half a pixel farther
-        before = beyond = 255
+        before, beyond = (255, 255) if wireframe else (128, -1)
         down = layout.SUBPIXEL_MASK - layout.OUTERMOST_SAMPLE - (layout.HALF_PIXEL if wireframe else 0)
         up = 2 * layout.SUBPIXEL_MASK - down
     registers.tile_left = ((tile.x + layout.PIXEL_BIAS) << 8) - before
