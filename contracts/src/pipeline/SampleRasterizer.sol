@@ -10,8 +10,8 @@ import "./Registers.sol";
 //
 // A side of a triangle in a row is four columns, one for each sample, in lanes of 64 bits: where the edge crosses the height of the sample,
 // less the place of the sample in the pixel. Columns are told by the addresses that the samples of their pixels have, Q37, which are
-// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are kept so
-// that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
+// columns in Q42. A pixel with its samples at p has a sample inside if p is not left of the left side and left of the right one. Sides are
+// kept so that one addition, or subtraction, of p in all lanes tells it by the highest bit of each:
 //
 //   left = 2^63 - side                  left + p  >= 2^63 where p >= side
 //   right = 2^63 - 1 + side             right - p >= 2^63 where p < side
