@@ -230,6 +230,14 @@ def test_records_are_what_the_file_says() -> None:
     assert drawn == chain().call("Renderer", encode(artifact("Renderer").selectors["render"], scene)).output
 
 
+def texture(index: int, flags: int, width: int, height: int, bits: int, words: int = 0) -> bytes:
+    """The record of a texture of the object, whose mesh is a box. words: more than it should have."""
+    begin = bytes([flags, width - 1, height - 1, bits])
+    size = 4 + (3 << bits if bits <= 8 else 0) + (width * height * bits + 7) // 8 + 6 * len(BOX.positions)
+    content = begin + np.random.default_rng(bits).bytes(size + -size % 32 + 32 * words - 4)
+    return bytes([8, 0, index]) + (len(content) // 32).to_bytes(2, "big") + content
+
+
 @pytest.mark.parametrize(
     ("data", "error"),
     [
@@ -281,6 +289,16 @@ def test_records_are_what_the_file_says() -> None:
         (record(7, 0, tone((64 << 16) + 1, 0)), f"ExposureOutOfRange(exposure={(64 << 16) + 1})"),
         (record(7, 0, tone(1, 4)), "UnknownToneFlags(flags=4)"),
         (record(7, 0, tone(1, 255)), "UnknownToneFlags(flags=255)"),
+        (texture(3, 0, 1, 1, 1), "ExtensionIndex(kind=8, index=3, count=3)"),
+        (b"\10\0\1\0\0", "ExtensionSize(kind=8, index=1, expected=32, actual=0)"),
+        (texture(1, 4, 1, 1, 1), "TextureFormat(object=1, flags=4, bits=1)"),
+        (texture(1, 255, 1, 1, 24), "TextureFormat(object=1, flags=255, bits=24)"),
+        (texture(1, 0, 1, 1, 0), "TextureFormat(object=1, flags=0, bits=0)"),
+        (texture(1, 0, 1, 1, 3), "TextureFormat(object=1, flags=0, bits=3)"),
+        (texture(1, 0, 1, 1, 32), "TextureFormat(object=1, flags=0, bits=32)"),
+        (texture(1, 0, 9, 9, 4, -1), "ExtensionSize(kind=8, index=1, expected=160, actual=128)"),
+        (texture(1, 0, 9, 9, 4, 1), "ExtensionSize(kind=8, index=1, expected=160, actual=192)"),
+        (texture(0, 0, 1, 1, 1) + texture(0, 0, 1, 1, 1), "ExtensionOrder(kind=8, index=0)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:
@@ -307,6 +325,8 @@ def test_wrong_records_are_refused(data: bytes, error: str) -> None:
         record(4, 0, bytes(6)) + record(5, 0, b"\0\0\0\1") + record(6, 0, fog(0, 1)) + record(7, 0, tone(1, 0)),
         record(2, 2, HALF) + record(4, 0, b"\xff" * 6) + record(5, 0, b"\xff\xff\xff\x10"),
         record(6, 0, fog(FAR - 1, FAR)) + record(7, 0, tone(64 << 16, 3)),
+        pytest.param(texture(0, 0, 1, 1, 1) + texture(1, 1, 7, 5, 4) + texture(2, 2, 3, 256, 2), id="textures"),
+        pytest.param(record(7, 0, tone(1 << 16, 2)) + texture(1, 3, 256, 256, 24), id="the largest texture"),
     ],
 )
 def test_values_at_their_bounds(data: bytes) -> None:

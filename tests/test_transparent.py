@@ -17,7 +17,23 @@ from PIL import Image as PillowImage
 from tools.ledger import call_data
 
 from pictures import chain, dynamic
-from shackled import Background, Image, InputError, Material, Object, Processes, RenderError, Scene, load, render
+from shackled import (
+    Background,
+    Fog,
+    Ground,
+    Hemisphere,
+    Image,
+    InputError,
+    Material,
+    Object,
+    Processes,
+    RenderError,
+    Rim,
+    Scene,
+    Tone,
+    load,
+    render,
+)
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.image import encode_bmp, uncovered
@@ -87,6 +103,22 @@ def test_inverted() -> None:
     assert np.array_equal(np.asarray(found.alpha), np.asarray(plain.alpha))
     solid = found.alpha == 255
     assert (found.pixels[solid] == 255 - plain.pixels[solid]).all()
+
+
+def test_with_effects() -> None:
+    """A ground that fades into the background, a shadow on it, fog, light and tone: none changes the background."""
+    lamp = evolve(load("teapot").lights[0], shadow=True)
+    scene = glass(
+        lights=[lamp],
+        ground=Ground("#e0c8b0"),
+        fog=Fog("#8090a0", 2, 12),
+        hemisphere=Hemisphere("#405060", "#302010"),
+        rim=Rim("#6070ff"),
+        tone=Tone(1.5, filmic=True, gamma=True),
+    )
+    found = render(scene, transparent=True)
+    assert len(np.unique(np.asarray(found.alpha))) > 20
+    assert np.abs(over(found, gradient()) - render(scene).pixels).max() <= 2
 
 
 def test_opaque_objects_are_as_they_were() -> None:

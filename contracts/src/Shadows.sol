@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Vector} from "./math/Vector.sol";
+import {ZERO} from "./math/Fixed.sol";
+import {Vector, normalize} from "./math/Vector.sol";
 import {Matrix} from "./math/Quaternion.sol";
 import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
 import {Mesh, openMesh} from "./scene/Mesh.sol";
@@ -31,7 +32,8 @@ contract Shadows is SceneErrors {
     /// @param casters The addresses of the faces that cast shadows.
     /// @param sets See Faces; of `words` words each.
     /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas, of which there are `height`.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`.
+    /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
         Frame frame;
@@ -44,8 +46,11 @@ contract Shadows is SceneErrors {
         uint256 words;
         uint256 found;
         uint256 heads;
+        uint256 width;
         uint256 height;
         int256[3] eye;
+        uint256 light;
+        Vector toward;
     }
 
     uint256 private constant LIT = 0;
@@ -55,7 +60,7 @@ contract Shadows is SceneErrors {
 
     /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
     /// checked.
-    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, four bytes
+    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, 4 bytes
     /// for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of it, as words:
     /// see Receivers. The entries are filled up to whole words. Nothing if no light casts shadows. Without the ABI's offset and length.
     function cast(Scene calldata scene) external pure returns (bytes memory) {
@@ -69,7 +74,7 @@ contract Shadows is SceneErrors {
             reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             State memory state;
-            state.height = scene.canvas.height;
+            (state.width, state.height, state.light) = (scene.canvas.width, scene.canvas.height, light);
             int256[6] memory bounds = readVertices(scene, state);
             if (bounds[0] <= bounds[3]) {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
@@ -255,10 +260,18 @@ contract Shadows is SceneErrors {
             uint256 source = mesh.faces;
             bool isFlat = object.material.shading == FLAT;
             bool isCulled = object.flags & CULL_BACKFACES != 0;
+            if (isReceiver && !isFlat && isCulled && !state.frame.isPoint) {
+                state.toward = object.rotation.toMatrix().transposedTimes(normalize(scene.lights[state.light].vector));
+            } else {
+                state.toward = Vector(ZERO, ZERO, ZERO);
+            }
             uint256 last = state.faces[index + 1];
             for (uint256 face = state.faces[index]; face != last; face += FACE_RECORD_SIZE) {
                 uint256 entry = LIT;
-                if (isReceiver && receives(face, state.eye, view_.orthographic, isFlat, isCulled)) {
+                if (
+                    isReceiver && receives(face, state.eye, view_.orthographic, isFlat, isCulled)
+                        && (loadSigned(face + FACE_SIDE) > 0 || !turnsAway(state.toward, mesh, source))
+                ) {
                     entry = shadeFace(state, receiver, face, source);
                 }
                 store(face + FACE_ENTRY, entry);
@@ -299,6 +312,28 @@ contract Shadows is SceneErrors {
         }
     }
 
+    /// @dev Whether all normals of a smooth face point away from a directional light, which then gives it no light.
+    /// @param toward The direction toward the light in the space of the mesh; zero if that is not known.
+    function turnsAway(Vector memory toward, Mesh memory mesh, uint256 source) private pure returns (bool) {
+        unchecked {
+            if (toward.isZero()) return false;
+            uint256 numbers = Triangles.readIndices(source);
+            uint256 normals = mesh.vertices + 3 * mesh.bits / 8 + 3;
+            for (uint256 i; i != 48; i += 16) {
+                uint256 place = normals + ((numbers >> i) & FACE_INDEX_MASK) * mesh.stride;
+                int256 cosine;
+                assembly ("memory-safe") {
+                    let data := calldataload(place)
+                    cosine := mul(sar(MESH_NORMAL_AT, data), mload(toward))
+                    cosine := add(cosine, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Y, data)), mload(add(toward, 0x20))))
+                    cosine := add(cosine, mul(sar(MESH_NORMAL_AT, shl(MESH_NORMAL_Z, data)), mload(add(toward, 0x40))))
+                }
+                if (cosine > 0) return false;
+            }
+            return true;
+        }
+    }
+
     /// @return The entry of a face: LIT, DARK, or the address of a chain of lists: that of the next or 0, the end of this one, functions.
     function shadeFace(
         State memory state,
@@ -309,7 +344,7 @@ contract Shadows is SceneErrors {
         unchecked {
             uint256 corners = load(face);
             (receiver.corners, receiver.isPlaced) = (corners, false);
-            Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
+            bool hasPlanes;
             uint256 count;
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
@@ -318,6 +353,10 @@ contract Shadows is SceneErrors {
                 } else {
                     bits = state.casterCount - 8 * offset;
                     bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
+                }
+                if (bits != 0 && !hasPlanes) {
+                    hasPlanes = true;
+                    Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
                 }
                 while (bits != 0) {
                     uint256 caster = load(state.casters + 32 * (8 * offset + Faces.lowestBit(bits)));
@@ -341,7 +380,7 @@ contract Shadows is SceneErrors {
             if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
             uint256 list = freeMemory();
             uint256 end;
-            (shade, end) = Receivers.write(receiver, state.height, list + 0x40);
+            (shade, end) = Receivers.write(receiver, state.width, state.height, list + 0x40);
             if (shade == MISSED) return LIT;
             if (shade == COVERED) return DARK;
             setFreeMemory(end);

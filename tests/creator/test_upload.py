@@ -24,6 +24,7 @@ from PIL.PngImagePlugin import PngInfo
 
 from shackled import InputError, load, render
 from shackled.creator import Limits, Pool, PoolError, Size, Source, State, Store, Stored, clean_name
+from shackled.errors import InputWarning
 from shackled.scene import simplify_scene, write_scene
 
 LIMITS = Limits(triangles=500, all_triangles=1200, reading_seconds=10, unpacked=2**20)
@@ -140,6 +141,24 @@ def test_gltf(visitor: Visitor, name: str) -> None:
     upload = visitor.upload(name, text(document) if name == "a.gltf" else glb(document))
     assert upload.facts.triangles == 1
     assert visitor.render(State(upload.source)).lit_pixels > 100
+
+
+def test_a_texture_beside_its_mesh(visitor: Visitor, tmp_path: Path) -> None:
+    image = io.BytesIO()
+    PillowImage.fromarray(np.random.default_rng(1).integers(0, 256, (300, 9, 3), dtype=np.uint8)).save(image, "PNG")
+    corners = b"vt 0 0\nvt 1 0\nvt 0 1\n"
+    files = {
+        "a.obj": b"mtllib a.mtl\nusemtl a\n" + corners + TRIANGLE.replace(b"f 1 2 3", b"f 1/1 2/2 3/3"),
+        "a.mtl": b"newmtl a\nmap_Kd a.png\n",
+        "a.png": image.getvalue(),
+    }
+    upload = visitor.upload(None, zipped(files))
+    assert upload.notes == ("the selection: a.png is reduced from 9 x 300 to 8 x 256 texels.",)
+    for name, data in files.items():
+        (tmp_path / name).write_bytes(data)
+    with pytest.warns(InputWarning):
+        expected = render(load(tmp_path / "a.obj"))
+    assert visitor.render(State(upload.source)).bmp == expected.bmp
 
 
 def test_a_scene_with_its_meshes_inside(visitor: Visitor, tmp_path: Path) -> None:

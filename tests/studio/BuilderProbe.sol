@@ -73,6 +73,21 @@ contract BuilderProbe {
         return stage.scene;
     }
 
+    function textured(uint256 flags, bytes memory palette, bytes memory texels, int256[2][] memory uvs) external pure returns (Scene memory) {
+        Model memory m = ModelMaker.model(4, 2);
+        m.vertex(-300, -300, 0, 0xffffff);
+        m.vertex(300, -300, 0, 0xffffff);
+        m.vertex(300, 300, 0, 0xffffff);
+        m.vertex(-300, 300, 0, 0xffffff);
+        m.quad(0, 1, 2, 3);
+        Stage memory stage = StageMaker.stage(20, 10, 2);
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.add(m.pack(), StageMaker.unlit());
+        stage.texture(5, 3, flags, palette, texels, uvs);
+        stage.tone(50, false, true);
+        return stage.scene;
+    }
+
     function scene(uint256 objects, uint256 added, uint256 lights) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(20, 10, objects);
         for (uint256 k; k < added; ++k) {

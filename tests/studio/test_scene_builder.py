@@ -11,8 +11,8 @@ from eth_abi.abi import decode
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
-from shackled import Mesh, RenderError
-from shackled.scene import is_closed, pack
+from shackled import Mesh, RenderError, Texture
+from shackled.scene import is_closed, pack, pack_texture
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
@@ -115,6 +115,8 @@ def refused(name: str) -> str:
         "ModelTooLarge": "uint256,uint256",
         "PositionOutOfRange": "int256,int256,int256",
         "NoSuchVertex": "uint256,uint256",
+        "TextureTexels": "uint256,uint256",
+        "TextureCoordinates": "uint256,int256,int256",
     }
     zeros = [0] * (kinds.get(name, "uint256").count(",") + 1)
     return f"{name}|0x" + call_data(f"{name}({kinds.get(name, 'uint256')})", *zeros)[:4].hex()
@@ -164,6 +166,41 @@ def test_what_the_structs_do_not_hold(world: World, probe: bytes) -> None:
     assert scene[7] == spots + b"\2\0\0\0\4\0\x80\0\0" + b"\2\0\2\0\4\0\0\0\0" + b"\3\0\0\0\0" + effects
     call = call_data(f"render({SCENE_STRUCT})", scene)
     assert len(world.run(world.address("Renderer"), call)) > 54 + 3 * 20 * 10
+
+
+UVS = np.array([[0, 1], [1.5, 1], [1.5, -0.25], [0, -0.25]])
+TEXTURED = "textured(uint256,bytes,bytes,int256[2][])"
+
+
+@pytest.mark.parametrize("colors", [2, 4, 15, 400])
+def test_textures(world: World, probe: bytes, colors: int) -> None:
+    random = np.random.default_rng(colors)
+    palette = random.integers(0, 256, (colors, 3), dtype=np.uint8)
+    numbers = np.concatenate([np.arange(min(colors, 15)), random.integers(0, colors, 15)])[:15]
+    texture = Texture(palette[numbers].reshape(3, 5, 3) if colors < 16 else palette[:15].reshape(3, 5, 3), "nearest")
+    packed = pack_texture(texture, UVS)
+    bits = packed[3]
+    texels = 4 + (3 << bits)
+    content = packed[4:texels], packed[texels : texels + (15 * bits + 7) // 8]
+    uvs = np.rint(UVS * 65536).astype(int).tolist()
+    (scene,) = ask(world, probe, [SCENE_STRUCT], TEXTURED, 0, *content, uvs)
+    words = len(packed) // 32
+    assert scene[7] == b"\7\0\0\0\5\0\0\x80\0\2" + bytes([8, 0, 1, 0, words]) + packed
+    call = call_data(f"render({SCENE_STRUCT})", scene)
+    pixels = world.run(world.address("Renderer"), call)[64 + 54 :][:600]
+    assert len(set(pixels)) > 3
+
+
+def test_textures_that_are_wrong(world: World, probe: bytes) -> None:
+    uvs = [[0, 0]] * 4
+    for values, name in (
+        ((0, bytes(9), bytes(2), uvs), "TexturePalette"),
+        ((0, bytes(6), bytes(3), uvs), "TextureTexels"),
+        ((0, b"", bytes(15), uvs), "TextureTexels"),
+        ((0, b"", bytes(45), [[0, 1 << 23], *uvs[1:]]), "TextureCoordinates"),
+    ):
+        with pytest.raises(RenderError, match=refused(name)):
+            world.run(probe, call_data(TEXTURED, *values))
 
 
 @pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 
-from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, render
+from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, Texture, render
 from shackled.chain import revert_error
 from shackled.datasets import teapot
 from shackled.image import decode_bmp
-from shackled.scene import from_euler
+from shackled.scene import Shading, from_euler
 from shackled.studio import scene_struct, store_scene
 
 SCENE_STRUCT = scene_struct()
@@ -119,9 +119,19 @@ def test_extensions_are_kept_with_the_scene(world: World) -> None:
     struct = decode([SCENE_STRUCT], world.run(world.address("Studio"), call_data("scene(address)", pointer)))[0]
     assert len(struct[7]) == 45 + 9
     # what a newer contract may know is told when it is drawn
-    newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x09\0\0\0\1\7")).hex()
-    with pytest.raises(RenderError, match=r"UnknownExtension\(kind=9, index=0\)"):
+    newer = "0x" + world.store(f"storeScene({SCENE_STRUCT})", (*struct[:7], b"\x0c\0\0\0\1" + bytes(32))).hex()
+    with pytest.raises(RenderError, match=r"UnknownExtension\(kind=12, index=0\)"):
         world.call("Studio", "check(address)", newer)
+
+
+@pytest.mark.parametrize("shading", ["flat", "smooth"])
+def test_textures_are_kept_with_the_scene(world: World, shading: Shading) -> None:
+    """Stored meshes have their vertices in another order, and the coordinates of a texture with them."""
+    random = np.random.default_rng(1)
+    texture = Texture(random.integers(0, 256, (40, 30, 3), dtype=np.uint8))
+    mesh = evolve(POT, uvs=random.uniform(0, 1, (len(POT.positions), 2)))
+    scene = evolve(SCENE, objects=[Object(mesh, (0, -100, 0), material=Material(shading, texture=texture))])
+    assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
 
 
 def test_antialiased(world: World) -> None:

@@ -15,6 +15,8 @@ from PIL import ImageSequence
 
 from shackled import load, render
 from shackled.cli.app import run
+from shackled.datasets import require
+from shackled.tokens import token_scene
 from tokens.on_a_node import Node, Shackled
 
 OWNER, ALICE, BOB = range(3)
@@ -40,11 +42,11 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     minted = json.loads(said.out)
     assert "storing it:" in said.err
     assert 0 < minted["gas"] <= 1_700_000
-    np.testing.assert_array_equal(pixels(picture.read_bytes()), render("icons/bell").pixels)
+    np.testing.assert_array_equal(pixels(picture.read_bytes()), render(token_scene(require("icons/bell"))).pixels)
     # web3.py finds the same there
     studio = node.contract("Studio", minted["studio"])
     (draw,) = (f for f in studio.all_functions() if f.abi_element_identifier == "render(address)")
-    assert draw(minted["pointer"]).call() == render("icons/bell").bmp
+    assert draw(minted["pointer"]).call() == render(token_scene(require("icons/bell"))).bmp
     # the same again costs nothing, and needs no account
     said = shackled("mint", "icons/bell", "--json")
     assert json.loads(said.out) | {"output": None} == minted | {"gas": 0, "output": None}

@@ -17,12 +17,13 @@ from attrs import evolve
 from PIL import ImageColor
 
 import shackled
+from conformance import shadows as conformance_shadows
 from node_scripts import answers
 from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
 from random_scenes import random_case
-from shackled import Fog, Hemisphere, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
+from shackled import Fog, Ground, Hemisphere, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
@@ -378,3 +379,15 @@ def thing(rng: np.random.Generator) -> dict[str, Any]:
             shininess=one(rng, [int(rng.integers(1, 129)), rng.uniform(1, 128), 2.5]),
         ),
     )
+
+
+def test_shadows_and_grounds(tmp_path: Path) -> None:
+    calls = Calls()
+    for seed in range(40):
+        scene = conformance_shadows.random_scene(seed, 32)
+        calls.add(f"shadows {seed}", encode_scene_file(scene).decode(), scene)
+        color = tuple(np.random.default_rng(seed).integers(0, 256, 3).tolist())
+        ground = Ground(color) if seed % 2 else Ground(color, height=-1.5, radius=7)
+        scene = evolve(scene, objects=[each for each in scene.objects if each.fade is None], ground=ground)
+        calls.add(f"ground {seed}", encode_scene_file(scene).decode(), scene)
+    assert calls.differences(tmp_path) == []

@@ -11,8 +11,8 @@ import {PngErrors} from "./PngErrors.sol";
 /// @dev What covers a share a of a pixel in the colour c shows a c over black and a c + 255 (1 - a) over white, so the difference tells
 /// a, and the picture over black then c. This holds for edges that are antialiased, and for objects that are not opaque.
 ///
-/// Pixels are written as four bytes and, if more are like them, matches at the distance of a pixel. Where pixels are squares, the other rows
-/// of a square are like the row above (filter Up): pixels of zeros. The code is `AlphaCode`.
+/// Pixels are written as four bytes and, if more are like them, matches at the distance of a pixel. Where pixels are squares, the other
+/// rows of a square are like the row above (filter Up): pixels of zeros. The code is `AlphaCode`.
 library TransparentPng {
     /// @dev The most pixels that one match repeats, since it has at most 258 bytes.
     uint256 private constant MOST = 64;

@@ -21,8 +21,8 @@ import "./Registers.sol";
 //                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
 //                first
 //
-// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture. SHADOW and GROUND are checked by the contract Shadows: see
-// there, and Ground.
+// What they do is told in SurfaceLight. An object may have a TEXTURE: see Texture. SHADOW and GROUND are checked by Shadows: see there, and
+// Ground.
 
 uint256 constant HEMISPHERE = 4;
 uint256 constant RIM = 5;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {BOTTOM_AT, CONSTANT_AT, LAST_SHADOW, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
+import {BOTTOM_AT, CONSTANT_AT, LAST_SHADOW, LEFT_AT, RIGHT_AT, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
 import "./Registers.sol";
 
 // The samples of a row that are in the shadow: a word of four lanes for each pixel, of which the highest bit of each is set where all
@@ -17,6 +17,8 @@ uint256 constant SHADOW_COUNT_MASK = 0xff;
 uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
 uint256 constant SHADOW_DARK = 1;
+/// @dev In rows of fewer pixels the functions are taken at all samples.
+uint256 constant SHORT_SPAN = 8;
 /// @dev How far the value of a function is below the top of a word, and where it is there.
 uint256 constant CONSTANT_TO_TOP = 96;
 uint256 constant LANE_AT_TOP = 192;
@@ -64,7 +66,17 @@ library ShadowRows {
                 uint256 next = shadow + 32 * (word & SHADOW_COUNT_MASK);
                 if ((word >> BOTTOM_AT) & ROW_MASK > row) {
                     isLeading = false;
-                    (uint256 first, uint256 last, uint256 inner, uint256 innerEnd) = setFunctions(shadow, next, row, column, end);
+                    uint256 first;
+                    uint256 last;
+                    assembly ("memory-safe") {
+                        first := and(shr(LEFT_AT, word), ROW_MASK)
+                        last := and(shr(RIGHT_AT, word), ROW_MASK)
+                        if lt(first, column) { first := column }
+                        if gt(last, end) { last := end }
+                    }
+                    uint256 inner;
+                    uint256 innerEnd;
+                    if (first < last) (first, last, inner, innerEnd) = setFunctions(shadow, next, row, first, last);
                     if (first < last) fill(pixel + 32 * (first - column), first, last, inner, innerEnd, next - shadow);
                 }
                 if (word & LAST_SHADOW != 0) return;
@@ -118,6 +130,11 @@ library ShadowRows {
                 )
                 mstore(add(target, 0x20), mul(shl(3, x), ONES_64))
                 target := add(target, 0x40)
+                // ranges would cost more than the few pixels
+                if lt(sub(end, column), SHORT_SPAN) {
+                    innerEnd := 0
+                    continue
+                }
                 // more than the change from the centre to a sample
                 let sign := sar(255, y)
                 let change := sub(xor(y, sign), sign)
@@ -152,7 +169,7 @@ library ShadowRows {
         assembly ("memory-safe") {
             size := add(SHADOW_FUNCTIONS, shl(1, size))
             for {} lt(first, last) { first := add(first, 1) } {
-                switch and(lt(first, innerEnd), iszero(lt(first, inner)))
+                switch or(and(lt(first, innerEnd), iszero(lt(first, inner))), eq(mload(pixel), TOPS_64))
                 case 1 { mstore(pixel, TOPS_64) }
                 default {
                     let lanes := TOPS_64
@@ -174,10 +191,13 @@ library ShadowRows {
             uint256 dark;
             if (list == SHADOW_DARK) dark = covered;
             else if (list != 0) dark = load(load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN))) & covered;
+            uint256 share = load(SHADOW_SHARE);
+            if (dark == 0 && share == ALL_SAMPLES) return;
             uint256 total = count(covered);
-            uint256 visible = dark == 0 ? total : total - count(dark);
-            uint256 share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
-            if (share == load(SHADOW_SHARE)) return;
+            uint256 visible = total - count(dark);
+            uint256 before = share;
+            share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
+            if (share == before) return;
             store(SHADOW_SHARE, share);
             uint256 light = load(SHADOW_LIGHT);
             store(light + LIGHT_COLOR, part(load(SHADOW_COLOR), visible, total));

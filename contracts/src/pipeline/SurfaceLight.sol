@@ -29,8 +29,8 @@ uint256 constant FILMIC_14 = 14 << 32;
 /// @dev The end of the lanes of a colour.
 uint256 constant LANES_END = 3 * 56;
 uint256 constant LANES_85_END = 3 * 85;
-/// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to 255
-/// has not.
+/// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to
+/// 255 has not.
 uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
 uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
 uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;

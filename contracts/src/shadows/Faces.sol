@@ -6,7 +6,7 @@ import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
 
 // Faces in the space of the light, and which of them may shade a face.
 //
-// A face is six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if it is turned
+// A face is six words: a word of addresses and ranges (FACE_); its normal, the cross product of two sides; its side, positive if turned
 // to the light, 0 if it is seen edge-on; and what is found about its shadows.
 //
 // Those that cast shadows have numbers, each a bit in the sets of what lies in a range of coordinates. There are five tables of sets: what
@@ -17,7 +17,7 @@ uint256 constant FACE_RECORD_SIZE = 0xc0;
 uint256 constant FACE_NORMAL = 0x20;
 uint256 constant FACE_SIDE = 0x80;
 uint256 constant FACE_ENTRY = 0xa0;
-/// @dev In the first word: the addresses of the vertices, that of the functions (0 if there are none yet), and the ranges of x, y and z, the
+/// @dev In the first word: the addresses of the vertices, that of the functions (0 if there are none yet), and the ranges of x, y, z, the
 /// least and the greatest, in bytes.
 uint256 constant FACE_B_AT = 32;
 uint256 constant FACE_C_AT = 64;
@@ -27,8 +27,8 @@ uint256 constant ADDRESS_MASK = 0xffffffff;
 /// @dev The highest bit of each lane of the ranges of a vertex.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
-/// @dev Four functions of x, y, z and a constant each: the sides, each opposite to a corner, and what lies behind the face. All are positive
-/// in the shadow.
+/// @dev Four functions of x, y and z with a constant: the sides, each opposite to a corner, and what lies behind the face. All are positive
+/// in shadow.
 uint256 constant PLANE_SIZE = 0x80;
 uint256 constant PLANES_SIZE = 0x200;
 uint256 constant BEHIND = 0x180;

@@ -13,6 +13,8 @@ import {ADDRESS_MASK, BEHIND, FACE_B_AT, FACE_C_AT, FACE_PLANES_AT, Faces, PLANE
 //   bits  96 to 159   its value at the centre of the first pixel of the canvas
 //   bits  80 to  95   the first row in which the shadow may be
 //   bits  64 to  79   the row after the last
+//   bits  48 to  63   the column after the last in which it may be
+//   bits  32 to  47   the first one
 //   bits   0 to   7   in the first word of what casts the shadow, how many words it has; in others 0
 //   bit    8          in the same word, whether it is the last one of the list
 //
@@ -23,6 +25,8 @@ uint256 constant Y_AT = 160;
 uint256 constant CONSTANT_AT = 96;
 uint256 constant TOP_AT = 80;
 uint256 constant BOTTOM_AT = 64;
+uint256 constant RIGHT_AT = 48;
+uint256 constant LEFT_AT = 32;
 uint256 constant LAST_SHADOW = 1 << 8;
 uint256 constant ROW_MASK = 0xffff;
 uint256 constant LANE_48 = 0xffffffffffff;
@@ -35,7 +39,7 @@ uint256 constant GRADIENT_BITS = 44;
 int256 constant BOUND = 1 << 60;
 /// @dev More than what rounding takes from a function anywhere on the canvas.
 int256 constant SLACK = 1 << 16;
-/// @dev Sub-pixels by which the rows of a shadow are widened: to the outermost sample, and for rounding.
+/// @dev Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
 int256 constant WIDER = 112;
 
 /// @notice What is known of the face that receives shadows.
@@ -160,15 +164,18 @@ library Receivers {
 
     /// @dev How many bits a number has above so many.
     function excess(uint256 value, uint256 bits) private pure returns (uint256 shift) {
-        unchecked {
-            value >>= bits;
-            for (uint256 step = 128; step != 0; step >>= 1) {
-                if (value >> step != 0) {
-                    value >>= step;
-                    shift += step;
-                }
+        assembly ("memory-safe") {
+            value := shr(bits, value)
+            if value {
+                shift := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
+                shift := or(shift, shl(6, lt(0xffffffffffffffff, shr(shift, value))))
+                shift := or(shift, shl(5, lt(0xffffffff, shr(shift, value))))
+                shift := or(shift, shl(4, lt(0xffff, shr(shift, value))))
+                shift := or(shift, shl(3, lt(0xff, shr(shift, value))))
+                shift := or(shift, shl(2, lt(0xf, shr(shift, value))))
+                shift := or(shift, shl(1, lt(0x3, shr(shift, value))))
+                shift := add(or(shift, lt(1, shr(shift, value))), 1)
             }
-            if (value != 0) ++shift;
         }
     }
 
@@ -187,29 +194,41 @@ library Receivers {
     }
 
     /// @notice Writes the functions of what casts the shadow that `test` has found.
-    /// @param height Of the canvas.
     /// @param begin Where to write them.
     /// @return shade MISSED, if no part of the shadow is on the canvas, COVERED, if all of the face is in it, or MIXED_SHADOW.
     /// @return end The address after the last word.
-    function write(Receiver memory receiver, uint256 height, uint256 begin) internal pure returns (uint256 shade, uint256 end) {
+    function write(Receiver memory receiver, uint256 width, uint256 height, uint256 begin)
+        internal
+        pure
+        returns (uint256 shade, uint256 end)
+    {
         unchecked {
             if (receiver.determinant == 0) return (MISSED, begin);
-            (uint256 top, uint256 bottom) = rowsOf(receiver, height);
-            if (top >= bottom) return (MISSED, begin);
+            uint256 head;
+            {
+                (uint256 top, uint256 bottom) = boundsOf(receiver, 0x20, height);
+                (uint256 left, uint256 right) = boundsOf(receiver, 0, width);
+                if (top >= bottom || left >= right) return (MISSED, begin);
+                head = (top << TOP_AT) | (bottom << BOTTOM_AT) | (right << RIGHT_AT) | (left << LEFT_AT);
+            }
             end = begin;
-            int256[12] memory values = receiver.values;
-            for (uint256 i; i != 12; i += 3) {
-                (int256 a, int256 b, int256 c) = (values[i], values[i + 1], values[i + 2]);
-                if (a >= 0 && b >= 0 && c >= 0) continue;
+            uint256 values;
+            int256[12] memory all = receiver.values;
+            assembly ("memory-safe") {
+                values := all
+            }
+            for (uint256 i; i != 4; ++i) {
+                (int256 a, int256 b, int256 c) = (loadSigned(values), loadSigned(values + 0x20), loadSigned(values + 0x40));
+                values += 0x60;
+                if (a | b | c >= 0) continue;
                 (int256 x, int256 y, int256 constant_) = combine(receiver, a, b, c);
                 // neighbours overlap, so that rounding makes no cracks
-                if (i != 9) constant_ += SLACK;
+                if (i != 3) constant_ += SLACK;
                 if (constant_ <= -BOUND) return (MISSED, begin);
                 if (constant_ >= BOUND) continue;
                 store(
                     end,
-                    (uint256(x) << X_AT) | ((uint256(y) & LANE_48) << Y_AT) | ((uint256(constant_) & LANE_64) << CONSTANT_AT) | (top << TOP_AT)
-                        | (bottom << BOTTOM_AT)
+                    (uint256(x) << X_AT) | ((uint256(y) & LANE_48) << Y_AT) | ((uint256(constant_) & LANE_64) << CONSTANT_AT) | head
                 );
                 end += 32;
             }
@@ -226,35 +245,60 @@ library Receivers {
         returns (int256 x, int256 y, int256 constant_)
     {
         unchecked {
-            int256[9] memory weights = receiver.weights;
             if (receiver.determinant < 0) (a, b, c) = (-a, -b, -c);
-            x = (a * weights[0] + b * weights[3] + c * weights[6]) << 5;
-            y = (a * weights[1] + b * weights[4] + c * weights[7]) << 5;
-            constant_ = a * weights[2] + b * weights[5] + c * weights[8];
-            (uint256 most, uint256 other) = (magnitude(x), magnitude(y));
-            uint256 shift = excess(most > other ? most : other, GRADIENT_BITS);
+            int256[9] memory weights = receiver.weights;
+            uint256 most;
+            assembly ("memory-safe") {
+                x := add(mul(a, mload(weights)), mul(b, mload(add(weights, 0x60))))
+                x := shl(5, add(x, mul(c, mload(add(weights, 0xc0)))))
+                y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
+                y := shl(5, add(y, mul(c, mload(add(weights, 0xe0)))))
+                constant_ := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
+                constant_ := add(constant_, mul(c, mload(add(weights, 0x100))))
+                let sign := sar(255, y)
+                most := sub(xor(y, sign), sign)
+                sign := sar(255, x)
+                sign := sub(xor(x, sign), sign)
+                if gt(sign, most) { most := sign }
+            }
+            uint256 shift = excess(most, GRADIENT_BITS);
             return (x >> shift, y >> shift, constant_ >> shift);
         }
     }
 
-    /// @dev The rows of the canvas in which the shadow may be: the first, and the one after the last.
-    function rowsOf(Receiver memory receiver, uint256 height) private pure returns (uint256, uint256) {
+    /// @dev The columns or rows of the canvas in which the shadow may be: the first, and the one after the last.
+    /// @param axis 0 for columns, 0x20 for rows.
+    /// @param size How many the canvas has.
+    function boundsOf(Receiver memory receiver, uint256 axis, uint256 size) private pure returns (uint256, uint256) {
         unchecked {
-            int256[9] memory p = receiver.places;
+            int256[9] memory places = receiver.places;
+            int256[9] memory sides = receiver.sides;
             int256 low = type(int256).max;
             int256 high = type(int256).min;
-            for (uint256 i; i != 9; i += 3) {
-                (int256 a, int256 b, int256 c) = (receiver.sides[i], receiver.sides[i + 1], receiver.sides[i + 2]);
-                int256 w = a * p[2] + b * p[5] + c * p[8];
-                if (a + b + c <= 0 || w <= 0) return (0, height);
-                int256 y = (a * p[1] + b * p[4] + c * p[7]) / w;
-                if (y < low) low = y;
-                if (y > high) high = y;
+            bool isBounded = true;
+            assembly ("memory-safe") {
+                for { let i := 0 } lt(i, 0x120) { i := add(i, 0x60) } {
+                    let a := mload(add(sides, i))
+                    let b := mload(add(sides, add(i, 0x20)))
+                    let c := mload(add(sides, add(i, 0x40)))
+                    let w := add(mul(a, mload(add(places, 0x40))), mul(b, mload(add(places, 0xa0))))
+                    w := add(w, mul(c, mload(add(places, 0x100))))
+                    if or(slt(add(add(a, b), c), 1), slt(w, 1)) {
+                        isBounded := 0
+                        break
+                    }
+                    let p := add(places, axis)
+                    let value := add(mul(a, mload(p)), mul(b, mload(add(p, 0x60))))
+                    value := sdiv(add(value, mul(c, mload(add(p, 0xc0)))), w)
+                    if slt(value, low) { low := value }
+                    if sgt(value, high) { high := value }
+                }
             }
+            if (!isBounded) return (0, size);
             low = (low - WIDER) >> SUBPIXEL_BITS;
             high = ((high + WIDER) >> SUBPIXEL_BITS) + 1;
             if (low < 0) low = 0;
-            if (high > int256(height)) high = int256(height);
+            if (high > int256(size)) high = int256(size);
             return high <= low ? (0, 0) : (uint256(low), uint256(high));
         }
     }

@@ -7,6 +7,7 @@ import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
 import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
+import {TEXTURE_OF} from "../pipeline/Texture.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES
@@ -149,7 +150,7 @@ struct Stage {
 using {
     StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade,
     StageMaker.antialias, StageMaker.hemisphere, StageMaker.rim, StageMaker.fog, StageMaker.tone,
-    StageMaker.shadow, StageMaker.ground
+    StageMaker.shadow, StageMaker.ground, StageMaker.texture
 } for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
@@ -157,6 +158,14 @@ using {
 library StageMaker {
     error TooManyObjects(uint256 most);
     error TooManyLights(uint256 most);
+    /// @notice A palette has 2, 4, 16 or 256 colours of 3 bytes.
+    error TexturePalette(uint256 size);
+    /// @notice A texture has 1 to 256 texels along each side.
+    error TextureSize(uint256 width, uint256 height);
+    /// @notice Its texels have `expected` bytes.
+    error TextureTexels(uint256 expected, uint256 actual);
+    /// @notice Coordinates are from -128 to below 128, in 65,536ths.
+    error TextureCoordinates(uint256 vertex, int256 u, int256 v);
 
     uint256 private constant MAX_LIGHTS = 4;
 
@@ -224,8 +233,8 @@ library StageMaker {
 
     /// @notice Adds light from above, 0xRRGGBB, and from below, in proportion to the ambient coefficients of materials. The picture is
     /// antialiased, as with each of the following.
-    function hemisphere(Stage memory made, uint256 sky, uint256 ground) internal pure {
-        extend(made, HEMISPHERE, abi.encodePacked(uint24(sky), uint24(ground)));
+    function hemisphere(Stage memory made, uint256 above, uint256 below) internal pure {
+        extend(made, HEMISPHERE, abi.encodePacked(uint24(above), uint24(below)));
     }
 
     /// @notice Adds light along outlines, 0xRRGGBB, from wide to narrow by its power, 1 to 16.
@@ -238,11 +247,56 @@ library StageMaker {
         extend(made, FOG, abi.encodePacked(uint24(color), uint64(near << 32), uint64(far << 32)));
     }
 
-    /// @notice How light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film, or cut off; added
+    /// @notice How light becomes colours: multiplied by so many per cent, up to 6,400; bright light compressed as on film or cut off; added
     /// up in linear space, or as sRGB values.
     function tone(Stage memory made, uint256 exposure, bool filmic, bool gamma) internal pure {
         uint256 flags = (filmic ? TONE_FILMIC : 0) | (gamma ? TONE_GAMMA : 0);
         extend(made, TONE, abi.encodePacked(uint32((exposure << 16) / 100), uint8(flags)));
+    }
+
+    /// @notice Multiplies the colours of the object that was added last by an image: see Texture.sol.
+    /// @param flags The sum of TEXTURE_BILINEAR and TEXTURE_CLAMP.
+    /// @param palette 2, 4, 16 or 256 colours of three bytes, of which texels are numbers of 1, 2, 4 or 8 bits; or nothing: texels are
+    /// colours.
+    /// @param texels Rows from the top, one after the other.
+    /// @param uvs Of each vertex of the mesh, in 65,536ths of the image from its upper left corner.
+    function texture(
+        Stage memory made,
+        uint256 width,
+        uint256 height,
+        uint256 flags,
+        bytes memory palette,
+        bytes memory texels,
+        int256[2][] memory uvs
+    ) internal pure {
+        unchecked {
+            uint256 bits = 24;
+            if (palette.length != 0) {
+                bits = 1;
+                while (bits < 8 && palette.length > 3 << bits) bits <<= 1;
+                if (palette.length != 3 << bits) revert TexturePalette(palette.length);
+            }
+            if (width - 1 > 255 || height - 1 > 255) revert TextureSize(width, height);
+            uint256 expected = (width * height * bits + 7) / 8;
+            if (texels.length != expected) revert TextureTexels(expected, texels.length);
+            bytes memory head = abi.encodePacked(uint8(flags), uint8(width - 1), uint8(height - 1), uint8(bits), palette, texels);
+            uint256 size = head.length + 6 * uvs.length;
+            // whole words, and room for one that is written behind
+            bytes memory content = new bytes(((size + 31) & ~uint256(31)) + 32);
+            assembly ("memory-safe") {
+                mcopy(add(content, 32), add(head, 32), mload(head))
+                mstore(content, sub(mload(content), 32))
+                head := add(add(content, 32), mload(head))
+            }
+            for (uint256 k; k != uvs.length; ++k) {
+                (int256 u, int256 v) = (uvs[k][0], uvs[k][1]);
+                if (int24(u) != u || int24(v) != v) revert TextureCoordinates(k, u, v);
+                assembly ("memory-safe") {
+                    mstore(add(head, mul(6, k)), or(shl(232, u), shl(208, and(v, 0xffffff))))
+                }
+            }
+            made.scene.extensions = Extensions.added(made.scene.extensions, TEXTURE_OF, made.scene.objects.length - 1, content);
+        }
     }
 
     /// @notice Has objects cast shadows in the light that was added last; one light of a scene at most.

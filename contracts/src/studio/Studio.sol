@@ -150,7 +150,8 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(encoder), abi.encodeCall(PngEncoder.svg, (renderer.render(scene(pointer, changes)), scale)));
     }
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over white.
+    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
+    /// white.
     function renderTransparentPNG(address pointer, uint256 scale) external view returns (bytes memory) {
         encodeTransparent(PngEncoder.encodeTransparent.selector, scene(pointer), scale);
     }
@@ -200,7 +201,8 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(opened(scene_)), scale)));
     }
 
-    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over white.
+    /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
+    /// white.
     function drawTransparentPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
         encodeTransparent(PngEncoder.encodeTransparent.selector, opened(scene_), scale);
     }

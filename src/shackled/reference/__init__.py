@@ -12,9 +12,9 @@ from ..image import encode_bmp
 from ..scene import Rectangle, Scene, encode
 from . import coverage, effects, extensions
 from .call import read_call
-from .pipeline import Picture, draw
+from .pipeline import Picture, assemble, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector", "shadow_answer"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -49,6 +49,12 @@ def engines(data: bytes) -> list[str]:
         return ["EffectsEngine", "Shadows"] if effects.has_shadows(records) else ["EffectsEngine"]
     prefix = "Antialiased" if extensions.is_antialiased(records) else ""
     return [prefix + "Engine", prefix + "FragmentEngine"]
+
+
+def shadow_answer(data: bytes) -> bytes:
+    """Return the answer of the contract Shadows for the scene of a call of the Renderer."""
+    shadows = assemble(*read_call(data))[0].shadows
+    return b"" if shadows is None else shadows.encode()
 
 
 def selector(function: str) -> bytes:

@@ -12,7 +12,7 @@ LIT, DARK = 0, 1
 #: first word; rows and coefficients.
 ENTRY_SIZE = 4
 LAST = 1 << 8
-BOTTOM_AT, TOP_AT, CONSTANT_AT, Y_AT, X_AT = 64, 80, 96, 160, 208
+LEFT_AT, RIGHT_AT, BOTTOM_AT, TOP_AT, CONSTANT_AT, Y_AT, X_AT = 32, 48, 64, 80, 96, 160, 208
 #: Where the four samples of a pixel are, in eighths of it.
 SAMPLES = ((-1, -3), (3, -1), (-3, 1), (1, 3))
 
@@ -26,10 +26,14 @@ class Function(NamedTuple):
 
 
 class Shadow(NamedTuple):
-    """What a face casts on another: where all functions are at least 0, in the rows from top to before bottom."""
+    """What a face casts on another: where all functions are at least 0, in the rows from top to before bottom, and the
+    columns from left to before right.
+    """
 
     top: int
     bottom: int
+    left: int
+    right: int
     functions: tuple[Function, ...]
 
 
@@ -66,7 +70,7 @@ def dark_samples(entry: Entry, column: int, row: int) -> list[bool]:
     """Return which of the samples of a pixel of the canvas are in the shadow on a face."""
     if isinstance(entry, int):
         return [entry == DARK] * 4
-    shadows = [each for each in entry if each.top <= row < each.bottom]
+    shadows = [each for each in entry if each.top <= row < each.bottom and each.left <= column < each.right]
     return [any(covers(each, 8 * column + x, 8 * row + y) for each in shadows) for x, y in SAMPLES]
 
 
@@ -80,7 +84,8 @@ def words_of(shadows: Sequence[Shadow]) -> Iterable[bytes]:
     for shadow in shadows:
         head = len(shadow.functions) | (shadow is shadows[-1]) * LAST
         for f in shadow.functions:
-            word = head | shadow.bottom << BOTTOM_AT | shadow.top << TOP_AT
+            word = head | shadow.left << LEFT_AT | shadow.right << RIGHT_AT
+            word |= shadow.bottom << BOTTOM_AT | shadow.top << TOP_AT
             word |= (f.constant & (1 << 64) - 1) << CONSTANT_AT
             word |= (f.y & (1 << 48) - 1) << Y_AT | (f.x & (1 << 48) - 1) << X_AT
             yield word.to_bytes(32, "big")

@@ -17,8 +17,8 @@ from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted
 from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
-from .structs import CULL_BACKFACES, FLAT, POINT, UNLIT, WIREFRAME, Scene
-from .vector import Vector, cross, normalize, scale, subtract, to_matrix
+from .structs import CULL_BACKFACES, FLAT, POINT, SMOOTH, UNLIT, WIREFRAME, Canvas, Scene
+from .vector import Vector, cross, normalize, scale, subtract, to_matrix, transposed_times
 from .view import View
 from .words import divide, divide_signed
 
@@ -34,7 +34,7 @@ DISTANCE_BITS, CLIP_BITS = 38, 60
 GRADIENT_BITS, BOUND = 44, 1 << 60
 #: More than what rounding takes from a function anywhere on the canvas.
 SLACK = 1 << 16
-#: Sub-pixels by which the rows of a shadow are widened: to the outermost sample, and for rounding.
+#: Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
 WIDER = 112
 
 
@@ -155,7 +155,7 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
     casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
     eye = frame.direction(view.forward) if view.orthographic else frame.place(scene.camera.eye)
     for face in faces:
-        if receives(scene, face, eye, view.orthographic):
+        if receives(scene, face, eye, view.orthographic) and not turns_away(scene, light, face, meshes[face.object]):
             table.faces[face.object][face.number] = shade(scene, face, casters, meshes[face.object], view, registers)
     return table
 
@@ -300,6 +300,16 @@ def receives(scene: Scene, face: Face, eye: Vector, orthographic: bool) -> bool:
     return thing.material.shading != FLAT or -slack <= seen <= slack or (seen > 0) == (face.side > 0)
 
 
+def turns_away(scene: Scene, light: int, face: Face, mesh: Mesh) -> bool:
+    """Return whether all normals of a smooth face that is turned away point away from a directional light."""
+    thing, lamp = scene.objects[face.object], scene.lights[light]
+    if face.side > 0 or thing.material.shading != SMOOTH or not thing.flags & CULL_BACKFACES or lamp.kind == POINT:
+        return False
+    toward = transposed_times(to_matrix(thing.rotation), normalize(lamp.vector))
+    normals = mesh.normals or []
+    return all(sum(a * b for a, b in zip(normals[k], toward, strict=True)) <= 0 for k in mesh.faces[face.number])
+
+
 def may_shade(caster: Face, face: Face) -> bool:
     """Return whether the ranges of a face let it shade another."""
     if caster.box is None or face.box is None:
@@ -334,7 +344,7 @@ def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: V
             return DARK
         if not homogeneous:
             homogeneous = canvas_places(scene, face, mesh, view, registers)
-        shadow = shadow_on(homogeneous, sides, lanes, scene.canvas.height)
+        shadow = shadow_on(homogeneous, sides, lanes, scene.canvas)
         if shadow is not None:
             if not shadow.functions:
                 return DARK
@@ -369,7 +379,10 @@ def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: R
 
 
 def shadow_on(
-    places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], lanes: Sequence[tuple[int, int, int]], height: int
+    places: Sequence[Vector],
+    sides: Sequence[tuple[int, int, int]],
+    lanes: Sequence[tuple[int, int, int]],
+    canvas: Canvas,
 ) -> Shadow | None:
     """Return the shadow of a face on another; None if none of it is on the canvas.
 
@@ -380,8 +393,9 @@ def shadow_on(
     determinant = inner(weights[0], places[0])
     if determinant == 0:
         return None
-    top, bottom = rows_of(places, sides, height)
-    if top >= bottom:
+    top, bottom = bounds_of(places, sides, 1, canvas.height)
+    left, right = bounds_of(places, sides, 0, canvas.width)
+    if top >= bottom or left >= right:
         return None
     functions = []
     for number, lane in enumerate(lanes):
@@ -402,17 +416,19 @@ def shadow_on(
             return None
         if constant < BOUND:
             functions.append(Function(x, y, constant))
-    return Shadow(top, bottom, tuple(functions))
+    return Shadow(top, bottom, left, right, tuple(functions))
 
 
-def rows_of(places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], height: int) -> tuple[int, int]:
-    """Return the rows of the canvas in which a shadow may be: the first, and the one after the last."""
-    rows = []
+def bounds_of(places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], axis: int, size: int) -> tuple[int, int]:
+    """Return the columns (axis 0) or rows (1) of the canvas in which a shadow may be: the first, and the one after the
+    last.
+    """
+    found = []
     for corner in range(3):
         weights = [side[corner] for side in sides]
         w = sum(weight * place[2] for weight, place in zip(weights, places, strict=True))
         if sum(weights) <= 0 or w <= 0:
-            return 0, height
-        y = sum(weight * place[1] for weight, place in zip(weights, places, strict=True))
-        rows.append(divide_signed(y, w))
-    return max((min(rows) - WIDER) >> 8, 0), min(((max(rows) + WIDER) >> 8) + 1, height)
+            return 0, size
+        value = sum(weight * place[axis] for weight, place in zip(weights, places, strict=True))
+        found.append(divide_signed(value, w))
+    return max((min(found) - WIDER) >> 8, 0), min(((max(found) + WIDER) >> 8) + 1, size)

@@ -22,7 +22,7 @@ from ._object import Object
 from ._packed_mesh import pack
 from ._packed_texture import pack_texture
 from ._scene import Scene
-from ._staging import is_closed
+from ._staging import are_closed
 
 ONE = 1 << 32
 
@@ -156,9 +156,11 @@ def extensions(scene: Scene) -> bytes:
 
 
 def shadow_rule(scene: Scene) -> int:
-    """Return which faces of culled objects cast shadows: all, or of closed ones those turned away from the light."""
+    """Return which faces of culled objects cast shadows: all, or those turned away from the light, if all of them
+    together are closed.
+    """
     casters = [o for o in scene.objects if o.cull and not o.wireframe and o.opacity == 1 and o.fade is None]
-    return TURNED_AWAY if all(is_closed(o.mesh) for o in casters) else ALL_FACES
+    return TURNED_AWAY if are_closed(casters) else ALL_FACES
 
 
 def _record(kind: int, index: int, content: bytes) -> bytes:

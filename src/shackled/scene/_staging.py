@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -218,14 +219,33 @@ def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], ND
 
 def is_closed(mesh: Mesh) -> bool:
     """Return whether each edge has a face on either side, wound alike, and the mesh bounds a volume from outside."""
-    positions = mesh.positions
+    return _is_closed(mesh.positions, mesh.faces) and signed_volume(mesh) > 0
+
+
+def are_closed(objects: Sequence[Object]) -> bool:
+    """Return whether the faces of objects, taken together, are those of a closed mesh; True without objects.
+
+    Vertices are at one place if they are within 2^-16 of the size of all.
+    """
+    if not objects:
+        return True
+    positions = np.concatenate([o.world_positions() for o in objects])
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    step = math.ldexp(1.0, math.frexp(float((high - low).max()))[1] - 16)
+    places = np.rint((positions - low) / step)
+    begins = np.cumsum([0, *(len(o.mesh.positions) for o in objects[:-1])])
+    faces = np.concatenate([o.mesh.faces + begin for o, begin in zip(objects, begins, strict=True)])
+    a, b, c = (places[faces[:, corner]] for corner in range(3))
+    return _is_closed(places, faces) and float(dot(a, np.cross(b, c)).sum()) > 0
+
+
+def _is_closed(positions: Floats, faces: NDArray[np.integer[Any]]) -> bool:
     number = np.unique(positions, axis=0, return_inverse=True)[1].reshape(-1)
-    faces = number[mesh.faces]
-    edges = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    edges = number[faces][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     edges = edges[edges[:, 0] != edges[:, 1]]
     keys = np.sort(edges[:, 0] * len(positions) + edges[:, 1])
     twins = np.sort(edges[:, 1] * len(positions) + edges[:, 0])
-    return bool(np.array_equal(keys, twins)) and signed_volume(mesh) > 0
+    return bool(np.array_equal(keys, twins))
 
 
 def signed_volume(mesh: Mesh) -> float:

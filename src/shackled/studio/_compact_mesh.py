@@ -86,6 +86,12 @@ def compact(packed: bytes, normal_bits: int = 10) -> bytes:
     )
 
 
+def vertex_order(packed: bytes) -> list[int]:
+    """Return the numbers that vertices of a packed mesh had before `compact`, in their order after it."""
+    parts = split_mesh(packed)
+    return _order(parts.faces, len(parts.positions))[2]
+
+
 def split_mesh(packed: bytes) -> Parts:
     """Split a packed mesh into its parts. Raises InputError if it is invalid."""
     if len(packed) < 5 or packed[0] > NORMALS + WIDE:

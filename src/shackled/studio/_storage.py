@@ -13,7 +13,7 @@ from ..chain import ContractChain, open_chain
 from ..errors import InputError
 from ..ethereum import create2_address, intrinsic_gas, word
 from ..scene import Object, Scene, encode_scene, fit, pack, rotate
-from ._compact_mesh import compact
+from ._compact_mesh import compact, vertex_order
 
 STUDIO = "Studio"
 #: The Studio's function that makes an animated PNG file: of a pointer, how it turns (the struct Spin), and Changes.
@@ -82,11 +82,19 @@ def store_scene(
     interface = artifact(STUDIO).interface
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
         result += _transactions(f"mesh {number}", mesh, interface.encode("storeMesh", mesh), studio, chain)
-    struct = encode_with_pointers(fitted, [storage_address(mesh, studio) for mesh in meshes])
+    ordered = evolve(fitted, objects=[_as_stored(o) for o in fitted.objects])
+    struct = encode_with_pointers(ordered, [storage_address(mesh, studio) for mesh in meshes])
     data = artifact(STUDIO).selectors["storeScene"] + word(32) + struct
     # the ABI encodes a struct after its own offset
     content = bytes([SCENE]) + compress_zeros(word(32) + struct)
     return result + _transactions("scene", content, data, studio, chain)
+
+
+def _as_stored(o: Object) -> Object:
+    """Return the object with texture coordinates in the order that vertices have in a stored mesh."""
+    if o.material.texture is None or o.mesh.uvs is None:
+        return o
+    return evolve(o, mesh=evolve(o.mesh, uvs=o.mesh.uvs[vertex_order(pack(o.mesh))]))
 
 
 def store_mesh(

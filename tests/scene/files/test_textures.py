@@ -160,6 +160,17 @@ def test_a_mirrored_image_is_doubled(tmp_path: Path) -> None:
     assert texture_of(scene).wrap == "clamp"
 
 
+def test_an_image_of_which_each_triangle_shows_one_color_becomes_colors(tmp_path: Path) -> None:
+    palette = np.repeat(np.repeat(pixels_of(2, 2), 8, axis=0), 8, axis=1)
+    around = [[0.7, 0.2], [0.8, 0.2], [0.8, 0.4], [0.7, 0.4]]
+    (thing,) = load(glb(tmp_path / "a.glb", [png(palette)], uvs=around)).objects
+    assert thing.material.texture is None
+    assert (thing.mesh.colors == palette[0, 15]).all()
+    for move in ([-0.19, 0], [0, 0.1], [0.2, 0]):
+        (thing,) = load(glb(tmp_path / "a.glb", [png(palette)], uvs=np.add(around, move))).objects
+        assert thing.material.texture is not None
+
+
 def test_a_large_image_is_reduced_with_a_note(tmp_path: Path) -> None:
     path = glb(tmp_path / "a.glb", [png(np.tile(pixels_of(8, 8), (64, 128, 1)))])
     with pytest.warns(InputWarning) as told:

@@ -1,7 +1,7 @@
 /** A ground under the objects of a scene, and what casts shadows on it. */
 
-import { exponentOf, length, powerOfTwo, type Vector } from "./arithmetic.js";
-import { worldPositions, type Ground, type Mesh, type Scene, type SceneObject } from "./checked.js";
+import { cross, dot, exponentOf, length, powerOfTwo, rint, type Vector } from "./arithmetic.js";
+import { worldPositions, type Ground, type Scene, type SceneObject } from "./checked.js";
 
 /**
  * The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
@@ -49,54 +49,46 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
     };
 }
 
-/** Return which faces of culled objects cast shadows: 1 for all, 2, for closed objects, for those turned away. */
+/**
+ * Return which faces of culled objects cast shadows: 1 for all, 2 for those turned away from the light, if all of them
+ * together are closed.
+ */
 export function shadowRule({ objects }: Scene): number {
     const casters = objects.filter((each) => each.cull && !each.wireframe && each.opacity === 1 && !each.fade);
-    return casters.every(({ mesh }) => isClosed(mesh)) ? 2 : 1;
+    return areClosed(casters) ? 2 : 1;
 }
 
-/** Return whether each edge has a face on either side, wound alike, and the mesh bounds a volume from outside. */
-function isClosed({ positions, faces }: Mesh): boolean {
-    const numbers = new Map<string, number>();
-    const places = Array.from({ length: positions.length / 3 }, (_, vertex) => {
-        const key = positions.slice(3 * vertex, 3 * vertex + 3).join();
-        const number = numbers.get(key) ?? numbers.size;
-        numbers.set(key, number);
+/** Return whether each edge has as many faces on one side as on the other, and they bound a volume from outside. */
+function areClosed(objects: SceneObject[]): boolean {
+    const positions = objects.flatMap(worldPositions);
+    if (!positions.length) return true;
+    const low = [0, 1, 2].map((axis) => positions.reduce((least, p) => Math.min(least, p[axis] as number), Infinity));
+    const sides = low.map((least, axis) => positions.reduce((most, p) => Math.max(most, (p[axis] as number) - least), 0));
+    const step = powerOfTwo(exponentOf(Math.max(...sides)) - 16);
+    const places = positions.map((p) => p.map((x, axis) => rint((x - (low[axis] as number)) / step)) as Vector);
+    const names = new Map<string, number>();
+    const numbers = places.map((place) => {
+        const key = place.join();
+        const number = names.get(key) ?? names.size;
+        names.set(key, number);
         return number;
     });
-    // how many more faces an edge has on one side than on the other
     const edges = new Map<number, number>();
-    let volume = 0;
-    for (let face = 0; face < faces.length; face += 3) {
-        const corners = [0, 1, 2].map((corner) => faces[face + corner] as number);
-        const [a, b, c] = corners.map((vertex) => positions.subarray(3 * vertex, 3 * vertex + 3)) as [
-            Float64Array,
-            Float64Array,
-            Float64Array,
-        ];
-        volume += determinant(a, b, c);
-        for (let corner = 0; corner < 3; corner++) {
-            const one = places[corners[corner] as number] as number;
-            const other = places[corners[(corner + 1) % 3] as number] as number;
-            if (one === other) continue;
-            const key = Math.min(one, other) * numbers.size + Math.max(one, other);
-            edges.set(key, (edges.get(key) ?? 0) + (one < other ? 1 : -1));
+    let [volume, begin] = [0, 0];
+    for (const { mesh } of objects) {
+        for (let face = 0; face < mesh.faces.length; face += 3) {
+            const corners = [0, 1, 2].map((corner) => begin + (mesh.faces[face + corner] as number));
+            const [a, b, c] = corners.map((vertex) => places[vertex] as Vector) as [Vector, Vector, Vector];
+            volume += dot(a, cross(b, c));
+            for (let corner = 0; corner < 3; corner++) {
+                const one = numbers[corners[corner] as number] as number;
+                const other = numbers[corners[(corner + 1) % 3] as number] as number;
+                if (one === other) continue;
+                const key = Math.min(one, other) * names.size + Math.max(one, other);
+                edges.set(key, (edges.get(key) ?? 0) + (one < other ? 1 : -1));
+            }
         }
+        begin += mesh.positions.length / 3;
     }
     return volume > 0 && [...edges.values()].every((balance) => balance === 0);
-}
-
-function determinant(a: Float64Array, b: Float64Array, c: Float64Array): number {
-    const [ax, ay, az, bx, by, bz, cx, cy, cz] = [...a, ...b, ...c] as [
-        number,
-        number,
-        number,
-        number,
-        number,
-        number,
-        number,
-        number,
-        number,
-    ];
-    return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
 }

@@ -10,16 +10,16 @@ from . import _scenes as scenes
 
 #: Name, title and scene of each, in the order in which they are shown.
 _SCENES: tuple[tuple[str, str, Callable[[], Scene]], ...] = (
-    ("still-life", "Still life, antialiased", scenes.still_life),
+    ("still-life", "Still life with shadows, antialiased", scenes.still_life),
     ("glass", "Glass: opacity and a rim", scenes.glass),
-    ("vase", "A texture", scenes.vase),
-    ("forest", "Fog and light from the sky", scenes.forest),
+    ("vase", "A texture, and a ground", scenes.vase),
+    ("forest", "Fog", scenes.forest),
     ("skull", "An icon with a rim", scenes.skull),
     ("knot", "Linear light and a filmic curve", scenes.knot),
-    ("plaster", "Hemisphere light", scenes.plaster),
+    ("plaster", "Hemisphere light and shadows", scenes.plaster),
     ("shell", "Light from sky and sand", scenes.shell),
     ("wires", "Wires, antialiased", scenes.wires),
-    ("cornell-box", "The Cornell box in linear light", scenes.cornell_box),
+    ("cornell-box", "The Cornell box, with shadows, in linear light", scenes.cornell_box),
     ("genesis", "A piece of Genesis, antialiased", scenes.genesis),
     ("rocket", "A turntable, made by a contract", scenes.rocket),
 )

@@ -59,10 +59,16 @@ def _put(
     return Object(mesh, position, from_euler(turn), scale, material, cull, opacity=opacity)
 
 
-def _floor(color: str) -> Object:
-    """Return a wide plane at y = 0, of one colour."""
-    line = np.array([-40.0, 40.0])
-    return _put(_terrain(line, line, 0.0), UNLIT, color)
+def _floor(color: str, ambient: float = 0.45, diffuse: float = 0.6, reach: float = 9.0) -> Object:
+    """Return a matte plane at y = 0 that fades into the background; it comes before what shines through."""
+    plane = _terrain(np.array([-1.0, 1.0]), np.array([-1.0, 1.0]), 0.0)
+    matte = Material("flat", ambient=ambient, diffuse=diffuse, specular=0, shininess=1)
+    return Object(painted(plane, color), scale=reach, material=matte, fade=(0.35 * reach, reach))
+
+
+def _sun(toward: ArrayLike, color: str) -> Light:
+    """Return a directional light that casts shadows."""
+    return evolve(Light.directional(toward, color), shadow=True)
 
 
 def _terrain(xs: Array, zs: Array, height: float | Array) -> Mesh:
@@ -83,22 +89,22 @@ def _cells(rows: int, columns: int) -> NDArray[np.int64]:
 
 
 def still_life() -> Scene:
-    """Return the still life of examples/scene.toml."""
+    """Return the still life of examples/scene.toml in the light of a sun, with shadows."""
     glaze = Material("smooth", ambient=0.25, diffuse=0.85, specular=0.7, shininess=48)
     polished = Material("smooth", ambient=0.25, diffuse=0.8, specular=0.9, shininess=80)
     soft = Material("smooth", ambient=0.3, diffuse=0.8, specular=0.6, shininess=40)
     wires = Object(painted(shapes.icosphere(2), "#f4f6ff"), (0.2, 0.9, 3.4), scale=0.9, material=UNLIT, wireframe=True)
     return _scene(
         [
-            _put(teapot(8), glaze, "#c8553d", (-0.9, 0, -0.6), (0, -20, 0), cull=False),
+            _put(teapot(5), glaze, "#c8553d", (-0.9, 0, -0.6), (0, -20, 0), cull=False),
             _put(_goblet(), soft, "#3f7f86", (3.6, 0, -1.6), scale=1.25, cull=False),
-            _put(shapes.sphere(), polished, "#e0b040", (2.2, 0.75, 1.7), scale=0.75),
-            _put(shapes.torus(1.0, 0.32, 40, 16), soft, "#5b6bb0", (-2.5, 0.32, 2.6)),
+            _put(shapes.sphere(28, 14), polished, "#e0b040", (2.2, 0.75, 1.7), scale=0.75),
+            _put(shapes.torus(1.0, 0.32, 36, 12), soft, "#5b6bb0", (-2.5, 0.32, 2.6)),
             wires,
-            _put(_chessboard(), Material("flat", ambient=0.25, diffuse=0.8, specular=0.15, shininess=20)),
+            _chessboard(),
         ],
         Camera.perspective((0.8, 4.6, 11.5), (0.25, 1.15, 0), fov=38),
-        [Light.point((-5, 8, 6.5), "#fff1dc"), Light.directional((0.9, 0.5, 0.4), "#3c4866")],
+        [_sun((-8, 6.5, 3.2), "#fff1dc"), Light.directional((0.9, 0.5, 0.4), "#3c4866")],
         Background("#27314a", "#c9a68a"),
         ambient_light="#c8d4ff",
     )
@@ -108,7 +114,7 @@ def _goblet() -> Mesh:
     """Return a goblet, 2.6 high, standing on y = 0, open at the top."""
     height = np.linspace(1, 0, 21)
     radius = 0.42 + 0.42 * np.sin(2.6 * np.pi * height**0.8 + 0.4) * (1 - 0.55 * height)
-    return _lathe(np.append(radius, 0), np.append(2.6 * height, 0), 28)
+    return _lathe(np.append(radius, 0), np.append(2.6 * height, 0), 24)
 
 
 def _lathe(radius: ArrayLike, height: ArrayLike, around: int) -> Mesh:
@@ -123,14 +129,14 @@ def _lathe(radius: ArrayLike, height: ArrayLike, around: int) -> Mesh:
     return shapes.patch(surface, around, len(r) - 1)
 
 
-def _chessboard(side: int = 12) -> Mesh:
-    """Return squares of side 1, at y = 0, about the origin."""
-    x, z = (c.reshape(-1) for c in np.meshgrid(np.arange(side), np.arange(side), indexing="ij"))
-    places = np.stack([x, z], axis=1)[:, None] + [(0, 0), (0, 1), (1, 1), (1, 0)] - np.array(side / 2)
-    positions = np.stack([places[..., 0], np.zeros(places.shape[:2]), places[..., 1]], axis=-1).reshape(-1, 3)
-    colors = np.where(((x + z) % 2 == 0)[:, None], (214, 205, 190), (92, 84, 84)).repeat(4, axis=0)
-    corners = np.arange(4 * side * side).reshape(-1, 4)
-    return Mesh(positions, np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]]), colors)
+def _chessboard(side: int = 12) -> Object:
+    """Return squares of side 1, at y = 0, about the origin: one square with a texture."""
+    row, column = np.indices((side, side))
+    pixels = np.where(((row + column) % 2 == 0)[..., None], (214, 205, 190), (92, 84, 84))
+    material = Material("flat", 0.25, 0.8, 0.15, 20, Texture(pixels, "nearest", "clamp"))
+    line = np.array([-side / 2, side / 2])
+    mesh = evolve(_terrain(line, line, 0.0), colors="#ffffff", uvs=[(0, 0), (1, 0), (0, 1), (1, 1)])
+    return Object(mesh, material=material)
 
 
 # ---- glass ----
@@ -140,6 +146,7 @@ def glass() -> Scene:
     """Return bottles, a tumbler and marbles of glass before solid things, which shine through."""
     clear = Material("smooth", ambient=0.55, diffuse=0.6, specular=1.6, shininess=70)
     dull = Material("smooth", ambient=0.35, diffuse=0.75, specular=0.3, shininess=24)
+    glossy = Material("smooth", ambient=0.35, diffuse=0.7, specular=1.0, shininess=60)
     bottle = _lathe(
         [0, 0.26, 0.31, 0.31, 0.26, 0.27, 0.32, 0.62, 0.73, 0.74, 0.74, 0.66, 0],
         [3.5, 3.5, 3.44, 3.26, 3.2, 2.7, 2.45, 2.05, 1.75, 1.4, 0.16, 0, 0],
@@ -151,18 +158,17 @@ def glass() -> Scene:
             _floor("#c9b49a"),
             _put(shapes.sphere(), dull, "#e2502c", (-1.3, 0.9, -1.9), scale=0.9),
             _put(shapes.cylinder(), dull, "#f2b632", (1.55, 0.9, -2.3)),
+            _put(shapes.sphere(), glossy, "#c43a80", (1.05, 0.42, 1.3), scale=0.42),
+            _put(shapes.sphere(), glossy, "#168aa8", (-0.4, 0.34, 1.7), scale=0.34),
             _put(bottle, clear, "#0d8a5c", (0.15, 0, -0.5), opacity=0.5),
             _put(bottle, clear, "#2a62c4", (2.45, 0, 0.0), scale=0.82, opacity=0.5),
             _put(tumbler, clear, "#b8e2f0", (-2.05, 0, 0.4), opacity=0.42, cull=False),
-            _put(shapes.sphere(), clear, "#d0408c", (0.95, 0.42, 1.5), scale=0.42, opacity=0.6),
-            _put(shapes.sphere(), clear, "#12a0c0", (-0.45, 0.34, 1.9), scale=0.34, opacity=0.6),
         ],
         Camera.perspective((0.4, 2.7, 9.2), (0.2, 1.5, 0), fov=29),
-        [Light.directional((-0.5, 0.75, 0.6), "#fff4e4")],
+        [_sun((-0.6, 0.8, 0.5), "#fff4e4")],
         Background("#e9dccb", "#e9dccb"),
         ambient_light="#f0ece4",
-        fog=Fog("#e9dccb", 9, 24),
-        rim=Rim("#5c5c64", 2),
+        rim=Rim("#3c4048", 4),
     )
 
 
@@ -193,11 +199,10 @@ def vase() -> Scene:
     clay = Material("smooth", ambient=0.42, diffuse=0.7, specular=0.45, shininess=36, texture=Texture(_bands()))
     return _scene(
         [_floor("#d8c8b0"), _put(mesh, clay, turn=(0, 20, 0))],
-        Camera.perspective((0, 2.0, 6.6), (0, 1.3, 0), fov=25),
-        [Light.directional((-0.6, 0.6, 0.7), "#fff2dc")],
+        Camera.perspective((0, 2.0, 6.8), (0, 1.28, 0), fov=27),
+        [_sun((-0.6, 0.75, 0.55), "#fff2dc")],
         Background("#efe6d6"),
         ambient_light="#e8e4f0",
-        fog=Fog("#efe6d6", 7.2, 18),
     )
 
 
@@ -232,7 +237,7 @@ def _bands() -> Array:
 def forest() -> Scene:
     """Return firs on both sides of a valley, paler and paler in the haze of a morning."""
     rng = np.random.default_rng(12)
-    matt = Material("flat", ambient=0.45, diffuse=0.75, specular=0, shininess=1)
+    matt = Material("flat", ambient=0.6, diffuse=0.85, specular=0, shininess=1)
     depths = np.concatenate([np.linspace(-34, 3.5, 96), [4.6, 5.4]])
     sides = [float(rng.choice([-1, 1]) * (1.6 + rng.exponential(0.17 * (12 - z)))) for z in depths[:-2]] + [-3.3, 3.4]
     trees = [_fir(rng, x, float(_hill(x, z)), z) for x, z in zip(sides, depths.tolist(), strict=True)]
@@ -242,7 +247,7 @@ def forest() -> Scene:
     return _scene(
         [_put(shapes.joined(*trees), matt), _put(land, matt, "#80874c")],
         Camera.perspective((0, 2.2, 11), (0, 2.6, 0), fov=38),
-        [Light.directional((-0.9, 0.55, 0.15), "#ffcf94")],
+        [_sun((-0.9, 0.6, 0.2), "#ffcf94")],
         Background("#6f9cc4", "#ffe2c0"),
         ambient_light="#6c7890",
         hemisphere=Hemisphere("#5a7898", "#181c14"),
@@ -314,7 +319,7 @@ def genesis() -> Scene:
 
 def rocket() -> Scene:
     """Return the icon of a rocket, of which the showcase draws a turntable."""
-    look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.1}
+    look = {"background": Background("#141638", "#3c2a68"), "ambient_light": (200, 205, 255), "margin": 0.04}
     return evolve(_piece("icons/rocket", **look), rim=Rim("#5c78ff", 3))
 
 
@@ -347,19 +352,18 @@ def plaster() -> Scene:
     color = "#f6f3ee"
     return _scene(
         [
-            _floor("#ecc79a"),
+            _floor("#f2bf86", 0.5, 0.75),
             _put(shapes.torus(), chalk, color, (-2.15, 1.0, -0.2), (90, 0, 0)),
             _put(shapes.dodecahedron(), facets, color, (0.1, 0.98, -0.9), (10, 20, 0), 1.2),
             _put(shapes.cone(60), chalk, color, (2.35, 0.9, -0.3)),
             _put(shapes.sphere(40, 20), chalk, color, (-0.9, 0.55, 1.5), scale=0.55),
             _put(shapes.superellipsoid(), chalk, color, (1.05, 0.62, 1.5), (0, 35, 0), 0.62),
         ],
-        Camera.perspective((0, 2.7, 9.4), (0.05, 1.0, 0), fov=28),
-        [Light.directional((-0.7, 0.7, 0.35), "#ffe9c4")],
+        Camera.perspective((0, 2.7, 9.9), (0.08, 1.0, 0), fov=28),
+        [_sun((-0.7, 0.75, 0.4), "#ffe9c4")],
         Background("#bcd6ee"),
         ambient_light="#181818",
         hemisphere=Hemisphere("#7ea8e8", "#c0702c"),
-        fog=Fog("#bcd6ee", 10, 30),
         tone=Tone(1.15, gamma=True),
     )
 
@@ -395,8 +399,10 @@ def wires() -> Scene:
 
 
 def cornell_box() -> Scene:
-    """Return the Cornell box, its light added up in linear space."""
-    return evolve(_piece("cornell-box"), tone=Tone(0.9, filmic=True, gamma=True))
+    """Return the Cornell box with shadows, its light added up in linear space."""
+    scene = _piece("cornell-box")
+    lamp = evolve(scene.lights[0], shadow=True)
+    return evolve(scene, lights=[lamp], tone=Tone(0.9, filmic=True, gamma=True))
 
 
 # ---- hemisphere and rim ----

@@ -496,8 +496,11 @@ def _join(pieces: Sequence[_Piece], count: int) -> MeshPart:
         np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("positions", "colors", "normals", "uvs")
     )
     material = _material(pieces)
-    corner_uvs = None
-    if (picture := pieces[0].picture) is not None:
+    corner_colors, corner_uvs = colors[corners], None
+    picture = pieces[0].picture
+    if picture is not None and picture.is_plain(uvs[corners]):
+        corner_colors = tinted(corner_colors, picture, uvs[corners])
+    elif picture is not None:
         material["texture"], corner_uvs = picture.texture(uvs[corners], count)
     found = filled(positions, corners, normals[corners]) if normals.any() else None
-    return MeshPart(weld(positions, corners, colors[corners], found, corner_uvs), material)
+    return MeshPart(weld(positions, corners, corner_colors, found, corner_uvs), material)

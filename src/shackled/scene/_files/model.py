@@ -28,6 +28,8 @@ Array = NDArray[np.float64]
 _FAR = 100
 #: Coordinates that are outside of 0..1 by less are taken as rounded.
 _ROUNDING = 1e-4
+#: The same of texels.
+_TEXEL_ROUNDING = 1e-3
 #: How many textures of the full size a file may have; a quarter of the texels allows four times as many.
 _FULL_SIZE = 4
 
@@ -56,6 +58,31 @@ class Picture:
     def is_varied(self) -> bool:
         """Whether it has more than one colour."""
         return any(np.ptp(np.asarray(self.image), axis=(0, 1)))
+
+    def is_plain(self, uvs: Array) -> bool:
+        """Return whether every triangle shows one colour only, as where colours are kept in a palette image.
+
+        uvs: of corners, (m, 3, 2). Triangles that reach beyond the image do not count as plain.
+        """
+        pixels = np.asarray(self.image).astype(np.int64)
+        height, width = pixels.shape[:2]
+        # the texels that are seen: those between whose centres, or in which, the corners lie
+        shift = 0.5 if self.filter == "bilinear" else 0.0
+        low, high = (bound * (width, height) - shift for bound in (uvs.min(axis=1), uvs.max(axis=1)))
+        low = np.floor(low + _TEXEL_ROUNDING).astype(np.int64)
+        high = np.ceil(high - _TEXEL_ROUNDING).astype(np.int64)
+        high = np.maximum(low, high if shift else high - 1)
+        if (low < 0).any() or (high >= (width, height)).any():
+            return False
+        changes = np.zeros((2, height + 1, width + 1), dtype=np.int64)
+        changes[0, 1:, 2:] = (pixels[:, 1:] != pixels[:, :-1]).any(axis=2)
+        changes[1, 2:, 1:] = (pixels[1:] != pixels[:-1]).any(axis=2)
+        sums = changes.cumsum(axis=1).cumsum(axis=2)
+        (left, top), (right, bottom) = low.T, high.T + 1
+        # changes from left to right lie behind the first column, those from above behind the first row
+        across = sums[0][bottom, right] - sums[0][top, right] - sums[0][bottom, left + 1] + sums[0][top, left + 1]
+        down = sums[1][bottom, right] - sums[1][top + 1, right] - sums[1][bottom, left] + sums[1][top + 1, left]
+        return not (across + down).any()
 
     def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
         """Return the texture, and the coordinates of corners, (m, 3, 2), on it.

@@ -230,7 +230,7 @@ def _surfaces(
             uvs[faces] = _table(obj.texcoords, 2)[texcoord[corners[faces]]] * (1, -1) + (0, 1)
             uvs[faces] = finite_uvs(uvs[faces], opened.name)
             colors[faces] = 255
-            if not opened.is_varied:
+            if not opened.is_varied or opened.is_plain(uvs[faces]):
                 colors[faces] = tinted(colors[faces], opened, uvs[faces])
             elif len(faces):
                 picture[faces] = pictures.setdefault((found.texture, found.wrap), (len(pictures), opened))[0]

@@ -1,0 +1,113 @@
+"""Measure what textures cost, and look at models that others publish.
+
+python -m benchmarks.textures                measures, and rewrites the tables of docs/textures.md
+python -m benchmarks.textures --models DIR   fetches BoxTextured and Duck, and draws them into a folder
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+from attrs import evolve
+from tools.pages import ROOT, update
+
+from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
+from shackled.chain import EmbeddedChain, open_chain
+from shackled.scene import FILTERS, pack_texture
+from shackled.studio import store_scene
+
+PAGE = ROOT / "docs" / "textures.md"
+
+#: Models of the Khronos Group, of which only `--models` brings a copy.
+MODELS = "https://raw.githubusercontent.com/KhronosGroup/glTF-Sample-Assets/main/Models/{0}/glTF-Binary/{0}.glb"
+NAMES = ("BoxTextured", "Duck")
+
+#: Formats of texels: colours, and a title.
+FORMATS = {16: "palette of 16 colours", 256: "palette of 256 colours", 5000: "RGB"}
+SQUARE = Mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]], "white")
+UVS = [[0, 1], [1, 1], [1, 0], [0, 0]]
+
+
+def image(side: int, colors: int) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
+    """Return random pixels, (side, side, 3), of so many colours."""
+    random = np.random.default_rng(colors)
+    palette = random.integers(0, 256, (colors, 3), dtype=np.uint8)
+    numbers = np.concatenate([np.arange(min(colors, side * side)), random.integers(0, colors, side * side)])
+    return np.asarray(palette[numbers[: side * side]].reshape(side, side, 3))
+
+
+def square(texture: Texture | None) -> Scene:
+    """Return a flat square that fills most of the picture."""
+    thing = Object(SQUARE, material=Material("flat"), cull=False)
+    if texture is not None:
+        mesh = evolve(SQUARE, uvs=UVS)
+        thing = evolve(thing, mesh=mesh, material=evolve(thing.material, texture=texture))
+    return Scene([thing], Camera((0, 0, 2.6)), [Light("directional", (1, 2, 3))], width=128, height=128, antialias=True)
+
+
+def gas_of(scene: Scene) -> int:
+    """Return the gas of a picture."""
+    gas = render(scene).gas
+    assert gas is not None
+    return gas
+
+
+def per_pixel() -> str:
+    """Return the gas that a textured pixel takes as a table in Markdown."""
+    plain = render(square(None))
+    pixels, base = plain.covered_pixels, gas_of(square(None))
+    assert pixels is not None
+    lines = ["| gas for each pixel | nearest | bilinear |", "|---|---:|---:|"]
+    lines.append(f"| without a texture, antialiased | {base // pixels:,} | |")
+    with_effects = gas_of(evolve(square(None), tone=Tone()))
+    lines.append(f"| without a texture, by the EffectsEngine | {with_effects // pixels:,} | |")
+    for colors, title in FORMATS.items():
+        values = [gas_of(square(Texture(image(64, colors), filter))) // pixels for filter in FILTERS]
+        lines.append(f"| {title} | {' | '.join(f'{value:,}' for value in values)} |")
+    return "\n".join(lines)
+
+
+def stored() -> str:
+    """Return the gas of storing textures as a table in Markdown."""
+    chain = open_chain()
+    assert isinstance(chain, EmbeddedChain)
+    studio = chain.address("Studio")
+    without = sum(each.gas for each in store_scene(square(None), studio)[1:])
+    lines = ["| texture | bytes | gas to store it with a scene |", "|---|---:|---:|"]
+    for side, colors in ((32, 16), (64, 16), (64, 256), (128, 256), (256, 256), (256, 5000)):
+        texture = Texture(image(side, colors), "nearest")
+        gas = sum(each.gas for each in store_scene(square(texture), studio)[1:]) - without
+        size = len(pack_texture(texture, np.array(UVS, dtype=np.float64)))
+        lines.append(f"| {side} x {side}, {FORMATS[colors]} | {size:,} | {gas:,} |")
+    return "\n".join(lines)
+
+
+def draw_models(folder: Path) -> None:
+    """Fetch the models and draw them."""
+    import pooch
+
+    for name in NAMES:
+        path = Path(pooch.retrieve(MODELS.format(name), None, f"{name}.glb", folder))
+        picture = render(load(path))
+        picture.save(folder / f"{name}.png")
+        print(f"{name}: {picture.triangles:,} triangles, {picture.gas:,} gas, {folder / name}.png")
+
+
+def main() -> int:
+    """Run the command."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--models", type=Path, metavar="DIR", help="fetch models, and draw them into this folder")
+    folder = parser.parse_args().models
+    if folder is not None:
+        draw_models(folder)
+        return 0
+    tables = {"pixels": per_pixel(), "stored": stored()}
+    print("\n\n".join(tables.values()))
+    return update({PAGE: tables.__getitem__}, "python -m benchmarks.textures")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,205 @@
+"""Shadows of one light, and a ground that catches them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from attrs import evolve
+
+from conformance.shadows import ball, compare, random_scene, torus
+from pictures import chain, draw
+from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
+from shackled.artifacts import artifact
+from shackled.image import decode_bmp
+from shackled.reference import draw_call, shadow_answer
+from shackled.scene import Rectangle, decode, encode, encode_scene, encode_scene_file, extensions, fit, render_call
+
+SIZE = 40
+
+
+def still_life(**changes: Any) -> Scene:
+    """A smooth torus and a flat box on a ground."""
+    rng = np.random.default_rng(5)
+    ring, faces = torus(rng)
+    sphere, more = ball(rng)
+    objects = [
+        Object(Mesh(ring + np.array([0, 0.4, 0]), faces, "#d0803a"), material=Material("smooth", specular=0.4)),
+        Object(Mesh(0.4 * sphere + np.array([0.2, 1.1, 0]), more, "#4a90d0"), material=Material("flat")),
+    ]
+    scene = Scene(
+        objects,
+        Camera((3.4, 3.0, 5.0), (0.2, 0.4, 0), half_height=0.33),
+        [Light("directional", (-0.6, 1.0, 0.5), (255, 243, 226), shadow=True), Light("point", (3, 2, 4), "#405060")],
+        ("#24292f", "#6c7586"),
+        width=SIZE,
+        height=SIZE,
+        ground="#b9b4a8",
+    )
+    return evolve(scene, **changes)
+
+
+def equals_reference(scene: Scene) -> bool:
+    """Whether contract and reference draw the same."""
+    data = render_call(scene)
+    output = chain().call("Renderer", data).output
+    start = int.from_bytes(output[:32], "big")
+    size = int.from_bytes(output[start : start + 32], "big")
+    pixels = decode_bmp(output[start + 32 :][:size], scene.width, scene.height)
+    return bool((pixels == draw_call(data).pixels).all())
+
+
+SUN, LAMP = Light("directional", (-0.6, 1.0, 0.5), shadow=True), Light("point", (2, 3, 2), shadow=True)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"lights": [LAMP]},
+        {"lights": [evolve(SUN, shadow=False), evolve(LAMP, vector=(0.2, 1.6, 1.0))]},
+        {"lights": [Light.spot((2, 4, 2), (-2, -4, -2)), SUN]},
+        {"camera": Camera((3.4, 3.0, 5.0), (0.2, 0.4, 0), projection="orthographic", half_height=2)},
+        {"camera": Camera((0.5, 0.8, 1.2), (0.2, 0.4, 0), half_height=0.8)},
+        {"ground": None},
+        {"hemisphere": ("#8090a0", "#302010"), "rim": "white", "fog": ("#203040", 4, 9)},
+        {"width": 24, "height": 56, "invert": True},
+    ],
+    ids=["plain", "point", "second", "two", "orthographic", "close", "floating", "effects", "tall"],
+)
+def test_pictures_equal_the_reference(changes: dict[str, Any]) -> None:
+    assert equals_reference(still_life(**changes))
+
+
+@pytest.mark.parametrize("change", [{"opacity": 0.5}, {"wireframe": True}, {"cull": False}])
+def test_other_objects(change: dict[str, Any]) -> None:
+    """Glass and wires cast no shadow; objects that are not culled do, with all faces."""
+    scene = still_life()
+    first, *rest = scene.objects
+    assert equals_reference(evolve(scene, objects=[evolve(first, **change), *rest]))
+
+
+@pytest.mark.parametrize("seed", range(0, 20, 3))
+def test_answers_of_the_contract(seed: int) -> None:
+    """The contract finds the same shadows as the reference."""
+    scene = random_scene(seed, 48)
+    data = encode(artifact("Shadows").selectors["cast"], scene)
+    answer = chain().call("Shadows", data).output
+    assert answer == shadow_answer(render_call(scene))
+    assert equals_reference(scene)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_rays(seed: int) -> None:
+    """No interior pixel is wrong that lies farther than 1.5 pixels from the edge of a shadow, nor many nearer."""
+    found = compare(random_scene(100 + seed, 48))
+    assert found.seen
+    assert not found.far
+    assert found.wrong <= 3
+
+
+def test_tiles() -> None:
+    """A tile is that part of the whole."""
+    scene = fit(still_life(width=64, height=48))
+    whole = draw(scene)
+    for tile in (Rectangle(10, 5, 30, 20), Rectangle(40, 30, 24, 18)):
+        part = whole[tile.y : tile.y + tile.height, tile.x : tile.x + tile.width]
+        assert (draw(scene, tile) == part).all()
+
+
+def test_large_picture() -> None:
+    """Pictures of several bands and engines' runs."""
+    scene = still_life(width=160, height=160)
+    first, second = scene.objects
+    assert equals_reference(scene)
+    glass = evolve(scene, objects=[first, evolve(second, opacity=0.5)])
+    assert (draw(fit(glass), Rectangle(60, 70, 30, 20)) == draw(fit(glass))[70:90, 60:90]).all()
+
+
+def test_a_ground_fades() -> None:
+    """It hides the background in its middle only, and nothing of it is left at its radius."""
+    floor = Ground("#ffffff", height=0.0, radius=2.0)
+    camera = Camera((0, 10, 0.001), (0, 0, 0), half_height=3, projection="orthographic")
+    scene = Scene([], camera, [SUN], "#000000", ground=floor, width=61, height=61)
+    row = draw(fit(scene))[30, :, 0].astype(int)
+    assert row[30] > 200
+    assert (np.diff(row[:31]) >= 0).all()
+    assert row[9] == 0 < row[12]
+
+
+def test_scenes_are_decoded() -> None:
+    scene = still_life()
+    data = render_call(scene)
+    decoded = decode(data)
+    assert render_call(decoded) == data
+    assert [light.shadow for light in decoded.lights] == [True, False]
+    assert decoded.objects[-1].fade is not None
+
+
+def test_scene_files(tmp_path: Path) -> None:
+    scene = still_life(ground=Ground("#b9b4a8", -0.5, 7))
+    path = tmp_path / "scene.json"
+    path.write_bytes(encode_scene_file(scene))
+    assert load(path) == scene
+    assert load(path, shadow=False, ground="none") == evolve(
+        scene, ground=None, lights=[evolve(light, shadow=False) for light in scene.lights]
+    )
+
+
+def test_which_faces_cast() -> None:
+    """Of closed objects those turned away from the light, else all."""
+    scene = fit(still_life())
+    open_mesh = Mesh([(0, 1, 0), (1, 1, 0), (0, 1, 1)], [(0, 1, 2)])
+    rules = [
+        next(record for record in _records(extensions(fit(each))) if record[0] == 10)[-1]
+        for each in (scene, evolve(scene, objects=[*scene.objects, Object(open_mesh)]))
+    ]
+    assert rules == [2, 1]
+
+
+def _records(data: bytes) -> list[bytes]:
+    records = []
+    while data:
+        size = 5 + int.from_bytes(data[3:5], "big") * (32 if data[0] >= 8 else 1)
+        records.append(data[:size])
+        data = data[size:]
+    return records
+
+
+def test_wrong_values() -> None:
+    with pytest.raises(InputError, match="one light of a scene may cast shadows"):
+        still_life(lights=[SUN, LAMP])
+    with pytest.raises(InputError, match="radius of a ground must be above 0"):
+        Ground("red", radius=0)
+    with pytest.raises(InputError, match="must be below the second"):
+        Object(Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]), fade=(2, 1))
+
+
+@pytest.mark.parametrize(
+    ("record", "error"),
+    [
+        (bytes([10, 0, 0, 0, 0]), "ExtensionSize"),
+        (bytes([10, 0, 2, 0, 1]) + (1).to_bytes(32, "big"), "ExtensionIndex"),
+        (bytes([10, 0, 0, 0, 1]) + (4).to_bytes(32, "big"), "ShadowRuleOutOfRange"),
+        (2 * (bytes([10, 0, 0, 0, 1]) + (1).to_bytes(32, "big")), "SeveralShadows"),
+        (bytes([11, 0, 0, 0, 1]) + bytes(32), "GroundOutOfRange"),
+        (bytes([12, 0, 0, 0, 0]), "UnknownExtension"),
+    ],
+)
+def test_wrong_records(record: bytes, error: str) -> None:
+    """Contract and reference refuse the same."""
+    if error == "SeveralShadows":
+        # the second belongs to the second light
+        record = record[:39] + b"\x01" + record[40:]
+    scene = fit(still_life(ground=None, lights=[evolve(SUN, shadow=False), evolve(LAMP, shadow=False)]))
+    data = artifact("Renderer").selectors["render"] + (32).to_bytes(32, "big") + encode_scene(scene)
+    # the extensions are last
+    assert not extensions(scene)
+    data = data[:-32] + len(record).to_bytes(32, "big") + record + bytes(-len(record) % 32)
+    with pytest.raises(RenderError, match=error) as one:
+        chain().call("Renderer", data)
+    with pytest.raises(RenderError, match=error) as other:
+        draw_call(data)
+    assert str(one.value) == str(other.value)
