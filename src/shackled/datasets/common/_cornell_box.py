@@ -40,7 +40,7 @@ HALF_HEIGHT = 0.025 / 2 / 0.035
 def cornell_box() -> Scene:
     """Return the box with its lamp in the ceiling, seen by the published camera.
 
-    There are no shadows: nothing in the pipeline casts any.
+    Its light casts no shadows.
     """
     room = [(FLOOR, WHITE), *((part, WHITE) for part in _ceiling()), (BACK_WALL, WHITE)]
     room += [(RIGHT_WALL, GREEN), (LEFT_WALL, RED)]
