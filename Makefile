@@ -99,6 +99,7 @@ bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of 
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python -m benchmarks.antialiasing
+	$(BIN)/python -m benchmarks.shadows
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md

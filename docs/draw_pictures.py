@@ -141,7 +141,17 @@ def effects() -> dict[str, list[Image]]:
         lights=[evolve(KEY, color="#ffd9a8"), *lamps],
         background=NIGHT,
     )
+    solids = [
+        Object(painted(shapes.torus(), (196, 86, 60)), (-1.1, -0.1, 0.2), scale=0.9),
+        Object(painted(shapes.icosphere(2), (236, 184, 60)), (1.0, -0.3, -0.6), scale=0.8),
+        Object(painted(shapes.cube(), (70, 120, 190)), (0.7, -0.6, 1.3), scale=0.5),
+    ]
+    table = Scene(
+        solids, Camera.perspective((0, 3.0, 6.0), (0, -0.4, 0.2), fov=36), KEY, "#e9e4da", width=192, height=192
+    )
+    grounded: LookOptions = {"ground": "#cfc6b4"}
     looks: dict[str, tuple[Scene, list[LookOptions]]] = {
+        "shadow": (table, [grounded, {**grounded, "shadow": True}]),
         "hemisphere": (pale, [{}, {"ambient_light": "#181818", "hemisphere": ("#a8ccff", "#c07838")}]),
         "rim": (dark, [{}, {"rim": ("#7ab8ff", 2)}, {"rim": ("#7ab8ff", 5)}]),
         "fog": (row, [{}, {"fog": "#dfe6ea"}, {"fog": ("#dfe6ea", 8, 14)}]),

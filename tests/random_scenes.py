@@ -138,8 +138,9 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
 
 
 def plain(scene: Scene) -> Scene:
-    """The scene without anti-aliasing and effects."""
-    return evolve(scene, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
+    """The scene without anti-aliasing, effects and textures."""
+    objects = [evolve(o, material=evolve(o.material, texture=None)) for o in scene.objects]
+    return evolve(scene, objects=objects, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
 
 
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.

@@ -195,6 +195,17 @@ WRONG: list[tuple[Callable[[Values], None], str]] = [
         "SpotAngles(light=1, cosInner=0, cosOuter=1)",
     ),
     (put(EXTENSIONS, value=b"\1\0\1\0\x28\x7f" + bytes(39)), f"SpotOutOfRange(light=1, x={127 << 56}, y=0, z=0)"),
+    (put(EXTENSIONS, value=b"\5\0\0\0\4" + bytes(4)), "RimPowerOutOfRange(power=0)"),
+    (put(EXTENSIONS, value=b"\6\0\0\0\x13" + bytes(19)), "FogOutOfRange(near=0, far=0)"),
+    (put(EXTENSIONS, value=b"\7\0\0\0\5" + bytes(5)), "ExposureOutOfRange(exposure=0)"),
+    (put(EXTENSIONS, value=b"\7\0\0\0\5\0\1\0\0\4"), "UnknownToneFlags(flags=4)"),
+    (put(EXTENSIONS, value=b"\x08\0\0\0\1\4" + bytes(31)), "TextureFormat(object=0, flags=4, bits=0)"),
+    (put(EXTENSIONS, value=b"\x0a\0\0\0\1" + bytes(32)), "ShadowRuleOutOfRange(light=0, rule=0)"),
+    (
+        put(EXTENSIONS, value=b"".join(b"\x0a\0" + bytes([i]) + b"\0\1" + bytes(31) + b"\1" for i in (0, 1))),
+        "SeveralShadows(light=1)",
+    ),
+    (put(EXTENSIONS, value=b"\x0b\0\0\0\1" + bytes(32)), "GroundOutOfRange(object=0, inner=0, outer=0)"),
 ]
 
 

@@ -63,7 +63,9 @@ function areClosed(objects: SceneObject[]): boolean {
     const positions = objects.flatMap(worldPositions);
     if (!positions.length) return true;
     const low = [0, 1, 2].map((axis) => positions.reduce((least, p) => Math.min(least, p[axis] as number), Infinity));
-    const sides = low.map((least, axis) => positions.reduce((most, p) => Math.max(most, (p[axis] as number) - least), 0));
+    const sides = low.map((least, axis) =>
+        positions.reduce((most, p) => Math.max(most, (p[axis] as number) - least), 0),
+    );
     const step = powerOfTwo(exponentOf(Math.max(...sides)) - 16);
     const places = positions.map((p) => p.map((x, axis) => rint((x - (low[axis] as number)) / step)) as Vector);
     const names = new Map<string, number>();

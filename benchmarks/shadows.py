@@ -1,0 +1,65 @@
+"""Measure what shadows cost, group by group.
+
+    python -m benchmarks.shadows
+
+measures pictures on a ground, without and with shadows, rewrites the table of docs/shadows.md, and prints it.
+"""
+
+from __future__ import annotations
+
+import sys
+from statistics import fmean
+
+from attrs import evolve
+from tools.pages import ROOT, update
+
+from shackled import Ground, Scene, load, render
+from shackled.datasets import pieces
+
+PAGE = ROOT / "docs" / "shadows.md"
+
+
+def groups() -> dict[str, list[Scene]]:
+    """Return the scenes of each group, 128 x 128 pixels each."""
+    models = ["uv-sphere", "torus", "torus-knot"]
+    return {
+        f"{', '.join(models)}, smooth": [load(name, size=128, shading="smooth") for name in models],
+        "the same, flat": [load(name, size=128, shading="flat") for name in models],
+        "28 icons": [load(piece.name) for piece in pieces("icons")],
+        "Genesis 0 to 23": [load(f"genesis/{number}") for number in range(24)],
+    }
+
+
+def table(scenes: dict[str, list[Scene]]) -> str:
+    """Return the gas of each group as a table in Markdown."""
+    lines = [
+        "| pictures | triangles | without, mean gas | with shadows | ratio of means | least | most |",
+        "|---|" + 6 * "---:|",
+    ]
+    for name, each in scenes.items():
+        plain, shaded = ([gas_of(scene, shadow) for scene in each] for shadow in (False, True))
+        ratios = [after / before for before, after in zip(plain, shaded, strict=True)]
+        lines.append(
+            f"| {name} | {fmean(scene.triangles for scene in each):,.0f} | {fmean(plain) / 1e6:.1f}M | "
+            f"{fmean(shaded) / 1e6:.1f}M | {sum(shaded) / sum(plain):.2f} | {min(ratios):.2f} | {max(ratios):.2f} |"
+        )
+    return "\n".join(lines)
+
+
+def gas_of(scene: Scene, shadow: bool) -> int:
+    """Return the gas of a scene on a ground, of which the first light casts shadows or not."""
+    first, *others = scene.lights
+    gas = render(evolve(scene, lights=[evolve(first, shadow=shadow), *others], ground=Ground("gray"))).gas
+    assert gas is not None
+    return gas
+
+
+def main() -> int:
+    """Measure, print and write the table."""
+    found = table(groups())
+    print(found)
+    return update({PAGE: lambda _: found}, "python -m benchmarks.shadows")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
