@@ -142,12 +142,20 @@ def effects() -> dict[str, list[Image]]:
         background=NIGHT,
     )
     solids = [
-        Object(painted(shapes.torus(), (196, 86, 60)), (-1.1, -0.1, 0.2), scale=0.9),
-        Object(painted(shapes.icosphere(2), (236, 184, 60)), (1.0, -0.3, -0.6), scale=0.8),
-        Object(painted(shapes.cube(), (70, 120, 190)), (0.7, -0.6, 1.3), scale=0.5),
+        (shapes.torus(), (196, 86, 60), -1.3, 0.1, 0.9),
+        (shapes.icosphere(2), (236, 184, 60), 0.5, -0.7, 0.8),
+        (shapes.cube(), (70, 120, 190), 0.6, 1.3, 0.55),
     ]
     table = Scene(
-        solids, Camera.perspective((0, 3.0, 6.0), (0, -0.4, 0.2), fov=36), KEY, "#e9e4da", width=192, height=192
+        [
+            Object(painted(mesh, color), (x, -scale * float(mesh.positions[:, 1].min()), z), scale=scale)
+            for mesh, color, x, z, scale in solids
+        ],
+        Camera.perspective((0, 3.6, 7.0), (0.1, 0.3, 0.2), fov=36),
+        Light.directional((-1, 1.1, 0.35)),
+        "#e9e4da",
+        width=192,
+        height=192,
     )
     grounded: LookOptions = {"ground": "#cfc6b4"}
     looks: dict[str, tuple[Scene, list[LookOptions]]] = {
