@@ -10,7 +10,7 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from conformance.coverage import project
-from conformance.world import before_camera
+from conformance.world import World, before_camera
 from shackled.scene import (
     FILTERS,
     WRAPS,
@@ -146,28 +146,36 @@ def plain(scene: Scene) -> Scene:
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.
 PLACES = ((1, 1, 1), (8, 1, 1), (1, 8, 1), (1, 1, 8), (8, 8, 1), (8, 1, 8), (1, 8, 8))
 
+#: Places in a pixel: its centre, and one of its four samples.
+CENTER, SAMPLE = (0.5, 0.5), (0.375, 0.125)
+
 
 def is_anything_seen(scene: Scene) -> bool:
-    """Whether the ray through the centre of one of a few pixels meets the triangle on which that pixel was chosen."""
+    """Whether a ray through one of a few pixels meets the triangle on which that pixel was chosen.
+
+    One has to do so through the centre of its pixel, and one through a sample.
+    """
     world = before_camera(evolve(scene, objects=[evolve(o, wireframe=False) for o in scene.objects]))
+    with np.errstate(all="ignore"):
+        return all(any(_meets(world, weights, place) for weights in PLACES) for place in (CENTER, SAMPLE))
+
+
+def _meets(world: World, weights: tuple[int, int, int], place: tuple[float, float]) -> bool:
+    """Whether for any triangle the ray through a place of the pixel of a point of it, by its weights, meets it."""
     corners = world.corners
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    with np.errstate(all="ignore"):
-        for weights in PLACES:
-            point = np.einsum("nij,i->nj", corners, np.array(weights) / sum(weights))
-            pixel = np.floor(project(world, point))
-            on_canvas = ((pixel >= 0) & (pixel < [world.width, world.height])).all(axis=1)
-            plane = (pixel + 0.5 - np.array([world.width, world.height]) / 2) * [1, -1] / world.focal
-            way = np.column_stack([plane * world.perspective, np.full(len(plane), -1.0)])
-            start = np.column_stack([plane * (not world.perspective), np.zeros(len(plane))])
-            slope = (way * normals).sum(axis=1)
-            distance = ((corners[:, 0] - start) * normals).sum(axis=1) / slope
-            hit = (start + distance[:, None] * way)[:, None] - corners
-            turns = (np.cross(np.roll(corners, -1, axis=1) - corners, hit) * normals[:, None]).sum(axis=2)
-            met = (turns > 0).all(axis=1) & (distance >= world.near) & ((slope < 0) | ~world.culled)
-            if (on_canvas & met).any():
-                return True
-    return False
+    point = np.einsum("nij,i->nj", corners, np.array(weights) / sum(weights))
+    pixel = np.floor(project(world, point))
+    on_canvas = ((pixel >= 0) & (pixel < [world.width, world.height])).all(axis=1)
+    plane = (pixel + place - np.array([world.width, world.height]) / 2) * [1, -1] / world.focal
+    way = np.column_stack([plane * world.perspective, np.full(len(plane), -1.0)])
+    start = np.column_stack([plane * (not world.perspective), np.zeros(len(plane))])
+    slope = (way * normals).sum(axis=1)
+    distance = ((corners[:, 0] - start) * normals).sum(axis=1) / slope
+    hit = (start + distance[:, None] * way)[:, None] - corners
+    turns = (np.cross(np.roll(corners, -1, axis=1) - corners, hit) * normals[:, None]).sum(axis=2)
+    met = (turns > 0).all(axis=1) & (distance >= world.near) & ((slope < 0) | ~world.culled)
+    return bool((on_canvas & met).any())
 
 
 #: Words on both sides of the bounds of the contract.
@@ -346,7 +354,7 @@ def _opacity(rng: Rng) -> float:
 
 
 def _mesh(rng: Rng, extent: float) -> Mesh:
-    shapes = (_soup, _box, _sphere, _patch, _fan)
+    shapes = (soup_shape, box_shape, sphere_shape, patch_shape, fan_shape)
     positions, faces = shapes[rng.integers(len(shapes))](rng)
     positions = np.rint(positions * extent)
     if rng.random() < 0.05:
@@ -375,7 +383,7 @@ def _mesh(rng: Rng, extent: float) -> Mesh:
     return Mesh(positions, faces, colors, normals)
 
 
-def _soup(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+def soup_shape(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     """Triangles of many sizes, anywhere."""
     count = int(rng.integers(1, 30))
     centers = rng.uniform(-0.5, 0.5, (count, 1, 3))
@@ -383,13 +391,13 @@ def _soup(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     return corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3)
 
 
-def _box(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+def box_shape(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * rng.uniform(0.2, 1, 3)
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return corners, np.array([(a, b, c) for a, b, c, _ in quads] + [(a, c, d) for a, _, c, d in quads])
 
 
-def _sphere(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+def sphere_shape(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     rings, sides = int(rng.integers(3, 9)), int(rng.integers(3, 12))
     theta = np.pi * np.arange(rings + 1)[:, None] / rings
     phi = 2 * np.pi * np.arange(sides)[None] / sides
@@ -397,7 +405,7 @@ def _sphere(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     return points.reshape(-1, 3), _grid(rings, sides, closed=True)
 
 
-def _patch(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+def patch_shape(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     """Hills, whose faces share their edges."""
     n, m = int(rng.integers(1, 8)), int(rng.integers(1, 8))
     points = np.empty((n + 1, m + 1, 3))
@@ -407,7 +415,7 @@ def _patch(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     return points.reshape(-1, 3), _grid(n, m, closed=False)
 
 
-def _fan(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
+def fan_shape(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
     """Long thin triangles around a point."""
     sides = int(rng.integers(3, 40))
     angles = np.sort(rng.uniform(0, 2 * np.pi, sides))

@@ -21,7 +21,6 @@ from shackled import (
     Background,
     Fog,
     Ground,
-    Hemisphere,
     Image,
     InputError,
     Material,
@@ -37,7 +36,7 @@ from shackled import (
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.image import encode_bmp, uncovered
-from shackled.scene import encode
+from shackled.scene import Hemisphere, encode
 
 Pixels = NDArray[np.uint8]
 GRADIENT = Background("#2060c0", "#f0c080")

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from PIL import Image as PillowImage
 
-from shackled import Hemisphere, InputError, Rim, Scene, Tone, __version__, load, render
+from shackled import InputError, Rim, Scene, Tone, __version__, load, render
 from shackled.chain import CHAINS
 from shackled.cli.app import run
-from shackled.scene import render_call
+from shackled.scene import Hemisphere, render_call
 from shackled.studio import make_apng
 
 

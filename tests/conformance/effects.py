@@ -7,8 +7,8 @@ from attrs import evolve
 
 import float64
 from pictures import call_data, draw
-from shackled import Fog, Hemisphere, Rim, Scene, Tone
-from shackled.scene import fit
+from shackled import Fog, Rim, Scene, Tone
+from shackled.scene import Hemisphere, fit
 
 from .compare import GRAZING, Result, outside
 from .neighbours import around, interior

@@ -17,7 +17,7 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from pictures import draw
-from random_scenes import _box, _fan, _patch, _soup
+from random_scenes import box_shape, fan_shape, patch_shape, soup_shape
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene import fit, signed_volume
 
@@ -83,8 +83,8 @@ def ball(rng: Rng) -> tuple[Array, NDArray[np.int64]]:
 def shape(rng: Rng, name: str) -> tuple[Array, NDArray[np.int64], bool]:
     """Positions, faces, and whether they are closed."""
     if name in ("soup", "fan", "patch"):
-        return *{"soup": _soup, "fan": _fan, "patch": _patch}[name](rng), False
-    points, faces = {"ball": ball, "torus": torus}.get(name, _box)(rng)
+        return *{"soup": soup_shape, "fan": fan_shape, "patch": patch_shape}[name](rng), False
+    points, faces = {"ball": ball, "torus": torus}.get(name, box_shape)(rng)
     if name == "plate":
         points = points * [1, 0.02, 1]
     if name == "stick":

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from shackled import Camera, Fog, Hemisphere, InputError, Light, Material, Mesh, Object, Rim, Scene, Tone, load, render
+from shackled import Camera, Fog, InputError, Light, Material, Mesh, Object, Rim, Scene, Tone, load, render
 from shackled.creator import (
     Backdrop,
     Curve,
@@ -35,6 +35,7 @@ from shackled.creator import (
     to_scene,
 )
 from shackled.gas import render_call
+from shackled.scene import Hemisphere
 from states import states
 
 #: One of each family of pieces, and those that are unlike the others.

@@ -15,7 +15,6 @@ from shackled import (
     Background,
     Camera,
     Fog,
-    Hemisphere,
     InputError,
     Light,
     Material,
@@ -29,7 +28,7 @@ from shackled import (
     replace,
 )
 from shackled.parallel import Where
-from shackled.scene import rotate, simplify
+from shackled.scene import Hemisphere, rotate, simplify
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]
 MESH = Mesh(CORNERS, FACES)

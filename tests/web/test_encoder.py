@@ -23,11 +23,12 @@ from original_scenes import document as original_document
 from original_scenes import documents as original_documents
 from pictures import chain, dynamic
 from random_scenes import random_case
-from shackled import Fog, Ground, Hemisphere, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
+from shackled import Fog, Ground, InputError, Light, Mesh, Object, Rim, Scene, Tone, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
 from shackled.scene import (
+    Hemisphere,
     Rectangle,
     decode,
     encode,

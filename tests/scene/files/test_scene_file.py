@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from shackled import Background, Camera, Fog, Hemisphere, Light, Material, Mesh, Object, Rim, Scene, Tone, load
+from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, load
 from shackled.errors import InputError
-from shackled.scene import BACKGROUND, DEFAULT_HALF_HEIGHT, rotate, write_scene
+from shackled.scene import BACKGROUND, DEFAULT_HALF_HEIGHT, Hemisphere, rotate, write_scene
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

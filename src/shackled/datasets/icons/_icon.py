@@ -55,7 +55,7 @@ class IconModel:
 
     def scene(self) -> Scene:
         """Return the scene, 128 x 128 pixels."""
-        mesh = self.model().mesh(self.crease if self.material.shading == "smooth" else None, buried=False)
+        mesh = self.model().mesh(self.crease if self.material.shading == "smooth" else None)
         scene = stage(mesh, material=self.material, **self.look)
         return evolve(scene, objects=_cheaper(scene.objects[0], scene.camera))
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ... import checks
-from ...scene import Mesh, components, from_euler, rotate
+from ...scene import Mesh, from_euler, rotate
 from .outlines import chamfered, inset, rectangle, regular, triangulate
 
 Array = NDArray[np.float64]
@@ -88,11 +88,11 @@ class Solid:
         a, b, c = (self.corners - self.corners.mean(axis=(0, 1))).transpose(1, 0, 2)
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
-    def mesh(self, crease: float | None = None, buried: bool = True) -> Mesh:
+    def mesh(self, crease: float | None = None) -> Mesh:
         """Return the mesh in whole coordinates, `STEPS` per unit, for flat shading, or with normals for smooth shading.
 
         crease: the angle in degrees up to which edges look round; None for no normals. Vertices are shared where
-        position, colour and normal are the same. buried: whether to keep triangles that lie within another part.
+        position, colour and normal are the same.
         """
         corners = np.rint(self.corners * STEPS)
         kept = _distinct(corners)
@@ -100,9 +100,6 @@ class Solid:
         columns = [corners.reshape(-1, 3), colors.reshape(-1, 3).astype(np.float64)]
         if crease is not None:
             columns.append(np.rint(_normals(corners, crease).reshape(-1, 3) * 2**20))
-        if not buried:
-            seen = np.repeat(~_buried(corners), 3)
-            columns = [column[seen] for column in columns]
         vertices, numbers = np.unique(np.hstack(columns), axis=0, return_inverse=True)
         normals = None if crease is None else vertices[:, 6:] / 2**20
         return Mesh(vertices[:, :3], numbers.reshape(-1, 3), vertices[:, 3:6].astype(np.uint8), normals)
@@ -325,25 +322,6 @@ def _distinct(corners: Array) -> NDArray[np.bool_]:
     """Return which triangles have three different corners, (m,) bool."""
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     return np.asarray(sides.min(axis=1) > SAME)
-
-
-def _buried(corners: Array) -> NDArray[np.bool_]:
-    """Return which triangles lie within another part, (m,) bool, where that is certain.
-
-    corners: (m, 3, 3) in steps. What is behind the planes of all triangles of a closed part is within it.
-    """
-    points, numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
-    faces = numbers.reshape(-1, 3)
-    part = components(faces, len(points))[faces[:, 0]]
-    found = np.zeros(len(faces), dtype=bool)
-    for number in np.unique(part):
-        a, b, c = corners[part == number].transpose(1, 0, 2)
-        normals = np.cross(b - a, c - a)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True).clip(SAME)
-        # by more than a step
-        behind = (points @ normals.T < (a * normals).sum(axis=1) - 1).all(axis=1)
-        found |= behind[faces].all(axis=1)
-    return found
 
 
 def _outward(solid: Solid) -> Solid:
