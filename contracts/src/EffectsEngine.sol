@@ -2,7 +2,6 @@
 pragma solidity 0.8.37;
 
 import {EffectSamples} from "./pipeline/EffectSamples.sol";
-import {Effects} from "./pipeline/Effects.sol";
 import {Lighting} from "./pipeline/Lighting.sol";
 import {Pipeline} from "./pipeline/Pipeline.sol";
 import {SampleBuffer} from "./pipeline/SampleBuffer.sol";
@@ -26,25 +25,57 @@ contract EffectsEngine is SampleBuffer, SampleWires {
         override
         returns (uint256)
     {
-        Effects.setFrame();
         assembly ("memory-safe") {
             mstore(LISTS, lists)
         }
-        Effects.setObject();
+        // a single object is not read again
+        if (lists.length == 1) setObject();
         return super.openPicture(tile, image, bandRows, lists);
     }
 
     function readObject(uint256 position) internal pure override returns (uint256 next) {
-        if (load(SHADOWS) != 0 && load(SHADOW_ROW) == 0) {
+        unchecked {
+            if (load(EXPOSURE) == 0) setFrame();
+            next = super.readObject(position);
+            if (load(LISTS) != 0) setObject();
+        }
+    }
+
+    /// @dev Reads the effects of the frame into their registers.
+    function setFrame() private pure {
+        unchecked {
+            copyCalldata(EFFECT_FRAME_BEGIN, load(EFFECTS), EFFECT_FRAME_SIZE);
+            if (load(SHADOWS) == 0) return;
+            store(SHADOWS, load(EFFECTS) + load(SHADOWS));
             // before the records of vertices
             store(SHADOW_ROW, freeMemory());
             setFreeMemory(freeMemory() + 32 * load(TILE_WIDTH));
         }
+    }
+
+    /// @dev Reads the effects of the object whose uniforms were read into their registers.
+    function setObject() private pure {
         unchecked {
-            store(OBJECT_INDEX, position == load(OBJECTS) ? 0 : load(OBJECT_INDEX) + 1);
+            uint256 number = load(OBJECT_NUMBER);
+            copyCalldata(
+                EFFECT_OBJECT_BEGIN, load(EFFECTS) + EFFECT_FRAME_SIZE + number * EFFECT_OBJECT_SIZE, EFFECT_OBJECT_SIZE
+            );
+            store(OBJECT_OPACITY, load(OPACITY));
+            if (load(OBJECT_MODE) & IS_BLENDED != 0) store(FADE_RANGE, 0);
+            store(AMBIENT, load(OBJECT_AMBIENT));
+            uint256 register = LIGHT_COLORS;
+            for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
+                store(light + LIGHT_COLOR, load(register));
+                store(light + LIGHT_DIFFUSE, load(register + LIGHT_DIFFUSES - LIGHT_COLORS));
+                register += 32;
+            }
+            if (load(SHADOWS) != 0) ShadowRows.setObject(number);
+            // of objects that are textured none is left out of the call
+            if (load(TEXTURE) | load(OPACITIES) != 0) {
+                // an array of pointers to the lists of objects, which begin with the place of the records
+                store(RECORDS, load(load(load(LISTS) + 32 + 32 * (number - load(OBJECT_FIRST)))));
+            }
         }
-        next = super.readObject(position);
-        Effects.setObject();
     }
 
     function shade(uint256 a, uint256 b, uint256 c, uint256 crossing) internal pure override(Rasterizer, SmoothShading) {
@@ -75,7 +106,9 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             store(COLOR_0, WEIGHTED_BIAS);
             store(COLOR_1, 0);
             store(COLOR_2, 0);
-            if (load(TEXTURE) != 0 && mode & IS_DEPTH_PASS == 0) Texture.setTriangle(a, b, c, recordShift(mode));
+            if (mode & IS_DEPTH_PASS != 0) return;
+            if (load(TEXTURE) != 0) Texture.setTriangle(a, b, c, recordShift(mode));
+            if (load(OPACITIES) != 0) Texture.setOpacities(a, b, c, recordShift(mode));
         }
     }
 
@@ -83,7 +116,7 @@ contract EffectsEngine is SampleBuffer, SampleWires {
     function isUniform(uint256 mode) private pure returns (bool) {
         unchecked {
             if (mode & (IS_SMOOTH | HAS_SPECULAR) != 0) return false;
-            if (load(COLOR_1) | load(COLOR_2) | load(TEXTURE) | load(FOG_RANGE) | load(RIM_COLOR) != 0) return false;
+            if (load(COLOR_1) | load(COLOR_2) | load(TEXTURE) | load(OPACITIES) | load(FOG_RANGE) | load(RIM_COLOR) != 0) return false;
             for (uint256 light = LIGHTS; light != load(LIGHTS_END); light += LIGHT_SIZE) {
                 if (load(light + LIGHT_IS_POINT) != 0) return false;
             }

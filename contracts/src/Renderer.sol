@@ -12,12 +12,11 @@ import {Bmp} from "./encode/Bmp.sol";
 import {Svg} from "./encode/Svg.sol";
 import {AntialiasedEngine} from "./AntialiasedEngine.sol";
 import {AntialiasedFragmentEngine} from "./AntialiasedFragmentEngine.sol";
+import {Effects} from "./Effects.sol";
 import {EffectsEngine} from "./EffectsEngine.sol";
 import {Engine} from "./Engine.sol";
 import {FragmentEngine} from "./FragmentEngine.sol";
-import {Extensions} from "./scene/Extensions.sol";
-import {SHADOW} from "./pipeline/Effects.sol";
-import {Shadows} from "./Shadows.sol";
+import {ANTIALIAS, Extensions} from "./scene/Extensions.sol";
 import {BY_FACES, Run, Runs} from "./uniforms/Runs.sol";
 import {Uniforms} from "./uniforms/Uniforms.sol";
 import "./pipeline/Registers.sol";
@@ -35,8 +34,8 @@ contract Renderer is SceneErrors {
     AntialiasedFragmentEngine public immutable antialiasedFragmentEngine;
     /// @notice What computes all pixels of scenes with effects.
     EffectsEngine public immutable effectsEngine;
-    /// @notice What finds the shadows of those scenes.
-    Shadows public immutable shadows;
+    /// @notice What finds out before what their effects are to the frame and to each object.
+    Effects public immutable effects;
 
     /// @notice The address has no code.
     error NoEngine(address engine);
@@ -60,14 +59,14 @@ contract Renderer is SceneErrors {
         AntialiasedEngine antialiasedEngine_,
         AntialiasedFragmentEngine antialiasedFragmentEngine_,
         EffectsEngine effectsEngine_,
-        Shadows shadows_
+        Effects effects_
     ) {
         engine = Engine(withCode(address(engine_)));
         fragmentEngine = FragmentEngine(withCode(address(fragmentEngine_)));
         antialiasedEngine = AntialiasedEngine(withCode(address(antialiasedEngine_)));
         antialiasedFragmentEngine = AntialiasedFragmentEngine(withCode(address(antialiasedFragmentEngine_)));
         effectsEngine = EffectsEngine(withCode(address(effectsEngine_)));
-        shadows = Shadows(withCode(address(shadows_)));
+        effects = Effects(withCode(address(effects_)));
     }
 
     function withCode(address engine_) private view returns (address) {
@@ -134,10 +133,11 @@ contract Renderer is SceneErrors {
     }
 
     /// @notice The data with which the Renderer calls the engine to draw a part of the canvas, as `Uniforms.sol` says: for measurements.
-    function engineCall(Scene calldata scene, Rectangle calldata tile) external pure returns (bytes memory) {
+    function engineCall(Scene calldata scene, Rectangle calldata tile) external view returns (bytes memory) {
         unchecked {
             checkScene(scene, tile);
-            (uint256 begin, uint256 end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, false, TEXTS);
+            prepareEffects(scene);
+            (uint256 begin, uint256 end) = writeCall(scene, tile, false);
             returnBytes(begin, end - begin);
         }
     }
@@ -170,7 +170,7 @@ contract Renderer is SceneErrors {
     function draw(Scene calldata scene, Rectangle memory tile, bool countPixels) private view returns (File memory file) {
         unchecked {
             checkScene(scene, tile);
-            findShadows(scene);
+            prepareEffects(scene);
             (uint256 data, uint256 end) = writeCall(scene, tile, countPixels);
             uint256 pixels;
             uint256 free = freeMemory();
@@ -190,14 +190,14 @@ contract Renderer is SceneErrors {
         }
     }
 
-    /// @dev Has Shadows find what the light of a scene that casts shadows does not reach. The answer stays in memory, at SHADOWS.
-    function findShadows(Scene calldata scene) private view {
+    /// @dev Has Effects compute what the effects of a scene are, if it has any. The answer stays in memory, at EFFECTS.
+    function prepareEffects(Scene calldata scene) private view {
         unchecked {
-            (uint256 record, uint256 end) = Extensions.behind(scene, SHADOW - 1);
+            (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS);
             if (record == end) return;
             reserveRegisters(REGISTERS, REGISTERS_END);
             uint256 data = freeMemory();
-            bytes4 selector = Shadows.cast.selector;
+            bytes4 selector = Effects.prepare.selector;
             assembly ("memory-safe") {
                 let size := sub(calldatasize(), scene)
                 mstore(data, selector)
@@ -205,9 +205,9 @@ contract Renderer is SceneErrors {
                 calldatacopy(add(data, 36), scene, size)
                 end := add(add(data, 36), size)
             }
-            uint256 answered = callEngine(address(shadows), data, end, data);
-            store(SHADOWS, answered == 0 ? 0 : data);
-            store(SHADOWS_SIZE, answered);
+            uint256 answered = callEngine(address(effects), data, end, data);
+            store(EFFECTS, data);
+            store(EFFECTS_SIZE, answered);
             setFreeMemory(data + answered);
         }
     }
@@ -216,10 +216,10 @@ contract Renderer is SceneErrors {
     function writeCall(Scene calldata scene, Rectangle memory tile, bool countPixels) private pure returns (uint256 data, uint256 end) {
         unchecked {
             (data, end) = Uniforms.write(Pipeline.drawTile.selector, scene, tile, countPixels, TEXTS);
-            uint256 size = load(SHADOWS_SIZE);
+            uint256 size = load(EFFECTS_SIZE);
             if (size == 0) return (data, end);
-            store(data + 4 + SHADOWS - REGISTERS, end - data);
-            uint256 source = load(SHADOWS);
+            store(data + 4 + EFFECTS - REGISTERS, end - data);
+            uint256 source = load(EFFECTS);
             assembly ("memory-safe") {
                 mcopy(end, source, size)
                 end := add(end, size)

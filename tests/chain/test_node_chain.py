@@ -222,7 +222,7 @@ def test_addresses_of_other_deployments(bare: Anvil, embedded: EmbeddedChain, bo
     engine, fragments, renderer = b"\x11" * 20, b"\x33" * 20, b"\x22" * 20
     try:
         code = embedded.code("Renderer")
-        rest = ("AntialiasedEngine", "AntialiasedFragmentEngine", "EffectsEngine", "Shadows")
+        rest = ("AntialiasedEngine", "AntialiasedFragmentEngine", "EffectsEngine", "Effects")
         others = {name: embedded.address(name) for name in rest}
         for name, place in {"Engine": engine, "FragmentEngine": fragments, **others}.items():
             put(bare, place, embedded.code(name))

@@ -46,12 +46,11 @@ library EffectSamples {
             uint256 mode = load(MODE);
             if (mode & IS_DEPTH_PASS != 0) return FOUND_SAMPLES | (load(p) & SAMPLE_COLORS);
             uint256 color = colorAt(attribute, covered, column, row);
-            if (mode & IS_BLENDED != 0) return DRAWN_SAMPLES | BlendedSamples.over(color, load(p));
-            if (load(OPACITY) == OPAQUE) return color * ONES_64;
-            // of a ground, where it fades
+            if (mode & IS_BLENDED == 0 && load(OPACITY) == OPAQUE) return color * ONES_64;
+            // where a ground fades, or vertices have opacities, that of the fragment
             color = BlendedSamples.over(color, load(p));
-            store(OPACITY, OPAQUE);
-            return color;
+            store(OPACITY, load(OBJECT_OPACITY));
+            return mode & IS_BLENDED == 0 ? color : DRAWN_SAMPLES | color;
         }
     }
 

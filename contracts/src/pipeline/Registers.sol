@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev Where registers begin: what the compiler keeps in memory must end before.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x4020;
+uint256 constant REGISTERS_END = 0x40c0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -18,458 +18,471 @@ uint256 constant REGISTERS_END = 0x4020;
 
 /// @dev Where these registers begin, and their bytes.
 uint256 constant FRAME_BEGIN = 0x800;
-uint256 constant FRAME_SIZE = 0xaa0;
+uint256 constant FRAME_SIZE = 0x9e0;
 /// @dev 1 for an orthographic camera; 1 for four samples of each pixel; else 0.
 uint256 constant FRAME_IS_ORTHOGRAPHIC = 0x800;
 uint256 constant FRAME_IS_ANTIALIASED = 0x820;
-/// @dev Where in calldata the records of the effects of the scene begin, and their end; 0 if there are none.
+/// @dev Where in calldata the answer of the contract Effects begins, 0 if the scene has no effects; and its size. (Before the call: where
+/// it is in memory.)
 uint256 constant EFFECTS = 0x840;
-uint256 constant EFFECTS_END = 0x860;
-/// @dev Where in calldata the answer of the contract Shadows begins, 0 if no light casts shadows; and its size. (Before the call: where it
-/// is in memory.)
-uint256 constant SHADOWS = 0x880;
-uint256 constant SHADOWS_SIZE = 0x8a0;
-/// @dev The colour of the ambient light, lanes of bytes.
-uint256 constant AMBIENT_LIGHT = 0x8c0;
-/// @dev The y axis of the world in camera space, Q24.
-uint256 constant UP_X = 0x8e0;
-uint256 constant UP_Y = 0x900;
-uint256 constant UP_Z = 0x920;
+uint256 constant EFFECTS_SIZE = 0x860;
 /// @dev Distance of the near plane, Q32.
-uint256 constant NEAR = 0x940;
+uint256 constant NEAR = 0x880;
 /// @dev depth = DEPTH_SCALE / distance (perspective), DEPTH_SCALE - distance / 256 (orthographic): 2^54 at most, so that the highest bit of
 /// the 64 of a depth in the buffer, which has 8 more, is free.
-uint256 constant DEPTH_SCALE = 0x960;
+uint256 constant DEPTH_SCALE = 0x8a0;
 /// @dev Depths of samples, so that their highest bits tell the surfaces of the scene apart: a depth of an accumulator less the base, times
 /// 2^SAMPLE_SHIFT, which the scale has in each lane. See SampleDepths.
-uint256 constant SAMPLE_BASE = 0x980;
-uint256 constant SAMPLE_SHIFT = 0x9a0;
-uint256 constant SAMPLE_SCALE = 0x9c0;
+uint256 constant SAMPLE_BASE = 0x8c0;
+uint256 constant SAMPLE_SHIFT = 0x8e0;
+uint256 constant SAMPLE_SCALE = 0x900;
 /// @dev First pixel column of the tile, and the one after the last.
-uint256 constant COLUMN_BEGIN = 0x9e0;
-uint256 constant COLUMN_END = 0xa00;
+uint256 constant COLUMN_BEGIN = 0x920;
+uint256 constant COLUMN_END = 0x940;
 /// @dev Bytes of a row of depths.
-uint256 constant DEPTH_STRIDE = 0xa20;
+uint256 constant DEPTH_STRIDE = 0x960;
 /// @dev The ray through a pixel, (x, y, 1) in camera space, Q24: x = RAY_LEFT + column * RAY_STEP, y = RAY_TOP + row * RAY_STEP. For an
 /// orthographic camera, where all rays are parallel, the place beside the line of sight in world units, Q32.
-uint256 constant RAY_LEFT = 0xa40;
-uint256 constant RAY_TOP = 0xa60;
-uint256 constant RAY_STEP = 0xa80;
+uint256 constant RAY_LEFT = 0x980;
+uint256 constant RAY_TOP = 0x9a0;
+uint256 constant RAY_STEP = 0x9c0;
 /// @dev First guess at the length of a ray from its square: LENGTH_AT_0 + LENGTH_SLOPE * square >> 48; and how many steps of Newton's
 /// method refine it besides the first.
-uint256 constant LENGTH_AT_0 = 0xaa0;
-uint256 constant LENGTH_SLOPE = 0xac0;
-uint256 constant LENGTH_STEPS = 0xae0;
+uint256 constant LENGTH_AT_0 = 0x9e0;
+uint256 constant LENGTH_SLOPE = 0xa00;
+uint256 constant LENGTH_STEPS = 0xa20;
 /// @dev The tile, in the order of a Rectangle.
-uint256 constant TILE_X = 0xb00;
-uint256 constant TILE_Y = 0xb20;
-uint256 constant TILE_WIDTH = 0xb40;
-uint256 constant TILE_HEIGHT = 0xb60;
+uint256 constant TILE_X = 0xa40;
+uint256 constant TILE_Y = 0xa60;
+uint256 constant TILE_WIDTH = 0xa80;
+uint256 constant TILE_HEIGHT = 0xaa0;
 /// @dev The background of the lowest row of the tile, lanes of Q24 with half a level, and its change from row to row upwards.
-uint256 constant BACKGROUND = 0xb80;
-uint256 constant BACKGROUND_STEP = 0xba0;
+uint256 constant BACKGROUND = 0xac0;
+uint256 constant BACKGROUND_STEP = 0xae0;
 /// @dev 1 if all bytes are inverted in the end; 1 if covered pixels are counted; else 0.
-uint256 constant INVERT = 0xbc0;
-uint256 constant COUNT_PIXELS = 0xbe0;
+uint256 constant INVERT = 0xb00;
+uint256 constant COUNT_PIXELS = 0xb20;
 /// @dev How many objects are to be drawn, where in calldata the uniforms of the first begin, and its number in the scene.
-uint256 constant OBJECT_COUNT = 0xc00;
-uint256 constant OBJECTS = 0xc20;
-uint256 constant OBJECT_FIRST = 0xc40;
+uint256 constant OBJECT_COUNT = 0xb40;
+uint256 constant OBJECTS = 0xb60;
+uint256 constant OBJECT_FIRST = 0xb80;
 /// @dev The same of all objects: see Runs.
-uint256 constant OBJECT_TOTAL = 0xc60;
-uint256 constant OBJECTS_BEGIN = 0xc80;
+uint256 constant OBJECT_TOTAL = 0xba0;
+uint256 constant OBJECTS_BEGIN = 0xbc0;
 /// @dev Where in calldata the pixels and depths stand of what was drawn before; 0 if nothing was.
-uint256 constant DRAWN_BEFORE = 0xca0;
+uint256 constant DRAWN_BEFORE = 0xbe0;
 /// @dev 1 if depths are returned as well; 1 if nothing is drawn, and triangles are counted; else 0.
-uint256 constant RETURNS_DEPTHS = 0xcc0;
-uint256 constant ONLY_COUNTS = 0xce0;
+uint256 constant RETURNS_DEPTHS = 0xc00;
+uint256 constant ONLY_COUNTS = 0xc20;
 /// @dev The address after the last record of a light.
-uint256 constant LIGHTS_END = 0xd00;
+uint256 constant LIGHTS_END = 0xc40;
 /// @dev Up to 4 records of LIGHT_SIZE bytes.
-uint256 constant LIGHTS = 0xd20;
+uint256 constant LIGHTS = 0xc60;
 
 // ----------------------------------------------------------------------------------------------------------------------------------- band
 
 /// @dev First row of the band that is being drawn, and the row after its last.
-uint256 constant BAND_TOP = 0x12a0;
-uint256 constant BAND_BOTTOM = 0x12c0;
+uint256 constant BAND_TOP = 0x11e0;
+uint256 constant BAND_BOTTOM = 0x1200;
 /// @dev Address that the depth of row 0, column 0 would have, which may be below 0. Rows go down in memory, as they do in a bitmap.
-uint256 constant DEPTH_ORIGIN = 0x12e0;
+uint256 constant DEPTH_ORIGIN = 0x1220;
 /// @dev Where the depths begin, or the samples.
-uint256 constant DEPTHS = 0x1300;
+uint256 constant DEPTHS = 0x1240;
 /// @dev A pixel with its depth at p has its colour at IMAGE_ORIGIN + 3 * (p / 8).
-uint256 constant IMAGE_ORIGIN = 0x1320;
+uint256 constant IMAGE_ORIGIN = 0x1260;
 
 // --------------------------------------------------------------------------------------------------------------------------------- object
 // The uniforms of an object, which the Renderer fills. They end where the last one is that the object needs: unlit ones at OBJECT_LIT,
 // others behind their lights, and with SPECULAR_TABLE only where there is one.
 
 /// @dev How many bytes of the following the object has; the first word of them.
-uint256 constant OBJECT_BYTES = 0x1340;
+uint256 constant OBJECT_BYTES = 0x1280;
 /// @dev The bits of MODE that all faces of the object share, and its flags, as in the scene.
-uint256 constant OBJECT_MODE = 0x1360;
-uint256 constant OBJECT_FLAGS = 0x1380;
+uint256 constant OBJECT_MODE = 0x12a0;
+uint256 constant OBJECT_FLAGS = 0x12c0;
 /// @dev How much of what is behind it the object hides, Q24; 1 where it is opaque.
-uint256 constant OPACITY = 0x13a0;
+uint256 constant OPACITY = 0x12e0;
 /// @dev Columns of the matrix from mesh to screen, three lanes each: see VertexShader.
-uint256 constant MATRIX_X = 0x13c0;
-uint256 constant MATRIX_Y = 0x13e0;
-uint256 constant MATRIX_Z = 0x1400;
-uint256 constant MATRIX_T = 0x1420;
+uint256 constant MATRIX_X = 0x1300;
+uint256 constant MATRIX_Y = 0x1320;
+uint256 constant MATRIX_Z = 0x1340;
+uint256 constant MATRIX_T = 0x1360;
 /// @dev A sub-pixel column x is outside the tile if x - TILE_LEFT, as an unsigned number, is above TILE_SPAN, and a row y if y - TILE_TOP
 /// is above TILE_ROWS.
-uint256 constant TILE_LEFT = 0x1440;
-uint256 constant TILE_SPAN = 0x1460;
-uint256 constant TILE_TOP = 0x1480;
-uint256 constant TILE_ROWS = 0x14a0;
+uint256 constant TILE_LEFT = 0x1380;
+uint256 constant TILE_SPAN = 0x13a0;
+uint256 constant TILE_TOP = 0x13c0;
+uint256 constant TILE_ROWS = 0x13e0;
 /// @dev What is added to screen words to round rows up, or, for lines, to the nearest: see PrimitiveAssembly.
-uint256 constant ROUND_TOP = 0x14c0;
-uint256 constant ROUND_BOTTOM = 0x14e0;
+uint256 constant ROUND_TOP = 0x1400;
+uint256 constant ROUND_BOTTOM = 0x1420;
 /// @dev The mesh, in the order of the struct Mesh: offsets in the engine's calldata, counts, format.
-uint256 constant MESH_VERTICES = 0x1500;
-uint256 constant MESH_VERTEX_COUNT = 0x1520;
-uint256 constant MESH_FACES = 0x1540;
-uint256 constant MESH_FACE_COUNT = 0x1560;
-uint256 constant MESH_BITS = 0x1580;
-uint256 constant MESH_STRIDE = 0x15a0;
+uint256 constant MESH_VERTICES = 0x1440;
+uint256 constant MESH_VERTEX_COUNT = 0x1460;
+uint256 constant MESH_FACES = 0x1480;
+uint256 constant MESH_FACE_COUNT = 0x14a0;
+uint256 constant MESH_BITS = 0x14c0;
+uint256 constant MESH_STRIDE = 0x14e0;
 /// @dev What follows is for objects that are lit.
-uint256 constant OBJECT_LIT = 0x15c0;
+uint256 constant OBJECT_LIT = 0x1500;
 /// @dev Columns of the matrix that turns normals into camera space, three lanes each. Of a flat object: of the one that turns rays into the
 /// space of the mesh, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant NORMAL_X = 0x15c0;
-uint256 constant NORMAL_Y = 0x15e0;
-uint256 constant NORMAL_Z = 0x1600;
+uint256 constant NORMAL_X = 0x1500;
+uint256 constant NORMAL_Y = 0x1520;
+uint256 constant NORMAL_Z = 0x1540;
 /// @dev The eye in the space of the mesh, Q32; the line of sight there, Q24, for an orthographic camera.
-uint256 constant EYE_X = 0x1620;
-uint256 constant EYE_Y = 0x1640;
-uint256 constant EYE_Z = 0x1660;
+uint256 constant EYE_X = 0x1560;
+uint256 constant EYE_Y = 0x1580;
+uint256 constant EYE_Z = 0x15a0;
 /// @dev Scale of the mesh, Q32, and scale / near, Q64.
-uint256 constant SCALE = 0x1680;
-uint256 constant SCALE_PER_NEAR = 0x16a0;
+uint256 constant SCALE = 0x15c0;
+uint256 constant SCALE_PER_NEAR = 0x15e0;
 /// @dev Ambient light times the ambient coefficient, lanes of Q16.
-uint256 constant AMBIENT = 0x16c0;
+uint256 constant AMBIENT = 0x1600;
 /// @dev The square of the distance, in sub-pixels, over which light is as good as linear.
-uint256 constant REACH = 0x16e0;
+uint256 constant REACH = 0x1620;
 /// @dev Up to which sum of the squares of two edges the light of smooth triangles is bounded; and the square of how much unit half vectors
 /// may differ, Q40.
-uint256 constant SMOOTH_REACH = 0x1700;
-uint256 constant HALF_REACH = 0x1720;
+uint256 constant SMOOTH_REACH = 0x1640;
+uint256 constant HALF_REACH = 0x1660;
 /// @dev Light of a smooth object that does not depend on the fragment, lanes of Q40.
-uint256 constant FACE_LIGHT_40 = 0x1740;
+uint256 constant FACE_LIGHT_40 = 0x1680;
 /// @dev The square and the length of the normal of a fragment, Q48 and Q24: one, unless normals are interpolated.
-uint256 constant FRAGMENT_SQUARE = 0x1760;
-uint256 constant FRAGMENT_NORMAL_LENGTH = 0x1780;
+uint256 constant FRAGMENT_SQUARE = 0x16a0;
+uint256 constant FRAGMENT_NORMAL_LENGTH = 0x16c0;
 /// @dev Where the table of the highlight begins, cos^2 in Q24, and its entries per unit of it, Q16; their product, Q24.
-uint256 constant SPECULAR_BEGIN = 0x17a0;
-uint256 constant SPECULAR_SCALE = 0x17c0;
-uint256 constant SPECULAR_OFFSET = 0x17e0;
+uint256 constant SPECULAR_BEGIN = 0x16e0;
+uint256 constant SPECULAR_SCALE = 0x1700;
+uint256 constant SPECULAR_OFFSET = 0x1720;
 /// @dev The specular coefficient, Q16, if the shininess is 1, else 0.
-uint256 constant SPECULAR_ROOT = 0x1800;
+uint256 constant SPECULAR_ROOT = 0x1740;
 /// @dev The other halves of the records at LIGHTS.
-uint256 constant OBJECT_LIGHTS = 0x1820;
+uint256 constant OBJECT_LIGHTS = 0x1760;
 /// @dev 65 entries: value of the highlight in the upper half, increase to the next entry in the lower, both Q16.
-uint256 constant SPECULAR_TABLE = 0x1da0;
+uint256 constant SPECULAR_TABLE = 0x1ce0;
 /// @dev What follows is for scenes with effects.
-uint256 constant SPECULAR_TABLE_END = 0x25c0;
-/// @dev Those of the material, Q16.
-uint256 constant AMBIENT_COEFFICIENT = 0x25c0;
-uint256 constant DIFFUSE_COEFFICIENT = 0x25e0;
-/// @dev The y axis of the world in the space of the mesh, Q24, signed lanes of 86 bits, z lowest.
-uint256 constant UP_IN_MESH = 0x2600;
-uint256 constant OBJECT_END = 0x2620;
+uint256 constant SPECULAR_TABLE_END = 0x2500;
+/// @dev Its number in the scene.
+uint256 constant OBJECT_NUMBER = 0x2500;
+uint256 constant OBJECT_END = 0x2520;
 
 // ------------------------------------------------------------------------------------------------------------------------------- triangle
 
 /// @dev How fragments are shaded: see the mode.
-uint256 constant MODE = 0x2620;
+uint256 constant MODE = 0x2520;
 /// @dev The accumulator at the first vertex, with the bias of its lanes; and the differences of the attribute words of the others to that
 /// of the first.
-uint256 constant ATTRIBUTE_0 = 0x2640;
-uint256 constant DELTA_1 = 0x2660;
-uint256 constant DELTA_2 = 0x2680;
+uint256 constant ATTRIBUTE_0 = 0x2540;
+uint256 constant DELTA_1 = 0x2560;
+uint256 constant DELTA_2 = 0x2580;
 /// @dev Where the face is in calldata.
-uint256 constant FACE = 0x26a0;
+uint256 constant FACE = 0x25a0;
 /// @dev The accumulator at column 0 of the first row, and its change per pixel and per row.
-uint256 constant START = 0x26c0;
-uint256 constant DX = 0x26e0;
-uint256 constant DY = 0x2700;
+uint256 constant START = 0x25c0;
+uint256 constant DX = 0x25e0;
+uint256 constant DY = 0x2600;
 /// @dev Colour at the first vertex, and its differences to the others.
-uint256 constant COLOR_0 = 0x2720;
-uint256 constant COLOR_1 = 0x2740;
-uint256 constant COLOR_2 = 0x2760;
+uint256 constant COLOR_0 = 0x2620;
+uint256 constant COLOR_1 = 0x2640;
+uint256 constant COLOR_2 = 0x2660;
 /// @dev Depths at the second and third vertex.
-uint256 constant DEPTH_1 = 0x2780;
-uint256 constant DEPTH_2 = 0x27a0;
+uint256 constant DEPTH_1 = 0x2680;
+uint256 constant DEPTH_2 = 0x26a0;
 /// @dev Pixels along a side of the cells over which colours are quadratic; 0 if they are over the whole triangle, 1 if each is exact.
-uint256 constant PATCH_SIZE = 0x27c0;
+uint256 constant PATCH_SIZE = 0x26c0;
 /// @dev Normal of a flat face, twice its area long, in units of the mesh: signed lanes of 86 bits.
-uint256 constant FACE_NORMAL = 0x27e0;
+uint256 constant FACE_NORMAL = 0x26e0;
 /// @dev The square of its length, and its length, Q16.
-uint256 constant FACE_SQUARE = 0x2800;
-uint256 constant FACE_LENGTH = 0x2820;
+uint256 constant FACE_SQUARE = 0x2700;
+uint256 constant FACE_LENGTH = 0x2720;
 /// @dev Unit normal times ray, Q48: FACE_N_DOT_RAY + FACE_N_DOT_RAY_SLOPE * depth >> 94.
-uint256 constant FACE_N_DOT_RAY = 0x2840;
-uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2860;
+uint256 constant FACE_N_DOT_RAY = 0x2740;
+uint256 constant FACE_N_DOT_RAY_SLOPE = 0x2760;
 /// @dev Normals of a smooth triangle of which each fragment is lit for itself: the normal at the first vertex (Q36), and the differences to
 /// the others (Q20).
-uint256 constant NORMALS_0 = 0x2880;
-uint256 constant NORMALS_1 = 0x28a0;
-uint256 constant NORMALS_2 = 0x28c0;
+uint256 constant NORMALS_0 = 0x2780;
+uint256 constant NORMALS_1 = 0x27a0;
+uint256 constant NORMALS_2 = 0x27c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- textures
 // Of the EffectsEngine: see Texture.
 
-/// @dev The array of the lists of all objects, 0 before they are drawn; the place of the object in it, and where its vertex records begin.
-uint256 constant LISTS = 0x28e0;
-uint256 constant OBJECT_INDEX = 0x2900;
-uint256 constant RECORDS = 0x2920;
-/// @dev Where in calldata its texture is, 0 without one; and the coordinates of its vertices.
-uint256 constant TEXTURE = 0x2940;
-uint256 constant TEXTURE_UVS = 0x2960;
+/// @dev The array of the lists of all objects, 0 before they are drawn; where the vertex records of the object begin.
+uint256 constant LISTS = 0x27e0;
+uint256 constant RECORDS = 0x2800;
 /// @dev Texture coordinates at the first vertex, Q40, and their differences to the others, Q16: two lanes of 128 bits, u below.
-uint256 constant UV_0 = 0x2980;
-uint256 constant UV_1 = 0x29a0;
-uint256 constant UV_2 = 0x29c0;
+uint256 constant UV_0 = 0x2820;
+uint256 constant UV_1 = 0x2840;
+uint256 constant UV_2 = 0x2860;
 /// @dev The three corners of a face that was clipped, with coordinates in place of colours.
-uint256 constant TEXTURE_CORNERS = 0x29e0;
+uint256 constant TEXTURE_CORNERS = 0x2880;
 
-// -------------------------------------------------------------------------------------------------------------------------------- effects
-// What the EffectsEngine reads of the records: see Effects.
+// ------------------------------------------------------------------------------------------------------------------- effects of the frame
+// The uniforms of the frame that the contract Effects computes: see EffectUniforms.
 
-/// @dev The light from above and from below, lanes of bytes.
-uint256 constant SKY_COLOR = 0x2c20;
-uint256 constant GROUND_COLOR = 0x2c40;
-/// @dev The same times the ambient coefficient of the object, lanes of Q16.
-uint256 constant HEMISPHERE_SKY = 0x2c60;
-uint256 constant HEMISPHERE_GROUND = 0x2c80;
+/// @dev Where these registers begin, and their bytes.
+uint256 constant EFFECT_FRAME_BEGIN = 0x2ac0;
+uint256 constant EFFECT_FRAME_SIZE = 0x360;
+/// @dev The y axis of the world in camera space, Q24.
+uint256 constant UP_X = 0x2ac0;
+uint256 constant UP_Y = 0x2ae0;
+uint256 constant UP_Z = 0x2b00;
 /// @dev The light at the silhouettes of objects, lanes of bytes, and how fast it grows towards them.
-uint256 constant RIM_COLOR = 0x2ca0;
-uint256 constant RIM_POWER = 0x2cc0;
+uint256 constant RIM_COLOR = 0x2b20;
+uint256 constant RIM_POWER = 0x2b40;
 /// @dev The colour of the fog, lanes of bytes; the distance at which it begins, and how much farther it hides everything, Q32: 0 without
 /// fog.
-uint256 constant FOG_COLOR = 0x2ce0;
-uint256 constant FOG_NEAR = 0x2d00;
-uint256 constant FOG_RANGE = 0x2d20;
-/// @dev The record of the light that casts shadows, and its LIGHT_COLOR and LIGHT_DIFFUSE where it shines.
-uint256 constant SHADOW_LIGHT = 0x2d40;
-uint256 constant SHADOW_COLOR = 0x2d60;
-uint256 constant SHADOW_DIFFUSE = 0x2d80;
-/// @dev The share of the fragment that it reaches, by which those are weakened: see ShadowRows.
-uint256 constant SHADOW_SHARE = 0x2da0;
-/// @dev The entry of the face, or where in calldata its list is; from where on that is not above the row.
-uint256 constant SHADOW_LIST = 0x2dc0;
-uint256 constant SHADOW_BEGIN = 0x2de0;
-/// @dev Where in calldata the entries of the faces of the object begin.
-uint256 constant SHADOW_FACES = 0x2e00;
-/// @dev The address of a word for each column: which samples of the row are in the shadow.
-uint256 constant SHADOW_ROW = 0x2e20;
-/// @dev 1 if all fragments of the triangle have one colour but for shadows; the last colour, and 1 more than the SHADOW_SHARE of it, 0 if
-/// there is none yet.
-uint256 constant IS_UNIFORM = 0x2e40;
-uint256 constant UNIFORM_SHARE = 0x2e60;
-uint256 constant UNIFORM_COLOR = 0x2e80;
+uint256 constant FOG_COLOR = 0x2b60;
+uint256 constant FOG_NEAR = 0x2b80;
+uint256 constant FOG_RANGE = 0x2ba0;
+/// @dev 1 if there is a TONE that changes anything; what light is multiplied by in the end, Q16, and its flags.
+uint256 constant IS_TONED = 0x2bc0;
+uint256 constant EXPOSURE = 0x2be0;
+uint256 constant TONE_FLAGS = 0x2c00;
+/// @dev Where the answer has the shadows, 0 if no light casts any: see Shadows. In the engine: where in calldata.
+uint256 constant SHADOWS = 0x2c20;
+/// @dev The record of the light that casts them, 0 if none does.
+uint256 constant SHADOW_LIGHT = 0x2c40;
+/// @dev Of each light LIGHT_COLOR.
+uint256 constant LIGHT_COLORS = 0x2c60;
+/// @dev 16 bits each: the linear level of every fourth level of sRGB, Q7: see Gamma.
+uint256 constant DECODE_TABLE = 0x2ce0;
+/// @dev 16 bits each: the level of a linear value, eight for each power of two from 2^7 in Q16 on, Q8.
+uint256 constant ENCODE_TABLE = 0x2d80;
+
+// ------------------------------------------------------------------------------------------------------------------- effects of an object
+// The same of an object.
+
+/// @dev Where these registers begin, and their bytes.
+uint256 constant EFFECT_OBJECT_BEGIN = 0x2e20;
+uint256 constant EFFECT_OBJECT_SIZE = 0x200;
+/// @dev The light from above and from below times the ambient coefficient, lanes of Q16.
+uint256 constant HEMISPHERE_SKY = 0x2e20;
+uint256 constant HEMISPHERE_GROUND = 0x2e40;
+/// @dev AMBIENT of the object.
+uint256 constant OBJECT_AMBIENT = 0x2e60;
+/// @dev Of each light LIGHT_DIFFUSE.
+uint256 constant LIGHT_DIFFUSES = 0x2e80;
+/// @dev The y axis of the world in the space of the mesh, Q24, signed lanes of 86 bits, z lowest.
+uint256 constant UP_IN_MESH = 0x2f00;
+/// @dev Where in calldata its texture is, 0 without one; and the coordinates of its vertices.
+uint256 constant TEXTURE = 0x2f20;
+uint256 constant TEXTURE_UVS = 0x2f40;
+/// @dev Where in calldata the opacities of its vertices are, 0 if they have none.
+uint256 constant OPACITIES = 0x2f60;
 /// @dev How an object fades: the square of its outer radius, and what that of the inner one is less, 0 if it does not; and its position in
 /// camera space, Q32. See Ground.
-uint256 constant FADE_SQUARE = 0x2ea0;
-uint256 constant FADE_RANGE = 0x2ec0;
-uint256 constant FADE_X = 0x2ee0;
-uint256 constant FADE_Y = 0x2f00;
-uint256 constant FADE_Z = 0x2f20;
+uint256 constant FADE_SQUARE = 0x2f80;
+uint256 constant FADE_RANGE = 0x2fa0;
+uint256 constant FADE_X = 0x2fc0;
+uint256 constant FADE_Y = 0x2fe0;
+uint256 constant FADE_Z = 0x3000;
+
+// -------------------------------------------------------------------------------------------------- shadows, uniform triangles, opacities
+// Of the EffectsEngine: see ShadowRows and EffectSamples.
+
+/// @dev OPACITY of the object, where that of its fragments differs from it.
+uint256 constant OBJECT_OPACITY = 0x3020;
+/// @dev LIGHT_COLOR and LIGHT_DIFFUSE of the light that casts shadows, where it shines.
+uint256 constant SHADOW_COLOR = 0x3040;
+uint256 constant SHADOW_DIFFUSE = 0x3060;
+/// @dev The share of the fragment that it reaches, by which those are weakened: see ShadowRows.
+uint256 constant SHADOW_SHARE = 0x3080;
+/// @dev The entry of the face, or where in calldata its list is; from where on that is not above the row.
+uint256 constant SHADOW_LIST = 0x30a0;
+uint256 constant SHADOW_BEGIN = 0x30c0;
+/// @dev Where in calldata the entries of the faces of the object begin.
+uint256 constant SHADOW_FACES = 0x30e0;
+/// @dev The address of a word for each column: which samples of the row are in the shadow.
+uint256 constant SHADOW_ROW = 0x3100;
+/// @dev 1 if all fragments of the triangle have one colour but for shadows; the last colour, and 1 more than the SHADOW_SHARE of it, 0 if
+/// there is none yet.
+uint256 constant IS_UNIFORM = 0x3120;
+uint256 constant UNIFORM_SHARE = 0x3140;
+uint256 constant UNIFORM_COLOR = 0x3160;
 /// @dev The functions of a shadow in the row, and their changes from pixel to pixel.
-uint256 constant SHADOW_FUNCTIONS = 0x2f40;
-/// @dev 1 if there is a TONE that changes anything; what light is multiplied by in the end, Q16, and its flags.
-uint256 constant IS_TONED = 0x3040;
-uint256 constant EXPOSURE = 0x3060;
-uint256 constant TONE_FLAGS = 0x3080;
+uint256 constant SHADOW_FUNCTIONS = 0x3180;
 
 // ------------------------------------------------------------------------------------------------------- triangle of a scene with effects
 
 /// @dev Its own colour without light: see COLOR_0.
-uint256 constant ALBEDO_0 = 0x30a0;
-uint256 constant ALBEDO_1 = 0x30c0;
-uint256 constant ALBEDO_2 = 0x30e0;
+uint256 constant ALBEDO_0 = 0x3280;
+uint256 constant ALBEDO_1 = 0x32a0;
+uint256 constant ALBEDO_2 = 0x32c0;
 /// @dev How much the normal of a flat face points up, Q24, -1..1.
-uint256 constant FACE_UP = 0x3100;
+uint256 constant FACE_UP = 0x32e0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x3120;
-uint256 constant FRAGMENT_PLACE_Y = 0x3140;
+uint256 constant FRAGMENT_PLACE_X = 0x3300;
+uint256 constant FRAGMENT_PLACE_Y = 0x3320;
 /// @dev Its normal, Q24, and the product of that with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x3160;
-uint256 constant FRAGMENT_NORMAL_Y = 0x3180;
-uint256 constant FRAGMENT_NORMAL_Z = 0x31a0;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x31c0;
+uint256 constant FRAGMENT_NORMAL_X = 0x3340;
+uint256 constant FRAGMENT_NORMAL_Y = 0x3360;
+uint256 constant FRAGMENT_NORMAL_Z = 0x3380;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x33a0;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x31e0;
-uint256 constant FACE_HINT = 0x3200;
+uint256 constant NORMAL_HINT = 0x33c0;
+uint256 constant FACE_HINT = 0x33e0;
 /// @dev What of a light's strength reaches it through its cone, Q16.
-uint256 constant FRAGMENT_CONE = 0x3220;
+uint256 constant FRAGMENT_CONE = 0x3400;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x3240;
+uint256 constant FRAGMENT_LIGHT = 0x3420;
 /// @dev If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
-uint256 constant PATCH_WEIGHT = 0x3260;
+uint256 constant PATCH_WEIGHT = 0x3440;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x3280;
-uint256 constant PATCH_END = 0x32a0;
+uint256 constant PATCH_BEGIN = 0x3460;
+uint256 constant PATCH_END = 0x3480;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x32c0;
+uint256 constant HAS_CLIPPED = 0x34a0;
 /// @dev DEPTH_STRIDE in both lanes of edges: see Rasterizer.
-uint256 constant STRIDE_LANES = 0x32e0;
+uint256 constant STRIDE_LANES = 0x34c0;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by addresses.
-uint256 constant DX_8 = 0x3300;
-uint256 constant ROW_STEP = 0x3320;
+uint256 constant DX_8 = 0x34e0;
+uint256 constant ROW_STEP = 0x3500;
 /// @dev The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has ended: the
 /// number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per row.
-uint256 constant LOWER_ROWS = 0x3340;
-uint256 constant LOWER_KEPT = 0x3360;
-uint256 constant LOWER_EDGE = 0x3380;
-uint256 constant LOWER_SLOPES = 0x33a0;
+uint256 constant LOWER_ROWS = 0x3520;
+uint256 constant LOWER_KEPT = 0x3540;
+uint256 constant LOWER_EDGE = 0x3560;
+uint256 constant LOWER_SLOPES = 0x3580;
 /// @dev Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
-uint256 constant DEEP_START = 0x33c0;
-uint256 constant DEEP_DX = 0x33e0;
-uint256 constant DEEP_DY = 0x3400;
+uint256 constant DEEP_START = 0x35a0;
+uint256 constant DEEP_DX = 0x35c0;
+uint256 constant DEEP_DY = 0x35e0;
 /// @dev Where the next triangle is listed; 0 if faces are drawn at once.
-uint256 constant LIST = 0x3420;
+uint256 constant LIST = 0x3600;
 /// @dev How many faces of the object were drawn or listed.
-uint256 constant DRAWN = 0x3440;
+uint256 constant DRAWN = 0x3620;
 /// @dev Faces of which twice the area, Q192, is not above this are not drawn: they face away.
-uint256 constant LEAST_AREA = 0x3460;
+uint256 constant LEAST_AREA = 0x3640;
 /// @dev What edges change per row.
-uint256 constant SLOPES = 0x3480;
+uint256 constant SLOPES = 0x3660;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x34a0;
+uint256 constant FACES_END = 0x3680;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x34c0;
-uint256 constant QUADRATIC_S = 0x34e0;
-uint256 constant QUADRATIC_T = 0x3500;
-uint256 constant QUADRATIC_SS = 0x3520;
-uint256 constant QUADRATIC_ST = 0x3540;
-uint256 constant QUADRATIC_TT = 0x3560;
+uint256 constant QUADRATIC_1 = 0x36a0;
+uint256 constant QUADRATIC_S = 0x36c0;
+uint256 constant QUADRATIC_T = 0x36e0;
+uint256 constant QUADRATIC_SS = 0x3700;
+uint256 constant QUADRATIC_ST = 0x3720;
+uint256 constant QUADRATIC_TT = 0x3740;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x3580;
-uint256 constant QUADRATIC_DX = 0x35a0;
-uint256 constant QUADRATIC_DY = 0x35c0;
-uint256 constant QUADRATIC_DXX = 0x35e0;
-uint256 constant QUADRATIC_DXY = 0x3600;
-uint256 constant QUADRATIC_DYY = 0x3620;
+uint256 constant QUADRATIC_START = 0x3760;
+uint256 constant QUADRATIC_DX = 0x3780;
+uint256 constant QUADRATIC_DY = 0x37a0;
+uint256 constant QUADRATIC_DXX = 0x37c0;
+uint256 constant QUADRATIC_DXY = 0x37e0;
+uint256 constant QUADRATIC_DYY = 0x3800;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x3640;
-uint256 constant BEND_GREEN = 0x3660;
-uint256 constant BEND_RED = 0x3680;
+uint256 constant BEND_BLUE = 0x3820;
+uint256 constant BEND_GREEN = 0x3840;
+uint256 constant BEND_RED = 0x3860;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
-uint256 constant NORMAL_0 = 0x36a0;
-uint256 constant NORMAL_1 = 0x36e0;
-uint256 constant NORMAL_2 = 0x3720;
+uint256 constant NORMAL_0 = 0x3880;
+uint256 constant NORMAL_1 = 0x38c0;
+uint256 constant NORMAL_2 = 0x3900;
 /// @dev The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x3760;
+uint256 constant HALF_CHANGE = 0x3940;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x3780;
-uint256 constant HALF_HINT = 0x37a0;
+uint256 constant RAY_HINT = 0x3960;
+uint256 constant HALF_HINT = 0x3980;
 /// @dev The record of a vertex in the middle of an edge.
-uint256 constant MIDDLE = 0x37c0;
+uint256 constant MIDDLE = 0x39a0;
 /// @dev 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
-uint256 constant DEPTHS_DIFFER = 0x38c0;
+uint256 constant DEPTHS_DIFFER = 0x3aa0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x38e0;
+uint256 constant QUADRATIC_HALF_DXX = 0x3ac0;
 /// @dev The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3900;
+uint256 constant NEAREST = 0x3ae0;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // Of the engines that take four samples of each pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x3920;
-uint256 constant SAMPLE_END = 0x3940;
-uint256 constant SAMPLE_TOP = 0x3960;
-uint256 constant SAMPLE_BOTTOM = 0x3980;
+uint256 constant SAMPLE_BEGIN = 0x3b00;
+uint256 constant SAMPLE_END = 0x3b20;
+uint256 constant SAMPLE_TOP = 0x3b40;
+uint256 constant SAMPLE_BOTTOM = 0x3b60;
 /// @dev Bytes of a row of samples; the address that those of row 0, column 0 would have, which may be below 0. Rows go down in memory, as
 /// they do in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x39a0;
-uint256 constant SAMPLE_ORIGIN = 0x39c0;
+uint256 constant SAMPLE_STRIDE = 0x3b80;
+uint256 constant SAMPLE_ORIGIN = 0x3ba0;
 /// @dev The address that the colour of row 0, column 0 would have; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x39e0;
+uint256 constant SAMPLE_IMAGE = 0x3bc0;
 /// @dev A pixel of the row that is drawn, with its samples at p, has its colour at ROW_IMAGE + 3 * (p / 32); what that is less in the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3a00;
-uint256 constant ROW_IMAGE_STEP = 0x3a20;
+uint256 constant ROW_IMAGE = 0x3be0;
+uint256 constant ROW_IMAGE_STEP = 0x3c00;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x3a40;
-uint256 constant MIXED_END = 0x3a60;
+uint256 constant MIXED = 0x3c20;
+uint256 constant MIXED_END = 0x3c40;
 /// @dev The row for which START is told; an eighth of DY.
-uint256 constant START_ROW = 0x3a80;
-uint256 constant DY_8 = 0x3aa0;
+uint256 constant START_ROW = 0x3c60;
+uint256 constant DY_8 = 0x3c80;
 /// @dev What the depths of the samples are above SAMPLE_SCALE times that of the centre of their pixel, signed lanes; of which: from
 /// SAMPLE_BASE.
-uint256 constant DEPTH_OFFSETS = 0x3ac0;
-uint256 constant DEPTH_BASE = 0x3ae0;
+uint256 constant DEPTH_OFFSETS = 0x3ca0;
+uint256 constant DEPTH_BASE = 0x3cc0;
 /// @dev The row for which sides and bounds are told: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3b00;
+uint256 constant SIDE_ROW = 0x3ce0;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and what they change per row.
-uint256 constant SIDE_LEFT = 0x3b20;
-uint256 constant SIDE_RIGHT = 0x3b40;
-uint256 constant SIDE_LEFT_STEP = 0x3b60;
-uint256 constant SIDE_RIGHT_STEP = 0x3b80;
+uint256 constant SIDE_LEFT = 0x3d00;
+uint256 constant SIDE_RIGHT = 0x3d20;
+uint256 constant SIDE_LEFT_STEP = 0x3d40;
+uint256 constant SIDE_RIGHT_STEP = 0x3d60;
 /// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; what they change per
 /// row; what those have more between which all samples are covered.
-uint256 constant BOUNDS = 0x3ba0;
-uint256 constant BOUND_STEPS = 0x3bc0;
-uint256 constant INSETS = 0x3be0;
+uint256 constant BOUNDS = 0x3d80;
+uint256 constant BOUND_STEPS = 0x3da0;
+uint256 constant INSETS = 0x3dc0;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; which: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3c00;
-uint256 constant KINK_SIDE = 0x3c20;
+uint256 constant KINK_ROW = 0x3de0;
+uint256 constant KINK_SIDE = 0x3e00;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3c40;
-uint256 constant KINK_EDGE = 0x3c60;
-uint256 constant KINK_STEP = 0x3c80;
+uint256 constant KINK_MASK = 0x3e20;
+uint256 constant KINK_EDGE = 0x3e40;
+uint256 constant KINK_STEP = 0x3e60;
 /// @dev From that row on: what is kept of the bounds, what takes the place of the rest; their changes, and INSETS.
-uint256 constant KINK_KEPT = 0x3ca0;
-uint256 constant KINK_BOUND = 0x3cc0;
-uint256 constant KINK_BOUND_STEPS = 0x3ce0;
-uint256 constant KINK_INSETS = 0x3d00;
+uint256 constant KINK_KEPT = 0x3e80;
+uint256 constant KINK_BOUND = 0x3ea0;
+uint256 constant KINK_BOUND_STEPS = 0x3ec0;
+uint256 constant KINK_INSETS = 0x3ee0;
 /// @dev Whether SPAN_BEGIN and SPAN_END are to be asked in each row: the bounds may be far outside.
-uint256 constant IS_CLAMPED = 0x3d20;
+uint256 constant IS_CLAMPED = 0x3f00;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3d40;
-uint256 constant SPAN_END = 0x3d60;
+uint256 constant SPAN_BEGIN = 0x3f20;
+uint256 constant SPAN_END = 0x3f40;
 /// @dev SAMPLE_STRIDE as addresses of samples are told, Q37.
-uint256 constant STRIDE_37 = 0x3d80;
+uint256 constant STRIDE_37 = 0x3f60;
 /// @dev What START changes per row if it is told by addresses.
-uint256 constant ROW_STEP_32 = 0x3da0;
+uint256 constant ROW_STEP_32 = 0x3f80;
 /// @dev The bounds of the row that is drawn by drawSpans, and their changes.
-uint256 constant ROW_BOUNDS = 0x3dc0;
-uint256 constant ROW_BOUND_STEPS = 0x3de0;
+uint256 constant ROW_BOUNDS = 0x3fa0;
+uint256 constant ROW_BOUND_STEPS = 0x3fc0;
 /// @dev What its sides change.
-uint256 constant ROW_LEFT_STEP = 0x3e00;
-uint256 constant ROW_RIGHT_STEP = 0x3e20;
+uint256 constant ROW_LEFT_STEP = 0x3fe0;
+uint256 constant ROW_RIGHT_STEP = 0x4000;
 /// @dev The addresses of the first pixel of the row of which all samples are covered, and of the one after the last.
-uint256 constant INNER_BEGIN = 0x3e40;
-uint256 constant INNER_END = 0x3e60;
+uint256 constant INNER_BEGIN = 0x4020;
+uint256 constant INNER_END = 0x4040;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x3e80;
+uint256 constant QUADRATIC_DOWN = 0x4060;
 /// @dev The row for which the quadratic functions are told.
-uint256 constant QUADRATIC_ROW = 0x3ea0;
+uint256 constant QUADRATIC_ROW = 0x4080;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x3ec0;
-
-// ------------------------------------------------------------------------------------------------------------------------- tables of sRGB
-// Where colours are lit as linear ones: see Gamma.
-
-/// @dev 16 bits each: the linear level of every fourth level, Q7.
-uint256 constant DECODE_TABLE = 0x3ee0;
-/// @dev 16 bits each: the level of a linear value, eight for each power of two from 2^7 in Q16 on, Q8.
-uint256 constant ENCODE_TABLE = 0x3f80;
+uint256 constant FARTHEST = 0x40a0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // What a light is to the frame, at LIGHTS.

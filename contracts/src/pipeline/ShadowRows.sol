@@ -30,12 +30,16 @@ library ShadowRows {
         }
     }
 
-    /// @notice Finds the entries of the faces of an object.
+    /// @notice Finds the entries of the faces of an object, and what the light is to it where it shines.
     /// @param object Its number in the scene.
     function setObject(uint256 object) internal pure {
         unchecked {
             uint256 shadows = load(SHADOWS);
-            if (shadows != 0) store(SHADOW_FACES, shadows + loadCalldata(shadows + 32 * object));
+            store(SHADOW_FACES, shadows + loadCalldata(shadows + 32 * object));
+            uint256 light = load(SHADOW_LIGHT);
+            store(SHADOW_COLOR, load(light + LIGHT_COLOR));
+            store(SHADOW_DIFFUSE, load(light + LIGHT_DIFFUSE));
+            store(SHADOW_SHARE, ALL_SAMPLES);
         }
     }
 

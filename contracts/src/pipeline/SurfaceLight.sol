@@ -3,9 +3,9 @@ pragma solidity 0.8.37;
 
 import {Gamma} from "../math/Gamma.sol";
 import {sqrt} from "../math/Roots.sol";
-import {TONE_FILMIC, TONE_GAMMA} from "./Effects.sol";
+import {TONE_FILMIC, TONE_GAMMA} from "../scene/EffectRecords.sol";
 import {FragmentLight} from "./FragmentLight.sol";
-import {Texture} from "./Texture.sol";
+import {OPACITY_AT, Texture} from "./Texture.sol";
 import "./Registers.sol";
 
 // The fragment shader of scenes with effects. With albedo, light and highlights of FragmentLight:
@@ -82,6 +82,14 @@ library SurfaceLight {
                 }
             }
             albedo := shr(24, add(add(mload(ALBEDO_0), mul(mload(ALBEDO_1), s)), mul(mload(ALBEDO_2), t)))
+            if mload(OPACITIES) {
+                let opacity := shr(OPACITY_AT, albedo)
+                // as the channels below
+                opacity := sub(opacity, ONE_24)
+                opacity := mul(opacity, sgt(opacity, 0))
+                if gt(opacity, WHITE_10) { opacity := WHITE_10 }
+                mstore(OPACITY, div(mul(opacity, mload(OBJECT_OPACITY)), WHITE_10))
+            }
             albedo := and(albedo, LANES_32)
             // each lane has 2^24 too much
             albedo := xor(albedo, ALBEDO_BIAS)

@@ -1,99 +1,47 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
-import {SCENE_OBJECTS} from "../scene/Scene.sol";
-import {SceneErrors} from "../scene/SceneErrors.sol";
+import {TEXTURE_BILINEAR, TEXTURE_CLAMP, TEXTURE_COLOR_BITS, TEXTURE_HEADER, UV_SIZE} from "../scene/EffectRecords.sol";
 import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";
 
-// The colour of a texture at a fragment. The content of a record TEXTURE of an object, in words of 32 bytes, is
-//
-//   flags         1 byte    sum of TEXTURE_BILINEAR and TEXTURE_CLAMP
-//   sides         2 bytes   width - 1 and height - 1
-//   bits          1 byte    of a texel: 1, 2, 4, 8, or 24
-//   palette                 2^bits colours of 3 bytes, red, green, blue; none for texels of 24 bits, which are colours themselves
-//   texels                  rows from the top, one after the other; zeros up to a whole byte
-//   coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the image,
-//                           (1, 1) the lower right one
-//   zeros up to a whole word
+// The colour of a texture at a fragment: see EffectRecords for how it is stored.
 //
 // Texture coordinates are interpolated correctly in perspective, two lanes of 128 bits: u below, v above. Texels are found as in OpenGL:
 // with the coordinate x = u * width, the nearest texel is floor(x); between texels, whose centres lie at i + 0.5, colours are linear.
 
-/// @dev Flags: colours are interpolated; beyond the border its colours go on.
-uint256 constant TEXTURE_BILINEAR = 1;
-uint256 constant TEXTURE_CLAMP = 2;
-/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates.
-uint256 constant TEXTURE_HEADER = 4;
-uint256 constant TEXTURE_COLOR_BITS = 24;
-uint256 constant UV_SIZE = 6;
-/// @dev 2^bits of each number of bits that a texel may have.
-uint256 constant BITS_ALLOWED = 0x1000116;
 uint256 constant ONE_12 = 0x1000;
 uint256 constant BELOW_ONE_24 = 0xffffff;
-
-/// @dev The kind of the record.
-uint256 constant TEXTURE_OF = 8;
+/// @dev Where the albedo has opacities, and what keeps them positive.
+uint256 constant OPACITY_AT = 168;
+uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
+uint256 constant Q34 = 34;
 
 library Texture {
-    /// @notice Checks a record.
-    function check(uint256 record, uint256 object) internal pure {
-        unchecked {
-            uint256 scene = 4 + FRAME_SIZE;
-            uint256 objects = scene + Extensions.word(scene + 32 * SCENE_OBJECTS);
-            uint256 count = Extensions.word(objects);
-            if (object >= count) revert SceneErrors.ExtensionIndex(TEXTURE_OF, object, count);
-            uint256 size = Extensions.sizeOf(record);
-            if (size == 0) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, 32, 0);
-            uint256 header = Extensions.word(record + RECORD_HEADER) >> 224;
-            (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
-            if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
-                revert SceneErrors.TextureFormat(object, flags, bits);
-            }
-            // the number of vertices stands behind the length and the format of the mesh
-            uint256 place = objects + 32 + Extensions.word(objects + 32 + 32 * object);
-            uint256 vertices = (Extensions.word(place + Extensions.word(place) + 32) >> 232) & 0xffff;
-            uint256 expected = (uvsOf(record + RECORD_HEADER) - record - RECORD_HEADER + UV_SIZE * vertices + 31) & ~uint256(31);
-            if (size != expected) revert SceneErrors.ExtensionSize(TEXTURE_OF, object, expected, size);
-        }
-    }
-
-    /// @notice The registers of an object whose uniforms were read.
-    /// @param object Its number in the scene.
-    function setObject(uint256 object) internal pure {
-        unchecked {
-            store(TEXTURE, 0);
-            uint256 end = load(EFFECTS_END);
-            uint256 key = (TEXTURE_OF << 16) | object;
-            for (uint256 record = load(EFFECTS); record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
-                if (Extensions.keyOf(record) != key) continue;
-                store(TEXTURE, record + RECORD_HEADER);
-                store(TEXTURE_UVS, uvsOf(record + RECORD_HEADER));
-            }
-        }
-    }
-
-    /// @dev Where the coordinates of vertices are.
-    function uvsOf(uint256 texture) private pure returns (uint256) {
-        unchecked {
-            uint256 header = Extensions.word(texture) >> 224;
-            uint256 bits = header & 0xff;
-            uint256 texels = (((header >> 16) & 0xff) + 1) * (((header >> 8) & 0xff) + 1);
-            return texture + TEXTURE_HEADER + (bits == TEXTURE_COLOR_BITS ? 0 : 3 << bits) + (texels * bits + 7) / 8;
-        }
-    }
-
     /// @notice The coordinates of a triangle: at the first vertex (Q40), and the differences to the others (Q16).
     /// @param a, b, c The screen words of its vertices, which records of 2^shift bytes have.
     function setTriangle(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
         unchecked {
-            uint256 first = coordinatesOf(a, shift);
+            uint256 first = coordinatesOf(a, shift, false);
             store(UV_0, first << Q24);
-            store(UV_1, coordinatesOf(b, shift) - first);
-            store(UV_2, coordinatesOf(c, shift) - first);
+            store(UV_1, coordinatesOf(b, shift, false) - first);
+            store(UV_2, coordinatesOf(c, shift, false) - first);
         }
+    }
+
+    /// @notice Adds the opacities of a triangle to its albedo, as a fourth lane.
+    function setOpacities(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
+        unchecked {
+            uint256 first = coordinatesOf(a, shift, true);
+            store(ALBEDO_0, load(ALBEDO_0) + OPACITY_BIAS + (first << (OPACITY_AT + Q34 - Q16)));
+            store(ALBEDO_1, load(ALBEDO_1) + (toQ10(coordinatesOf(b, shift, true) - first) << OPACITY_AT));
+            store(ALBEDO_2, load(ALBEDO_2) + (toQ10(coordinatesOf(c, shift, true) - first) << OPACITY_AT));
+        }
+    }
+
+    function toQ10(uint256 change) private pure returns (uint256) {
+        return uint256(int256(change) >> (Q16 - Q10));
     }
 
     /// @notice The colour at barycentric coordinates, Q24, that are correct in perspective: lanes of Q16, where 255 is one.
@@ -176,25 +124,29 @@ library Texture {
         }
     }
 
-    /// @dev The coordinates of a vertex, Q16: those of the mesh, or where the vertex is new, since its face was clipped, those of that
-    /// place of the face.
-    function coordinatesOf(uint256 screen, uint256 shift) private pure returns (uint256) {
+    /// @dev The texture coordinates, or the opacity, of a vertex, Q16: those of the mesh, or where the vertex is new, since its face was
+    /// clipped, those of that place of the face.
+    function coordinatesOf(uint256 screen, uint256 shift, bool isOpacity) private pure returns (uint256) {
         unchecked {
             uint256 index = ((screen & SCREEN_RECORD_MASK) - load(RECORDS)) >> shift;
-            return index < load(MESH_VERTEX_COUNT) ? readCoordinates(index) : cutCoordinates(screen);
+            return index < load(MESH_VERTEX_COUNT) ? readCoordinates(index, isOpacity) : cutCoordinates(screen, isOpacity);
         }
     }
 
-    function readCoordinates(uint256 index) private pure returns (uint256 uv) {
+    function readCoordinates(uint256 index, bool isOpacity) private pure returns (uint256 uv) {
         assembly ("memory-safe") {
-            uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE)))
-            uv := add(sar(232, uv), shl(128, sar(232, shl(24, uv))))
+            switch isOpacity
+            case 0 {
+                uv := calldataload(add(mload(TEXTURE_UVS), mul(index, UV_SIZE)))
+                uv := add(sar(232, uv), shl(128, sar(232, shl(24, uv))))
+            }
+            default { uv := shl(Q16, byte(0, calldataload(add(mload(OPACITIES), index)))) }
         }
     }
 
     /// @dev With the clip coordinates P of the vertices of the face, (x, y, 1) of the place is a multiple of their sum with the weights
     /// e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
-    function cutCoordinates(uint256 screen) private pure returns (uint256 uv) {
+    function cutCoordinates(uint256 screen, bool isOpacity) private pure returns (uint256 uv) {
         unchecked {
             uint256 indices = Triangles.readIndices(load(FACE));
             for (uint256 i; i != 3; ++i) {
@@ -202,7 +154,7 @@ library Texture {
                 uint256 index = (indices >> (FACE_FIRST_AT - FACE_SECOND_AT * i)) & FACE_INDEX_MASK;
                 VertexShader.clipCoordinates(index, corner);
                 if (load(FRAME_IS_ORTHOGRAPHIC) != 0) store(corner + CORNER_W, ONE_32);
-                store(corner + CORNER_COLOR, readCoordinates(index));
+                store(corner + CORNER_COLOR, readCoordinates(index, isOpacity));
             }
             int256 x = int256((screen >> SCREEN_COLUMN_AT) & SCREEN_COLUMN_MASK);
             int256 y = int256(screen >> SCREEN_ROW_AT);

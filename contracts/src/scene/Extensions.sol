@@ -16,8 +16,8 @@ import {SceneErrors} from "./SceneErrors.sol";
 //                      is left, Q32, -1..1
 //   OPACITY            of an object: 4 bytes, Q24, below 1
 //   ANTIALIAS          of the scene: nothing; edges are smoothed
-//   4 and above        effects, of the scene or of an object: see Effects.sol. A scene that has any is drawn by the EffectsEngine, which
-//                      checks them
+//   4 and above        effects, of the scene or of an object: see EffectRecords.sol. A scene that has any is drawn by the
+//                      EffectsEngine
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
@@ -141,12 +141,12 @@ library Extensions {
         }
     }
 
-    /// @notice Whether there is a record of this kind and index.
-    function has(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (bool) {
+    /// @notice Where the content of the record of this kind and index begins; 0 if there is none.
+    function find(Scene calldata scene, uint256 kind, uint256 index) internal pure returns (uint256) {
         unchecked {
             (uint256 record, uint256 end) = behind(scene, kind - 1);
             while (record != end && keyOf(record) < (kind << 16 | index)) record += RECORD_HEADER + sizeOf(record);
-            return isOf(record, end, kind, index);
+            return isOf(record, end, kind, index) ? record + RECORD_HEADER : 0;
         }
     }
 

@@ -5,9 +5,8 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TONE, TONE_FILMIC, TONE_GAMMA} from "../pipeline/Effects.sol";
+import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA} from "../scene/EffectRecords.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
-import {TEXTURE_OF} from "../pipeline/Texture.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES

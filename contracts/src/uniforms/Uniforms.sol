@@ -2,9 +2,9 @@
 pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
-import {Vector} from "../math/Vector.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
+import {OPACITIES_OF} from "../scene/EffectRecords.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
@@ -89,31 +89,11 @@ library Uniforms {
             assembly ("memory-safe") {
                 mcopy(TILE_X, tile, 0x80)
             }
-            setEffects(view_, scene);
+            (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS - 1);
+            store(FRAME_IS_ANTIALIASED, record == end ? 0 : 1);
             setBackground(scene, tile);
             store(INVERT, scene.invert);
             extension = Lights.set(view_, scene);
-        }
-    }
-
-    /// @dev What the extensions say of the frame.
-    function setEffects(View memory view_, Scene calldata scene) private pure {
-        unchecked {
-            (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS - 1);
-            store(FRAME_IS_ANTIALIASED, record == end ? 0 : 1);
-            (record, end) = Extensions.behind(scene, ANTIALIAS);
-            if (record == end) return;
-            assembly ("memory-safe") {
-                // their places in the engine's calldata
-                let moved := sub(add(4, FRAME_SIZE), scene)
-                mstore(EFFECTS, add(record, moved))
-                mstore(EFFECTS_END, add(end, moved))
-            }
-            store(AMBIENT_LIGHT, Lights.colorLanes(scene.ambientLight));
-            // the products with (0, 1, 0)
-            storeSigned(UP_X, view_.right.y.raw() >> (Q32 - Q24));
-            storeSigned(UP_Y, view_.down.y.raw() >> (Q32 - Q24));
-            storeSigned(UP_Z, view_.forward.y.raw() >> (Q32 - Q24));
         }
     }
 
@@ -182,21 +162,21 @@ library Uniforms {
             }
             store(OBJECT_FLAGS, object.flags);
             uint256 mode = view_.orthographic ? IS_ORTHOGRAPHIC : 0;
+            bool hasEffects = load(EFFECTS) != 0;
             if (load(OPACITY) != OPAQUE) mode |= IS_BLENDED;
+            else if (hasEffects && Extensions.find(scene, OPACITIES_OF, number) != 0) mode |= IS_BLENDED;
             uint256 end = OBJECT_LIT;
             if (object.material.shading != UNLIT) {
                 mode |= Materials.set(view_, scene, object.material);
                 if (mode & IS_SMOOTH != 0) Transform.setNormalMatrix(view_, rotation);
                 else MeshSpace.set(view_, scene, object, rotation);
-                if (load(EFFECTS) != 0) {
-                    store(AMBIENT_COEFFICIENT, uint256(object.material.ambient.raw()) >> (Q32 - Q16));
-                    store(DIFFUSE_COEFFICIENT, uint256(object.material.diffuse.raw()) >> (Q32 - Q16));
-                    MeshSpace.storeLanes(UP_IN_MESH, Vector(rotation.x.y, rotation.y.y, rotation.z.y));
-                }
                 // no square is beyond the beginning of a table that is not there
-                if (load(EFFECTS) != 0) end = OBJECT_END;
-                else if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
+                if (load(SPECULAR_BEGIN) != type(uint256).max) end = SPECULAR_TABLE_END;
                 else end = OBJECT_LIGHTS + scene.lights.length * LIGHT_SIZE;
+            }
+            if (hasEffects) {
+                store(OBJECT_NUMBER, number);
+                end = OBJECT_END;
             }
             store(OBJECT_MODE, mode);
             store(OBJECT_BYTES, end - OBJECT_BYTES);

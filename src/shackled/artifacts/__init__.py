@@ -17,7 +17,7 @@ RENDERER = (
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
     "EffectsEngine",
-    "Shadows",
+    "Effects",
     "Renderer",
 )
 

@@ -25,7 +25,7 @@ def deploy(
         option(
             "--contracts",
             "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "EffectsEngine, Shadows, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, "
+            "EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, "
             "GenesisMetadata; without it, the first nine. Contracts that they call are added.",
             "NAMES",
         ),

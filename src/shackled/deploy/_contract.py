@@ -17,7 +17,7 @@ STANDARD = (
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
     "EffectsEngine",
-    "Shadows",
+    "Effects",
     "Renderer",
     "Original",
     "Genesis",

@@ -82,14 +82,15 @@ def _runs(data: bytes) -> list[list[_Object]]:
     """Return runs of objects that one engine draws; an empty one if there is nothing to draw."""
     objects, position = [], _load(data, _place(layout.OBJECTS_BEGIN))
     kind = "Antialiased" if _load(data, _place(layout.FRAME_IS_ANTIALIASED)) else ""
+    has_effects = _load(data, _place(layout.EFFECTS)) != 0
     for number in range(_load(data, _place(layout.OBJECT_COUNT))):
         mode, flags = (
             _load(data, position + word - layout.OBJECT_BYTES) for word in (layout.OBJECT_MODE, layout.OBJECT_FLAGS)
         )
         is_blended = mode & layout.IS_BLENDED != 0
         by_fragments = is_blended or flags & WIREFRAME or mode & (layout.IS_SMOOTH | layout.IS_SPOT_LIT)
-        engine = "FragmentEngine" if by_fragments else "Engine"
-        objects.append(_Object(number, position, kind + engine, is_blended))
+        engine = kind + ("FragmentEngine" if by_fragments else "Engine")
+        objects.append(_Object(number, position, "EffectsEngine" if has_effects else engine, is_blended))
         position += _load(data, position)
     runs = [(key, list(run)) for key, run in groupby(objects, lambda each: (each.engine, each.is_blended))]
     # a stable sort: blended objects come last

@@ -10,11 +10,11 @@ from ..artifacts import artifact
 from ..errors import RenderError
 from ..image import encode_bmp
 from ..scene import Rectangle, Scene, encode
-from . import coverage, effects, extensions
+from . import coverage, extensions
 from .call import read_call
 from .pipeline import Picture, assemble, draw
 
-__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector", "shadow_answer"]
+__all__ = ["Picture", "count", "draw_call", "encode_bmp", "engines", "render", "selector", "shadows_of"]
 
 
 def render(scene: Scene, tile: Rectangle | None = None) -> bytes:
@@ -39,20 +39,20 @@ def draw_call(data: bytes) -> Picture:
 
 
 def engines(data: bytes) -> list[str]:
-    """Return the engines that draw what a call of the Renderer asks for; those of plain scenes if it has none."""
+    """Return the contracts that draw what a call of the Renderer asks for; those of plain scenes if it has none."""
     try:
         scene, _ = read_call(data)
         records = extensions.read_records(scene.extensions)
     except RenderError:
         records = {}
     if extensions.has_effects(records):
-        return ["EffectsEngine", "Shadows"] if effects.has_shadows(records) else ["EffectsEngine"]
+        return ["EffectsEngine", "Effects"]
     prefix = "Antialiased" if extensions.is_antialiased(records) else ""
     return [prefix + "Engine", prefix + "FragmentEngine"]
 
 
-def shadow_answer(data: bytes) -> bytes:
-    """Return the answer of the contract Shadows for the scene of a call of the Renderer."""
+def shadows_of(data: bytes) -> bytes:
+    """Return the shadows that the contract Effects finds for the scene of a call of the Renderer."""
     shadows = assemble(*read_call(data))[0].shadows
     return b"" if shadows is None else shadows.encode()
 

@@ -3,15 +3,10 @@
 from __future__ import annotations
 
 from . import layout
-from .effects import GROUND
+from .effect_records import GROUND, radii
 from .layout import IS_BLENDED
 from .registers import Registers
 from .words import MASK, divide, signed
-
-
-def radii(content: bytes) -> tuple[int, int]:
-    """Return the distances at which a ground begins to fade and at which nothing is left of it, Q32."""
-    return int.from_bytes(content[:8], "big"), int.from_bytes(content[8:16], "big")
 
 
 def set_object(index: int, r: Registers) -> None:

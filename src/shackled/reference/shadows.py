@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from . import ground, layout, transform, vertex_shader
-from .effects import GROUND, SHADOW
-from .extensions import MAX_COORDINATE, OPACITY, Records
+from . import layout, transform, vertex_shader
+from .effect_records import ALL, GROUND, SHADOW, TURNED
+from .extensions import OPACITY, Records
 from .mesh import Mesh, open_mesh
 from .registers import Registers
 from .roots import sqrt
@@ -22,8 +22,6 @@ from .vector import Vector, cross, normalize, scale, subtract, to_matrix, transp
 from .view import View
 from .words import divide, divide_signed
 
-#: Which faces of culled objects cast shadows: all, those turned away from the light, those turned to it.
-ALL, AVERSE, TURNED = 1, 2, 3
 #: The farthest place that casts a shadow has coordinates of so many bits in the space of the light.
 COORDINATE_BITS = 19
 #: Coordinates are divided into so many ranges, to find what may shade a face.
@@ -102,35 +100,17 @@ class Face:
     planes: list[tuple[int, int, int, int]] = field(default_factory=list)
 
 
-def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
-    """Check the records of shadows; return the light that casts them, and which faces of culled objects do."""
-    found = None
-    for (kind, index), content in records.items():
-        if kind not in (SHADOW, GROUND):
-            continue
-        count = len(scene.lights if kind == SHADOW else scene.objects)
-        if len(content) != 32:
-            raise Reverted("ExtensionSize", kind=kind, index=index, expected=32, actual=len(content))
-        if index >= count:
-            raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
-        if kind == SHADOW:
-            if found is not None:
-                raise Reverted("SeveralShadows", light=index)
-            rule = int.from_bytes(content, "big")
-            if not ALL <= rule <= TURNED:
-                raise Reverted("ShadowRuleOutOfRange", light=index, rule=rule)
-            found = index, rule
-        else:
-            near, far = ground.radii(content)
-            if near >= far or far > MAX_COORDINATE:
-                raise Reverted("GroundOutOfRange", object=index, inner=near, outer=far)
-    return found
+def shadow_of(records: Records) -> tuple[int, int] | None:
+    """Return the light that casts shadows, and which faces of culled objects do; None if there is none."""
+    return next(
+        ((index, int.from_bytes(content, "big")) for (kind, index), content in records.items() if kind == SHADOW), None
+    )
 
 
 def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
     """Return what the light of the SHADOW record does not reach; None if there is no such record."""
     records = registers.records
-    found = check_shadows(scene, records)
+    found = shadow_of(records)
     if found is None:
         return None
     light, rule = found

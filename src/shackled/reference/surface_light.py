@@ -12,7 +12,7 @@ Narkowicz.
 from __future__ import annotations
 
 from . import gamma, texture
-from .effects import TONE_FILMIC, TONE_GAMMA
+from .effect_records import TONE_FILMIC, TONE_GAMMA
 from .fragment_light import WEIGHTED_BIAS, color_at
 from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH, IS_STEEP
 from .registers import Registers

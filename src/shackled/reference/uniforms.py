@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import effects, ground, lights, materials, mesh_space, transform
-from .effects import TEXTURE
+from .effect_records import TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
 from .registers import Registers

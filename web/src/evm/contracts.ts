@@ -18,7 +18,7 @@ export const RENDERER = [
     "AntialiasedEngine",
     "AntialiasedFragmentEngine",
     "EffectsEngine",
-    "Shadows",
+    "Effects",
     "Renderer",
 ] as const;
 export type ContractName = (typeof RENDERER)[number] | "Studio";

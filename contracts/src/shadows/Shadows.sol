@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ZERO} from "./math/Fixed.sol";
-import {Vector, normalize} from "./math/Vector.sol";
-import {Matrix} from "./math/Quaternion.sol";
-import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
-import {Mesh, openMesh} from "./scene/Mesh.sol";
-import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
-import {SceneErrors} from "./scene/SceneErrors.sol";
-import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
-import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
-import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
-import {Indices} from "./pipeline/Indices.sol";
-import {Triangles} from "./pipeline/Triangles.sol";
-import {GROUND, MAX_FADE, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
-import {Transform} from "./uniforms/Transform.sol";
-import {View, lookAt} from "./uniforms/View.sol";
-import "./pipeline/Registers.sol";
+import {ZERO} from "../math/Fixed.sol";
+import {Vector, normalize} from "../math/Vector.sol";
+import {Matrix} from "../math/Quaternion.sol";
+import {Extensions, OPACITY_OF} from "../scene/Extensions.sol";
+import {Mesh, openMesh} from "../scene/Mesh.sol";
+import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
+import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./Faces.sol";
+import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
+import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./Receivers.sol";
+import {Indices} from "../pipeline/Indices.sol";
+import {Triangles} from "../pipeline/Triangles.sol";
+import {GROUND, OPACITIES_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/EffectRecords.sol";
+import {Transform} from "../uniforms/Transform.sol";
+import {View} from "../uniforms/View.sol";
+import "../pipeline/Registers.sol";
 
-/// @title Shadows: which parts of which faces one light does not reach.
-/// @notice The work of the Renderer for scenes with a SHADOW. Stateless.
-///
-/// Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what lies behind it.
-/// For each face that the light may reach, those are found that may shade it: see Faces. Most faces are wholly lit or wholly dark; of the
-/// others each half-space becomes a function of the place on the canvas: see Receivers.
-contract Shadows is SceneErrors {
+// Which parts of which faces one light does not reach.
+//
+// Every face that casts a shadow is four half-spaces, exact in integers: its three sides as seen from the light, and what lies behind it.
+// For each face that the light may reach, those are found that may shade it: see Faces. Most faces are wholly lit or wholly dark; of the
+// others each half-space becomes a function of the place on the canvas: see Receivers.
+
+library Shadows {
     /// @dev What is in memory, by addresses.
     /// @param frame The space of the light.
     /// @param vertices, faces Of each object, where its vertices and faces begin.
@@ -58,21 +57,14 @@ contract Shadows is SceneErrors {
     uint256 private constant ENTRY_BITS = 32;
     uint256 private constant ENTRIES = 8;
 
-    /// @notice What the light of the SHADOW does not reach. But for the records of shadows, which are checked here, the scene must be
-    /// checked.
-    /// @return For each object a word: where from the beginning of the answer on the entries of its faces begin. Then the entries, 4 bytes
-    /// for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of it, as words:
-    /// see Receivers. The entries are filled up to whole words. Nothing if no light casts shadows. Without the ABI's offset and length.
-    function cast(Scene calldata scene) external pure returns (bytes memory) {
+    /// @notice What the light of the SHADOW does not reach. The registers of the frame must be set: see EffectUniforms.
+    /// @return begin Where it is in memory: for each object a word, where from the beginning on the entries of its faces begin. Then the
+    /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of
+    /// it, as words: see Receivers. The entries are filled up to whole words.
+    /// @return size Its bytes.
+    function cast(Scene calldata scene, View memory view_) internal pure returns (uint256 begin, uint256 size) {
         unchecked {
-            (uint256 rule, uint256 light) = check(scene);
-            if (rule == 0) {
-                assembly ("memory-safe") {
-                    return(0, 0)
-                }
-            }
-            reserveRegisters(REGISTERS, REGISTERS_END);
-            View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
+            uint256 light = (load(SHADOW_LIGHT) - LIGHTS) / LIGHT_SIZE;
             State memory state;
             (state.width, state.height, state.light) = (scene.canvas.width, scene.canvas.height, light);
             int256[6] memory bounds = readVertices(scene, state);
@@ -80,46 +72,19 @@ contract Shadows is SceneErrors {
                 state.frame = LightSpace.frameOf(scene.lights[light], bounds);
                 LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
                 setEye(scene, view_, state);
-                readFaces(scene, state, rule);
+                readFaces(scene, state, Extensions.word(Extensions.find(scene, SHADOW, light)));
                 for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
             } else {
                 readFaces(scene, state, 0);
             }
-            answer(state);
-        }
-    }
-
-    /// @dev Checks the records.
-    /// @return rule That of the light that casts shadows; 0 if there is none.
-    /// @return light Its number.
-    function check(Scene calldata scene) private pure returns (uint256 rule, uint256 light) {
-        unchecked {
-            (uint256 record, uint256 end) = Extensions.behind(scene, SHADOW - 1);
-            for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
-                uint256 key = Extensions.keyOf(record);
-                (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
-                if (kind > GROUND) break;
-                uint256 size = Extensions.sizeOf(record);
-                if (size != 32) revert SceneErrors.ExtensionSize(kind, index, 32, size);
-                uint256 count = kind == SHADOW ? scene.lights.length : scene.objects.length;
-                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
-                uint256 content = Extensions.word(record + RECORD_HEADER);
-                if (kind == GROUND) {
-                    uint256 outer = (content >> 128) & LANE_64;
-                    if (content >> 192 >= outer || outer > MAX_FADE) revert SceneErrors.GroundOutOfRange(index, content >> 192, outer);
-                    continue;
-                }
-                if (rule != 0) revert SceneErrors.SeveralShadows(index);
-                (rule, light) = (content, index);
-                if (rule == 0 || rule > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, rule);
-            }
+            return answer(state);
         }
     }
 
     /// @dev Whether an object casts a shadow: not wires, what is not opaque, and what shall not.
     function casts(Scene calldata scene, uint256 index) private pure returns (bool) {
-        return scene.objects[index].flags & WIREFRAME == 0 && !Extensions.has(scene, OPACITY_OF, index)
-            && !Extensions.has(scene, GROUND, index);
+        return scene.objects[index].flags & WIREFRAME == 0 && Extensions.find(scene, OPACITY_OF, index) == 0
+            && Extensions.find(scene, OPACITIES_OF, index) == 0 && Extensions.find(scene, GROUND, index) == 0;
     }
 
     /// @dev Writes all vertices in the world.
@@ -424,12 +389,12 @@ contract Shadows is SceneErrors {
         }
     }
 
-    /// @dev Ends the call with the entries and lists of all faces.
-    function answer(State memory state) private pure {
+    /// @dev Writes the entries and lists of all faces.
+    function answer(State memory state) private pure returns (uint256 begin, uint256 size) {
         unchecked {
             uint256 face = state.faces[0];
             uint256 last = state.faces[state.faces.length - 1];
-            uint256 begin = freeMemory();
+            begin = freeMemory();
             uint256 objects = state.faces.length - 1;
             uint256 target = begin + 32 * objects;
             for (uint256 i; i != objects; ++i) {
@@ -453,9 +418,7 @@ contract Shadows is SceneErrors {
                 store(target, word);
                 target += 32;
             }
-            assembly ("memory-safe") {
-                return(begin, sub(end, begin))
-            }
+            size = end - begin;
         }
     }
 

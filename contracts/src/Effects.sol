@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Ambient, EffectUniforms} from "./uniforms/EffectUniforms.sol";
+import {View, lookAt} from "./uniforms/View.sol";
+import {EffectRecords} from "./scene/EffectRecords.sol";
+import {Scene} from "./scene/Scene.sol";
+import {SceneErrors} from "./scene/SceneErrors.sol";
+import {Shadows} from "./shadows/Shadows.sol";
+import "./pipeline/Registers.sol";
+
+/// @title Effects: what the EffectsEngine needs to know before it draws.
+/// @notice The work of the Renderer for scenes with effects. It checks their records, and computes uniforms and shadows. Stateless.
+contract Effects is SceneErrors {
+    /// @notice What effects are to the frame and to each object. But for the records of effects, which are checked here, the scene must be
+    /// checked.
+    /// @return The registers EFFECT_FRAME; for each object its registers EFFECT_OBJECT; then the shadows, if a light casts any: see
+    /// Shadows. Without the ABI's offset and length.
+    function prepare(Scene calldata scene) external pure returns (bytes memory) {
+        unchecked {
+            EffectRecords.check(scene);
+            reserveRegisters(REGISTERS, REGISTERS_END);
+            View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
+            Ambient memory ambient = EffectUniforms.setFrame(view_, scene);
+            // the scene is the only argument, and stands behind the registers of the frame in the engine's calldata
+            uint256 moved;
+            assembly ("memory-safe") {
+                moved := sub(add(4, FRAME_SIZE), scene)
+            }
+            uint256 begin = freeMemory();
+            uint256 end = begin + EFFECT_FRAME_SIZE;
+            for (uint256 i; i != scene.objects.length; ++i) {
+                setFreeMemory(end + EFFECT_OBJECT_SIZE);
+                EffectUniforms.setObject(view_, scene, ambient, i, moved);
+                assembly ("memory-safe") {
+                    mcopy(end, EFFECT_OBJECT_BEGIN, EFFECT_OBJECT_SIZE)
+                }
+                end += EFFECT_OBJECT_SIZE;
+            }
+            setFreeMemory(end);
+            uint256 size;
+            if (load(SHADOW_LIGHT) != 0) {
+                store(SHADOWS, end - begin);
+                uint256 shadows;
+                (shadows, size) = Shadows.cast(scene, view_);
+                assembly ("memory-safe") {
+                    mcopy(end, shadows, size)
+                }
+            }
+            assembly ("memory-safe") {
+                mcopy(begin, EFFECT_FRAME_BEGIN, EFFECT_FRAME_SIZE)
+                return(begin, sub(add(end, size), begin))
+            }
+        }
+    }
+}

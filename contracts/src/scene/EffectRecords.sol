@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {ANTIALIAS, Extensions, RECORD_HEADER} from "./Extensions.sol";
+import {openMesh} from "./Mesh.sol";
+import {Scene} from "./Scene.sol";
+import {SceneErrors} from "./SceneErrors.sol";
+
+// The records of effects: see Extensions. Those up to TONE are of the scene, with index 0; colours are three bytes, red, green, blue:
+//
+//   HEMISPHERE   the colours of the light from above, y up, and of that from below
+//   RIM          the colour of the light at silhouettes, and the power by which it falls off, 1 byte, 1..16
+//   FOG          its colour, and the distances along the line of sight at which it begins and at which it hides everything, 8 bytes each,
+//                Q32, 0 to 2^58, the second above the first
+//   TONE         what light is multiplied by in the end, 4 bytes, Q16, above 0, up to 64; and 1 byte of flags: see TONE_FILMIC
+//   TEXTURE      of an object, in words of 32 bytes, filled up with zeros:
+//                flags         1 byte    sum of TEXTURE_BILINEAR and TEXTURE_CLAMP
+//                sides         2 bytes   width - 1 and height - 1
+//                bits          1 byte    of a texel: 1, 2, 4, 8, or 24
+//                palette                 2^bits colours of 3 bytes; none for texels of 24 bits, which are colours themselves
+//                texels                  rows from the top, one after the other; zeros up to a whole byte
+//                coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the
+//                                        image, (1, 1) the lower right one
+//   OPACITIES    of an object, in words: 1 byte for each vertex of the mesh, 255 where it is opaque, filled up with zeros
+//   SHADOW       of the light that casts shadows; there is one at most: a word, which faces of culled objects do: see SHADOWS_ALL
+//   GROUND       of an object that casts none, and fades into what is behind it: a word, of which the upper half has the distances from its
+//                position at which it begins to fade and at which nothing is left of it, 8 bytes each, Q32, 0 to 2^58, the second above the
+//                first
+//
+// What they do is told in SurfaceLight, Texture and Ground.
+
+uint256 constant HEMISPHERE = 4;
+uint256 constant RIM = 5;
+uint256 constant FOG = 6;
+uint256 constant TONE = 7;
+uint256 constant TEXTURE_OF = 8;
+uint256 constant OPACITIES_OF = 9;
+uint256 constant SHADOW = 10;
+uint256 constant GROUND = 11;
+
+uint256 constant HEMISPHERE_SIZE = 6;
+uint256 constant RIM_SIZE = 4;
+uint256 constant FOG_SIZE = 19;
+uint256 constant TONE_SIZE = 5;
+
+uint256 constant MAX_RIM_POWER = 16;
+/// @dev 2^26 units, Q32.
+int256 constant MAX_FOG_DISTANCE = 1 << 58;
+/// @dev Q16.
+uint256 constant MAX_EXPOSURE = 64 << 16;
+/// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
+uint256 constant TONE_FILMIC = 1;
+uint256 constant TONE_GAMMA = 2;
+/// @dev Flags of a TEXTURE: colours are interpolated; beyond the border its colours go on.
+uint256 constant TEXTURE_BILINEAR = 1;
+uint256 constant TEXTURE_CLAMP = 2;
+/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates; 2^bits of all bits that a texel may have.
+uint256 constant TEXTURE_HEADER = 4;
+uint256 constant TEXTURE_COLOR_BITS = 24;
+uint256 constant UV_SIZE = 6;
+uint256 constant BITS_ALLOWED = 0x1000116;
+/// @dev The greatest radius of a GROUND, 2^26 units, Q32.
+uint256 constant MAX_FADE = 1 << 58;
+
+/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
+/// closed; those turned to it.
+uint256 constant SHADOWS_ALL = 1;
+uint256 constant SHADOWS_AVERSE = 2;
+uint256 constant SHADOWS_TURNED = 3;
+
+library EffectRecords {
+    /// @notice Checks all records of effects.
+    function check(Scene calldata scene) internal pure {
+        unchecked {
+            (uint256 record, uint256 end) = Extensions.behind(scene, ANTIALIAS);
+            bool hasShadow;
+            for (; record != end; record += RECORD_HEADER + Extensions.sizeOf(record)) {
+                uint256 key = Extensions.keyOf(record);
+                (uint256 kind, uint256 index) = (key >> 16, key & 0xffff);
+                if (kind > GROUND) revert SceneErrors.UnknownExtension(kind, index);
+                uint256 count = kind <= TONE ? 1 : kind == SHADOW ? scene.lights.length : scene.objects.length;
+                if (index >= count) revert SceneErrors.ExtensionIndex(kind, index, count);
+                (uint256 size, uint256 expected) = (Extensions.sizeOf(record), sizeOf(scene, record, kind, index));
+                if (size != expected) revert SceneErrors.ExtensionSize(kind, index, expected, size);
+                uint256 content = Extensions.word(record + RECORD_HEADER);
+                if (kind == RIM) checkRim(content);
+                if (kind == FOG) checkFog(content);
+                if (kind == TONE) checkTone(content);
+                if (kind == GROUND) checkGround(content, index);
+                if (kind == SHADOW) {
+                    if (hasShadow) revert SceneErrors.SeveralShadows(index);
+                    hasShadow = true;
+                    if (content == 0 || content > SHADOWS_TURNED) revert SceneErrors.ShadowRuleOutOfRange(index, content);
+                }
+            }
+        }
+    }
+
+    /// @dev The bytes that the content of a record must have.
+    function sizeOf(Scene calldata scene, uint256 record, uint256 kind, uint256 index) private pure returns (uint256) {
+        unchecked {
+            if (kind == HEMISPHERE) return HEMISPHERE_SIZE;
+            if (kind == RIM) return RIM_SIZE;
+            if (kind == FOG) return FOG_SIZE;
+            if (kind == TONE) return TONE_SIZE;
+            if (kind >= SHADOW) return 32;
+            uint256 size = openMesh(scene.objects[index].mesh).vertexCount;
+            if (kind == TEXTURE_OF) {
+                if (Extensions.sizeOf(record) == 0) return 32;
+                record += RECORD_HEADER;
+                uint256 header = Extensions.word(record) >> 224;
+                (uint256 flags, uint256 bits) = (header >> 24, header & 0xff);
+                if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP || (BITS_ALLOWED >> bits) & 1 == 0) {
+                    revert SceneErrors.TextureFormat(index, flags, bits);
+                }
+                size = UV_SIZE * size + uvsOf(record) - record;
+            }
+            return (size + 31) & ~uint256(31);
+        }
+    }
+
+    /// @notice Where the coordinates of vertices are in the content of a TEXTURE.
+    function uvsOf(uint256 texture) internal pure returns (uint256) {
+        unchecked {
+            uint256 header = Extensions.word(texture) >> 224;
+            uint256 bits = header & 0xff;
+            uint256 texels = (((header >> 16) & 0xff) + 1) * (((header >> 8) & 0xff) + 1);
+            return texture + TEXTURE_HEADER + (bits == TEXTURE_COLOR_BITS ? 0 : 3 << bits) + (texels * bits + 7) / 8;
+        }
+    }
+
+    /// @notice The power of a RIM.
+    function rimPower(uint256 content) internal pure returns (uint256) {
+        return (content >> 224) & 0xff;
+    }
+
+    /// @notice The distances of a FOG, Q32.
+    function fogDistances(uint256 content) internal pure returns (int256 near, int256 far) {
+        return (int256(content << 24) >> 192, int256(content << 88) >> 192);
+    }
+
+    /// @notice The exposure of a TONE, Q16, and its flags.
+    function toneOf(uint256 content) internal pure returns (uint256 exposure, uint256 flags) {
+        return (content >> 224, (content >> 216) & 0xff);
+    }
+
+    /// @notice The radii of a GROUND, Q32.
+    function radiiOf(uint256 content) internal pure returns (uint256 inner, uint256 outer) {
+        return (content >> 192, (content >> 128) & type(uint64).max);
+    }
+
+    function checkRim(uint256 content) private pure {
+        uint256 power = rimPower(content);
+        if (power == 0 || power > MAX_RIM_POWER) revert SceneErrors.RimPowerOutOfRange(power);
+    }
+
+    function checkFog(uint256 content) private pure {
+        (int256 near, int256 far) = fogDistances(content);
+        if (near < 0 || near >= far || far > MAX_FOG_DISTANCE) revert SceneErrors.FogOutOfRange(near, far);
+    }
+
+    function checkTone(uint256 content) private pure {
+        (uint256 exposure, uint256 flags) = toneOf(content);
+        if (exposure == 0 || exposure > MAX_EXPOSURE) revert SceneErrors.ExposureOutOfRange(exposure);
+        if (flags > TONE_FILMIC | TONE_GAMMA) revert SceneErrors.UnknownToneFlags(flags);
+    }
+
+    function checkGround(uint256 content, uint256 object) private pure {
+        (uint256 inner, uint256 outer) = radiiOf(content);
+        if (inner >= outer || outer > MAX_FADE) revert SceneErrors.GroundOutOfRange(object, inner, outer);
+    }
+}
