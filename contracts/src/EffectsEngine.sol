@@ -11,7 +11,6 @@ import {ShadowRows} from "./pipeline/ShadowRows.sol";
 import {Texture} from "./pipeline/Texture.sol";
 import {Shading} from "./pipeline/Shading.sol";
 import {SmoothShading} from "./pipeline/SmoothShading.sol";
-import {WEIGHTED_BIAS} from "./pipeline/FragmentLight.sol";
 import {Rectangle} from "./scene/Scene.sol";
 import "./pipeline/Registers.sol";
 
@@ -97,15 +96,8 @@ contract EffectsEngine is SampleBuffer, SampleWires {
             if (mode & IS_LIT != 0 && load(SHADOWS) != 0) ShadowRows.setFace();
             (uint256 attributesA, uint256 attributesB, uint256 attributesC) = Shading.attributesOf(a, b, c);
             Shading.setExact(a, b, c, attributesA, attributesB, attributesC, mode | crossing);
-            // FragmentLight is to return highlights alone
-            store(ALBEDO_0, load(COLOR_0));
-            store(ALBEDO_1, load(COLOR_1));
-            store(ALBEDO_2, load(COLOR_2));
             store(IS_UNIFORM, isUniform(mode) ? 1 : 0);
             store(UNIFORM_SHARE, 0);
-            store(COLOR_0, WEIGHTED_BIAS);
-            store(COLOR_1, 0);
-            store(COLOR_2, 0);
             if (mode & IS_DEPTH_PASS != 0) return;
             if (load(TEXTURE) != 0) Texture.setTriangle(a, b, c, recordShift(mode));
             if (load(OPACITIES) != 0) Texture.setOpacities(a, b, c, recordShift(mode));

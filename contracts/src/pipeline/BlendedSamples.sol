@@ -14,7 +14,8 @@ library BlendedSamples {
     /// @notice Draws a fragment: see SampleRasterizer.drawFragment.
     function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure {
         unchecked {
-            uint256 old = load(Samples.place(row, column));
+            uint256 p = Samples.place(row, column);
+            uint256 old = load(p);
             uint256 depths = Samples.depthsOf(attribute);
             bool isFirst = load(MODE) & IS_BLENDED == 0;
             // nearer than what is there; what the first pass has found
@@ -26,7 +27,7 @@ library BlendedSamples {
             depths |= isFirst
                 ? FOUND_SAMPLES | (old & SAMPLE_COLORS)
                 : DRAWN_SAMPLES | over(Samples.bytesOf(ExactSamples.colorAt(attribute, covered, column, row)), old);
-            Samples.write(row, column, depths, seen);
+            Samples.write(p, row, column, depths, seen);
         }
     }
 

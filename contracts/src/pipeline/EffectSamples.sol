@@ -22,17 +22,8 @@ library EffectSamples {
             for (; column != end; ++column) {
                 uint256 covered = Samples.coverage(left, right, p);
                 if (covered != 0) {
-                    uint256 z = Samples.depthsOf(attribute);
-                    uint256 seen;
-                    assembly ("memory-safe") {
-                        let old := mload(p)
-                        switch and(mload(MODE), IS_BLENDED)
-                        case 0 { seen := sub(or(z, TOPS_64), or(old, BELOW_SAMPLE_DEPTHS)) }
-                        // what the first pass has found
-                        default { seen := sub(TOPS_64, and(xor(old, or(z, FOUND_SAMPLES)), PASSES_OF_SAMPLES)) }
-                        seen := and(seen, covered)
-                    }
-                    if (seen != 0) Samples.write(row, column, z | colorsOf(p, attribute, covered, column, row), seen);
+                    if (load(MODE) & (IS_BLENDED | IS_DEPTH_PASS) == 0) opaque(p, attribute, covered, column, row);
+                    else blended(p, attribute, covered, column, row);
                 }
                 p += 32;
                 attribute += load(DX);
@@ -40,42 +31,66 @@ library EffectSamples {
         }
     }
 
-    /// @dev What stands beside the depths of the samples of a fragment.
-    function colorsOf(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256) {
+    function opaque(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
         unchecked {
-            uint256 mode = load(MODE);
-            if (mode & IS_DEPTH_PASS != 0) return FOUND_SAMPLES | (load(p) & SAMPLE_COLORS);
+            uint256 z = Samples.depthsOf(attribute);
+            uint256 seen = covered & (z + BELOW_TOPS_64 - load(p));
+            if (seen == 0) return;
             uint256 color = colorAt(attribute, covered, column, row);
-            if (mode & IS_BLENDED == 0 && load(OPACITY) == OPAQUE) return color * ONES_64;
-            // where a ground fades, or vertices have opacities, that of the fragment
-            color = BlendedSamples.over(color, load(p));
-            store(OPACITY, load(OBJECT_OPACITY));
-            return mode & IS_BLENDED == 0 ? color : DRAWN_SAMPLES | color;
+            if (load(OPACITY) == OPAQUE) {
+                if (seen == TOPS_64) return Samples.paint(p, row, column, z, color);
+                z |= color * ONES_64;
+            } else {
+                // where a ground fades
+                z |= BlendedSamples.over(color, load(p));
+                store(OPACITY, OPAQUE);
+            }
+            Samples.write(p, row, column, z, seen);
+        }
+    }
+
+    function blended(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure {
+        unchecked {
+            uint256 z = Samples.depthsOf(attribute);
+            uint256 old = load(p);
+            bool isFirst = load(MODE) & IS_BLENDED == 0;
+            // nearer than what is there; what the first pass has found
+            uint256 seen = isFirst ? z + BELOW_TOPS_64 - old : TOPS_64 - ((old ^ (z | FOUND_SAMPLES)) & PASSES_OF_SAMPLES);
+            seen &= covered;
+            if (seen == 0) return;
+            if (isFirst) {
+                z |= FOUND_SAMPLES | (old & SAMPLE_COLORS);
+            } else {
+                uint256 color = colorAt(attribute, covered, column, row);
+                z |= DRAWN_SAMPLES | BlendedSamples.over(color, old);
+                // that of the fragment, if vertices have opacities
+                store(OPACITY, load(OBJECT_OPACITY));
+            }
+            Samples.write(p, row, column, z, seen);
         }
     }
 
     /// @dev The colour in the middle of the samples that are covered.
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
-        if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
-        bool isKnown;
-        assembly ("memory-safe") {
-            isKnown := and(mload(IS_UNIFORM), eq(mload(UNIFORM_SHARE), add(mload(SHADOW_SHARE), 1)))
-        }
-        if (isKnown && load(FADE_RANGE) == 0) return load(UNIFORM_COLOR);
-        (uint256 x, uint256 y) = Samples.centroid(covered);
-        attribute = Samples.moved(attribute, x, y);
-        assembly ("memory-safe") {
-            let step := mload(RAY_STEP)
-            x := add(add(mload(RAY_LEFT), mul(column, step)), sar(3, mul(x, step)))
-            y := add(add(mload(RAY_TOP), mul(row, step)), sar(3, mul(y, step)))
-        }
-        // until the fragment is drawn
-        if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(attribute, x, y));
-        if (isKnown) return load(UNIFORM_COLOR);
-        color = Samples.bytesOf(SurfaceLight.colorAt(attribute, x, y));
-        store(UNIFORM_COLOR, color);
-        assembly ("memory-safe") {
-            mstore(UNIFORM_SHARE, add(mload(SHADOW_SHARE), 1))
+        unchecked {
+            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
+            bool isKnown = load(IS_UNIFORM) != 0 && load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
+            bool fades = load(FADE_RANGE) != 0;
+            if (isKnown && !fades) return load(UNIFORM_COLOR);
+            uint256 x = load(RAY_LEFT) + column * load(RAY_STEP);
+            uint256 y = load(RAY_TOP) + row * load(RAY_STEP);
+            if (covered != TOPS_64) {
+                (uint256 dx, uint256 dy) = Samples.centroid(covered);
+                attribute = Samples.moved(attribute, dx, dy);
+                x += uint256(int256(dx * load(RAY_STEP)) >> 3);
+                y += uint256(int256(dy * load(RAY_STEP)) >> 3);
+            }
+            // until the fragment is drawn
+            if (fades) store(OPACITY, Ground.opacityAt(attribute, x, y));
+            if (isKnown) return load(UNIFORM_COLOR);
+            color = Samples.bytesOf(SurfaceLight.colorAt(attribute, x, y));
+            store(UNIFORM_COLOR, color);
+            store(UNIFORM_SHARE, load(SHADOW_SHARE) + 1);
         }
     }
 }

@@ -11,12 +11,13 @@ library ExactSamples {
     /// @notice Draws a fragment: see SampleRasterizer.drawFragment.
     function fragment(uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure {
         unchecked {
-            uint256 old = load(Samples.place(row, column));
+            uint256 p = Samples.place(row, column);
             uint256 depths = Samples.depthsOf(attribute);
-            uint256 seen = covered & (depths + BELOW_TOPS_64 - old);
+            uint256 seen = covered & (depths + BELOW_TOPS_64 - load(p));
             if (seen == 0) return;
             uint256 color = Samples.bytesOf(colorAt(attribute, covered, column, row));
-            Samples.write(row, column, depths | (color * ONES_64), seen);
+            if (seen == TOPS_64) Samples.paint(p, row, column, depths, color);
+            else Samples.write(p, row, column, depths | (color * ONES_64), seen);
         }
     }
 

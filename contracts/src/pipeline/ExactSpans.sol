@@ -93,6 +93,6 @@ library ExactSpans {
             t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
             attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
         }
-        return FragmentLight.colorAt(attribute, s, t, x, y);
+        return FragmentLight.colorAt(attribute, s, t, x, y, false);
     }
 }

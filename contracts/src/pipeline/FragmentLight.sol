@@ -25,8 +25,10 @@ library FragmentLight {
     /// @param depth, s, t The depth (with 8 more bits than in a vertex) and the barycentric coordinates on the screen, Q24; these may be
     /// negative, or above 1, outside the triangle.
     /// @param x, y The ray through the place, Q24; the place itself, Q32, for an orthographic camera.
+    /// @param isSurface Whether s and t are correct in perspective already, and only the highlights are returned: then the diffuse light
+    /// is left in FRAGMENT_LIGHT.
     /// @return color Signed lanes of 85 bits, Q10, not kept between 0 and 255.
-    function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y) internal pure returns (uint256 color) {
+    function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, bool isSurface) internal pure returns (uint256 color) {
         assembly ("memory-safe") {
             // sqrt(value), where `hint` remembers the magnitude of the last one, so that it need not be found again
             function root(value, hint) -> r {
@@ -186,13 +188,15 @@ library FragmentLight {
             let mode := mload(MODE)
             switch and(mode, IS_ORTHOGRAPHIC)
             case 0 {
-                // perspective-correct: s * depth of the vertex / depth of the place, Q24
-                s := sdiv(mul(s, mload(DEPTH_1)), depth)
-                t := sdiv(mul(t, mload(DEPTH_2)), depth)
-                if and(mode, IS_STEEP) {
-                    // rounding counts much where a near vertex meets a far fragment
-                    if sgt(s, ONE_24) { s := ONE_24 }
-                    if sgt(t, ONE_24) { t := ONE_24 }
+                if iszero(isSurface) {
+                    // perspective-correct: s * depth of the vertex / depth of the place, Q24
+                    s := sdiv(mul(s, mload(DEPTH_1)), depth)
+                    t := sdiv(mul(t, mload(DEPTH_2)), depth)
+                    if and(mode, IS_STEEP) {
+                        // rounding counts much where a near vertex meets a far fragment
+                        if sgt(s, ONE_24) { s := ONE_24 }
+                        if sgt(t, ONE_24) { t := ONE_24 }
+                    }
                 }
             }
             default {
@@ -201,35 +205,48 @@ library FragmentLight {
                 x := 0
                 y := 0
             }
-            // each lane has 2^24 too much, so that it is positive
-            color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
-            if and(mode, IS_LIT) {
-                // N.r, Q48
-                let normalRay := add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))
-                switch and(mode, IS_DIFFUSE)
-                case 0 { color := add(color, and(shr(6, highlights(normalRay, x, y)), LANES_24)) }
-                default {
-                    switch and(mode, IS_SMOOTH)
-                    case 0 { mstore(FRAGMENT_NORMAL_RAY, normalRay) }
-                    default { interpolateNormal(s, t, x, y) }
-                    s := and(shr(6, light(depth, x, y)), LANES_24)
-                    t := mload(FRAGMENT_LIGHT)
-                    // colours of Q10 times light of Q40
-                    y := sar(16, mul(sub(and(color, LANE_32), ONE_24), and(shr(BLUE_Q40_AT, t), LANE_32)))
-                    x := sar(16, mul(sub(and(shr(MIDDLE_AT, color), LANE_32), ONE_24), and(shr(GREEN_Q40_AT, t), LANE_32)))
-                    color := sar(16, mul(sub(and(shr(UPPER_AT, color), LANE_32), ONE_24), and(shr(RED_Q40_AT, t), LANE_32)))
-                    color := add(
-                        add(shl(UPPER_85_AT, add(color, shr(UPPER_AT, s))), shl(MIDDLE_85_AT, add(x, and(shr(MIDDLE_AT, s), LANE_24)))),
-                        add(y, and(s, LANE_24))
-                    )
-                }
-            }
-            if iszero(and(mode, IS_DIFFUSE)) {
+            switch isSurface
+            case 1 {
+                switch and(mode, IS_SMOOTH)
+                case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))) }
+                default { interpolateNormal(s, t, x, y) }
+                color := and(shr(6, light(depth, x, y)), LANES_24)
                 color := add(
-                    add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
-                    shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
+                    add(shl(UPPER_85_AT, shr(UPPER_AT, color)), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_24))),
+                    and(color, LANE_24)
                 )
-                color := sub(color, BIAS_85)
+            }
+            default {
+                // each lane has 2^24 too much, so that it is positive
+                color := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
+                if and(mode, IS_LIT) {
+                    // N.r, Q48
+                    let normalRay := add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))
+                    switch and(mode, IS_DIFFUSE)
+                    case 0 { color := add(color, and(shr(6, highlights(normalRay, x, y)), LANES_24)) }
+                    default {
+                        switch and(mode, IS_SMOOTH)
+                        case 0 { mstore(FRAGMENT_NORMAL_RAY, normalRay) }
+                        default { interpolateNormal(s, t, x, y) }
+                        s := and(shr(6, light(depth, x, y)), LANES_24)
+                        t := mload(FRAGMENT_LIGHT)
+                        // colours of Q10 times light of Q40
+                        y := sar(16, mul(sub(and(color, LANE_32), ONE_24), and(shr(BLUE_Q40_AT, t), LANE_32)))
+                        x := sar(16, mul(sub(and(shr(MIDDLE_AT, color), LANE_32), ONE_24), and(shr(GREEN_Q40_AT, t), LANE_32)))
+                        color := sar(16, mul(sub(and(shr(UPPER_AT, color), LANE_32), ONE_24), and(shr(RED_Q40_AT, t), LANE_32)))
+                        color := add(
+                            add(shl(UPPER_85_AT, add(color, shr(UPPER_AT, s))), shl(MIDDLE_85_AT, add(x, and(shr(MIDDLE_AT, s), LANE_24)))),
+                            add(y, and(s, LANE_24))
+                        )
+                    }
+                }
+                if iszero(and(mode, IS_DIFFUSE)) {
+                    color := add(
+                        add(and(color, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_32))),
+                        shl(UPPER_85_AT, and(shr(UPPER_AT, color), LANE_32))
+                    )
+                    color := sub(color, BIAS_85)
+                }
             }
         }
     }

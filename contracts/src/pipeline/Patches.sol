@@ -156,7 +156,7 @@ library Patches {
             )
             y := add(mload(RAY_TOP), sar(9, mul(add(shr(SCREEN_ROW_AT, a), shr(SCREEN_ROW_AT, b)), mload(RAY_STEP))))
         }
-        return weighted(FragmentLight.colorAt(depth, s, t, x, y), depth);
+        return weighted(FragmentLight.colorAt(depth, s, t, x, y, false), depth);
     }
 
     /// @dev Quadratic colours, row by row.

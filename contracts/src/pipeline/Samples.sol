@@ -66,11 +66,22 @@ library Samples {
         }
     }
 
-    /// @dev Writes the samples of a pixel.
-    /// @param z What those change to of which the highest bit is in `seen`.
-    function write(uint256 row, uint256 column, uint256 z, uint256 seen) internal pure {
+    /// @dev Writes all samples of a pixel, and the pixel of the picture.
+    /// @param p Where the pixel has its samples.
+    /// @param z Their depths.
+    function paint(uint256 p, uint256 row, uint256 column, uint256 z, uint256 color) internal pure {
         assembly ("memory-safe") {
-            let p := add(sub(mload(SAMPLE_ORIGIN), mul(row, mload(SAMPLE_STRIDE))), shl(SAMPLE_SIZE_BITS, column))
+            mstore(p, or(z, mul(color, ONES_64)))
+            mstore(0, shl(PIXEL_AT, color))
+            mcopy(add(mload(SAMPLE_IMAGE), mul(3, sub(column, mul(row, mload(TILE_WIDTH))))), 0, 3)
+        }
+    }
+
+    /// @dev Writes samples of a pixel.
+    /// @param p Where the pixel has its samples.
+    /// @param z What those change to of which the highest bit is in `seen`.
+    function write(uint256 p, uint256 row, uint256 column, uint256 z, uint256 seen) internal pure {
+        assembly ("memory-safe") {
             let old := mload(p)
             z := xor(old, and(xor(old, z), sub(shl(1, seen), shr(63, seen))))
             z := or(z, IS_LISTED)

@@ -19,8 +19,11 @@ import "./Registers.sol";
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;
-/// @dev Radiance above 2^30 levels, and values of the filmic curve above 64 (Q16), are as good as white.
-uint256 constant BRIGHTEST = 1 << 40;
+/// @dev The same in each lane of 85 bits, with the bits below; what makes more than that carry into the sign; 69 bits of each.
+uint256 constant LEVELS_85 = 0xffffc00000000000000007fffe00000000000000003ffff;
+uint256 constant BELOW_SIGNS_85 = 0x3ffffffffffffffff00ffdffffffffffffffff807feffffffffffffffffc03ff;
+uint256 constant EXPOSED_85 = 0x7ffffffffffffffffc0003ffffffffffffffffe0001fffffffffffffffff;
+/// @dev Values of the filmic curve above 64 (Q16) are as good as white.
 uint256 constant BRIGHTEST_FILMIC = 1 << 22;
 /// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
 uint256 constant FILMIC_59 = 59 << 16;
@@ -46,15 +49,21 @@ library SurfaceLight {
             s := sar(ACCUMULATOR_S_AT, signextend(ACCUMULATOR_S_LAST_BYTE, attribute))
             t := sar(ACCUMULATOR_T_AT, signextend(ACCUMULATOR_T_LAST_BYTE, attribute))
             attribute := shr(ACCUMULATOR_DEPTH_AT, attribute)
+            // as in FragmentLight
+            let mode := mload(MODE)
+            if iszero(and(mode, IS_ORTHOGRAPHIC)) {
+                s := sdiv(mul(s, mload(DEPTH_1)), attribute)
+                t := sdiv(mul(t, mload(DEPTH_2)), attribute)
+                if and(mode, IS_STEEP) {
+                    if sgt(s, ONE_24) { s := ONE_24 }
+                    if sgt(t, ONE_24) { t := ONE_24 }
+                }
+            }
         }
-        uint256 albedo = albedoAt(attribute, s, t);
-        bool isLit;
-        assembly ("memory-safe") {
-            isLit := and(mload(MODE), IS_LIT)
-        }
-        if (isLit) {
+        uint256 albedo = albedoAt(s, t);
+        if (load(MODE) & IS_LIT != 0) {
             // the highlights alone; the light that modulates the albedo stays in FRAGMENT_LIGHT
-            color = FragmentLight.colorAt(attribute, s, t, x, y);
+            color = FragmentLight.colorAt(attribute, s, t, x, y, true);
             addHemisphere();
             color = lit(albedo, color);
             if (load(RIM_COLOR) != 0) color = withRim(color, rimAt(x, y));
@@ -69,23 +78,13 @@ library SurfaceLight {
     }
 
     /// @dev The colour of the surface itself, lanes of Q10, 0..255.
-    function albedoAt(uint256 depth, uint256 s, uint256 t) private pure returns (uint256 albedo) {
+    /// @param s, t Barycentric coordinates, correct in perspective, Q24.
+    function albedoAt(uint256 s, uint256 t) private pure returns (uint256 albedo) {
         assembly ("memory-safe") {
-            // as in FragmentLight
-            let mode := mload(MODE)
-            if iszero(and(mode, IS_ORTHOGRAPHIC)) {
-                s := sdiv(mul(s, mload(DEPTH_1)), depth)
-                t := sdiv(mul(t, mload(DEPTH_2)), depth)
-                if and(mode, IS_STEEP) {
-                    if sgt(s, ONE_24) { s := ONE_24 }
-                    if sgt(t, ONE_24) { t := ONE_24 }
-                }
-            }
-            albedo := shr(24, add(add(mload(ALBEDO_0), mul(mload(ALBEDO_1), s)), mul(mload(ALBEDO_2), t)))
+            albedo := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
             if mload(OPACITIES) {
-                let opacity := shr(OPACITY_AT, albedo)
+                let opacity := sub(shr(OPACITY_AT, albedo), ONE_24)
                 // as the channels below
-                opacity := sub(opacity, ONE_24)
                 opacity := mul(opacity, sgt(opacity, 0))
                 if gt(opacity, WHITE_10) { opacity := WHITE_10 }
                 mstore(OPACITY, div(mul(opacity, mload(OBJECT_OPACITY)), WHITE_10))
@@ -151,18 +150,24 @@ library SurfaceLight {
     }
 
     /// @dev A colour behind fog that hides so much of it, Q16.
-    function fogged(uint256 color, uint256 strength) private pure returns (uint256 mixed) {
+    function fogged(uint256 color, uint256 strength) private pure returns (uint256) {
+        unchecked {
+            if (strength == 0) return color;
+            color = bounded(color) * (ONE_16 - strength) + load(FOG_COLOR) * strength;
+            return (color >> Q16) & LEVELS_85;
+        }
+    }
+
+    /// @dev A colour of which no channel is above 255, lanes of 85 bits, Q10.
+    function bounded(uint256 color) private pure returns (uint256 levels) {
         assembly ("memory-safe") {
-            mixed := color
-            if strength {
-                mixed := 0
-                let fog := mload(FOG_COLOR)
+            levels := color
+            if and(add(color, BELOW_SIGNS_85), SIGNS_85) {
+                levels := 0
                 for { let i := 0 } lt(i, LANES_85_END) { i := add(i, MIDDLE_85_AT) } {
                     let channel := and(shr(i, color), LANE_85)
                     if gt(channel, WHITE_10) { channel := WHITE_10 }
-                    channel := add(mul(channel, sub(ONE_16, strength)), mul(shl(Q10, and(fog, LANE_32)), strength))
-                    mixed := or(mixed, shl(i, shr(Q16, channel)))
-                    fog := shr(MIDDLE_AT, fog)
+                    levels := or(levels, shl(i, channel))
                 }
             }
         }
@@ -223,28 +228,24 @@ library SurfaceLight {
     /// @dev A colour as it is shown, lanes of 85 bits, Q10, 0..255.
     function toned(uint256 color) private pure returns (uint256 shown) {
         unchecked {
-            (uint256 exposure, uint256 flags) = (load(EXPOSURE), load(TONE_FLAGS));
+            uint256 flags = load(TONE_FLAGS);
+            // channels are below 2^37, and exposures below 2^23
+            color = ((color * load(EXPOSURE)) >> Q16) & EXPOSED_85;
+            if (flags == 0) return bounded(color);
             for (uint256 i; i != LANES_85_END; i += MIDDLE_85_AT) {
                 uint256 channel;
                 assembly ("memory-safe") {
-                    channel := and(shr(i, color), LANE_85)
-                    if gt(channel, BRIGHTEST) { channel := BRIGHTEST }
-                    channel := shr(Q16, mul(channel, exposure))
-                    switch flags
-                    case 0 { if gt(channel, WHITE_10) { channel := WHITE_10 } }
-                    default {
-                        // Q16, where 1 is white
-                        channel := div(shl(6, channel), 255)
-                        if and(flags, TONE_FILMIC) {
-                            if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
-                            let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
-                            channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
-                        }
-                        if gt(channel, ONE_16) { channel := ONE_16 }
+                    // Q16, where 1 is white
+                    channel := div(shl(6, and(shr(i, color), LANE_85)), 255)
+                    if and(flags, TONE_FILMIC) {
+                        if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
+                        let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
+                        channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
                     }
+                    if gt(channel, ONE_16) { channel := ONE_16 }
                 }
                 if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
-                else if (flags != 0) channel = (channel * 255) >> 6;
+                else channel = (channel * 255) >> 6;
                 shown |= channel << i;
             }
         }

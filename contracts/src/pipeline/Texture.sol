@@ -13,7 +13,7 @@ import "./Registers.sol";
 
 uint256 constant ONE_12 = 0x1000;
 uint256 constant BELOW_ONE_24 = 0xffffff;
-/// @dev Where the albedo has opacities, and what keeps them positive.
+/// @dev Where colours have opacities, and what keeps them positive.
 uint256 constant OPACITY_AT = 168;
 uint256 constant OPACITY_BIAS = 1 << (48 + OPACITY_AT);
 uint256 constant Q34 = 34;
@@ -30,13 +30,13 @@ library Texture {
         }
     }
 
-    /// @notice Adds the opacities of a triangle to its albedo, as a fourth lane.
+    /// @notice Adds the opacities of a triangle to its colours, as a fourth lane.
     function setOpacities(uint256 a, uint256 b, uint256 c, uint256 shift) internal pure {
         unchecked {
             uint256 first = coordinatesOf(a, shift, true);
-            store(ALBEDO_0, load(ALBEDO_0) + OPACITY_BIAS + (first << (OPACITY_AT + Q34 - Q16)));
-            store(ALBEDO_1, load(ALBEDO_1) + (toQ10(coordinatesOf(b, shift, true) - first) << OPACITY_AT));
-            store(ALBEDO_2, load(ALBEDO_2) + (toQ10(coordinatesOf(c, shift, true) - first) << OPACITY_AT));
+            store(COLOR_0, load(COLOR_0) + OPACITY_BIAS + (first << (OPACITY_AT + Q34 - Q16)));
+            store(COLOR_1, load(COLOR_1) + (toQ10(coordinatesOf(b, shift, true) - first) << OPACITY_AT));
+            store(COLOR_2, load(COLOR_2) + (toQ10(coordinatesOf(c, shift, true) - first) << OPACITY_AT));
         }
     }
 

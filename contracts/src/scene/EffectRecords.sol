@@ -19,8 +19,8 @@ import {SceneErrors} from "./SceneErrors.sol";
 //                bits          1 byte    of a texel: 1, 2, 4, 8, or 24
 //                palette                 2^bits colours of 3 bytes; none for texels of 24 bits, which are colours themselves
 //                texels                  rows from the top, one after the other; zeros up to a whole byte
-//                coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner of the
-//                                        image, (1, 1) the lower right one
+//                coordinates             of each vertex of the mesh u and v, 3 bytes each, Q16, signed; (0, 0) is the upper left corner
+//                                        of the image, (1, 1) the lower right one
 //   OPACITIES    of an object, in words: 1 byte for each vertex of the mesh, 255 where it is opaque, filled up with zeros
 //   SHADOW       of the light that casts shadows; there is one at most: a word, which faces of culled objects do: see SHADOWS_ALL
 //   GROUND       of an object that casts none, and fades into what is behind it: a word, of which the upper half has the distances from its
@@ -54,7 +54,8 @@ uint256 constant TONE_GAMMA = 2;
 /// @dev Flags of a TEXTURE: colours are interpolated; beyond the border its colours go on.
 uint256 constant TEXTURE_BILINEAR = 1;
 uint256 constant TEXTURE_CLAMP = 2;
-/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates; 2^bits of all bits that a texel may have.
+/// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates; 2^bits of all bits that a texel may
+/// have.
 uint256 constant TEXTURE_HEADER = 4;
 uint256 constant TEXTURE_COLOR_BITS = 24;
 uint256 constant UV_SIZE = 6;

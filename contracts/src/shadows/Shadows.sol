@@ -59,8 +59,8 @@ library Shadows {
 
     /// @notice What the light of the SHADOW does not reach. The registers of the frame must be set: see EffectUniforms.
     /// @return begin Where it is in memory: for each object a word, where from the beginning on the entries of its faces begin. Then the
-    /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts of
-    /// it, as words: see Receivers. The entries are filled up to whole words.
+    /// entries, 4 bytes for each face of all objects: 0 if it is lit, 1 if it is dark, else where the functions stand of what shades parts
+    /// of it, as words: see Receivers. The entries are filled up to whole words.
     /// @return size Its bytes.
     function cast(Scene calldata scene, View memory view_) internal pure returns (uint256 begin, uint256 size) {
         unchecked {
