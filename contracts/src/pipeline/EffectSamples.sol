@@ -74,7 +74,8 @@ library EffectSamples {
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
         unchecked {
             if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
-            bool isKnown = load(IS_UNIFORM) != 0 && load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
+            bool isUniform = load(IS_UNIFORM) != 0;
+            bool isKnown = isUniform && load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
             bool fades = load(FADE_RANGE) != 0;
             if (isKnown && !fades) return load(UNIFORM_COLOR);
             uint256 x = load(RAY_LEFT) + column * load(RAY_STEP);
@@ -88,7 +89,8 @@ library EffectSamples {
             // until the fragment is drawn
             if (fades) store(OPACITY, Ground.opacityAt(attribute, x, y));
             if (isKnown) return load(UNIFORM_COLOR);
-            color = Samples.bytesOf(SurfaceLight.colorAt(attribute, x, y));
+            color = SurfaceLight.colorAt(attribute, x, y);
+            if (!isUniform) return color;
             store(UNIFORM_COLOR, color);
             store(UNIFORM_SHARE, load(SHADOW_SHARE) + 1);
         }

@@ -27,7 +27,7 @@ library FragmentLight {
     /// @param x, y The ray through the place, Q24; the place itself, Q32, for an orthographic camera.
     /// @param isSurface Whether s and t are correct in perspective already, and only the highlights are returned: then the diffuse light
     /// is left in FRAGMENT_LIGHT.
-    /// @return color Signed lanes of 85 bits, Q10, not kept between 0 and 255.
+    /// @return color Signed lanes of 85 bits, Q10, not kept between 0 and 255; lanes of 56 bits of a surface.
     function colorAt(uint256 depth, uint256 s, uint256 t, uint256 x, uint256 y, bool isSurface) internal pure returns (uint256 color) {
         assembly ("memory-safe") {
             // sqrt(value), where `hint` remembers the magnitude of the last one, so that it need not be found again
@@ -211,10 +211,6 @@ library FragmentLight {
                 case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))) }
                 default { interpolateNormal(s, t, x, y) }
                 color := and(shr(6, light(depth, x, y)), LANES_24)
-                color := add(
-                    add(shl(UPPER_85_AT, shr(UPPER_AT, color)), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, color), LANE_24))),
-                    and(color, LANE_24)
-                )
             }
             default {
                 // each lane has 2^24 too much, so that it is positive

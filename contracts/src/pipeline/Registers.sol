@@ -230,8 +230,7 @@ uint256 constant UP_Z = 0x2b00;
 /// @dev The light at the silhouettes of objects, lanes of bytes, and how fast it grows towards them.
 uint256 constant RIM_COLOR = 0x2b20;
 uint256 constant RIM_POWER = 0x2b40;
-/// @dev The colour of the fog, lanes of 85 bits, Q10; the distance at which it begins, and how much farther it hides everything, Q32: 0
-/// without fog.
+/// @dev The colour of the fog, lanes of Q10; the distance at which it begins, and how much farther it hides everything, Q32: 0 without fog.
 uint256 constant FOG_COLOR = 0x2b60;
 uint256 constant FOG_NEAR = 0x2b80;
 uint256 constant FOG_RANGE = 0x2ba0;

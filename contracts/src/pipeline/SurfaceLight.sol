@@ -19,10 +19,10 @@ import "./Registers.sol";
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;
-/// @dev The same in each lane of 85 bits, with the bits below; what makes more than that carry into the sign; 69 bits of each.
-uint256 constant LEVELS_85 = 0xffffc00000000000000007fffe00000000000000003ffff;
-uint256 constant BELOW_SIGNS_85 = 0x3ffffffffffffffff00ffdffffffffffffffff807feffffffffffffffffc03ff;
-uint256 constant EXPOSED_85 = 0x7ffffffffffffffffc0003ffffffffffffffffe0001fffffffffffffffff;
+/// @dev What makes a lane above that carry into bit 55; that bit in each lane; a lane.
+uint256 constant BELOW_BEYOND = 0x7ffffffffc03ff7ffffffffc03ff7ffffffffc03ff;
+uint256 constant BEYOND_LEVELS = 0x800000000000008000000000000080000000000000;
+uint256 constant LANE_56 = 0xffffffffffffff;
 /// @dev Values of the filmic curve above 64 (Q16) are as good as white.
 uint256 constant BRIGHTEST_FILMIC = 1 << 22;
 /// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
@@ -31,7 +31,6 @@ uint256 constant FILMIC_3 = 3 << 16;
 uint256 constant FILMIC_14 = 14 << 32;
 /// @dev The end of the lanes of a colour.
 uint256 constant LANES_END = 3 * 56;
-uint256 constant LANES_85_END = 3 * 85;
 /// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to
 /// 255 has not.
 uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
@@ -42,6 +41,7 @@ library SurfaceLight {
     /// @notice The colour where the accumulator and the ray are these: signed lanes of 85 bits, Q10, not kept below 255.
     /// @param attribute The accumulator of barycentric coordinates.
     /// @param x, y As for FragmentLight.
+    /// @return color Three bytes, blue uppermost.
     function colorAt(uint256 attribute, uint256 x, uint256 y) internal pure returns (uint256 color) {
         uint256 s;
         uint256 t;
@@ -68,13 +68,14 @@ library SurfaceLight {
             color = lit(albedo, color);
             if (load(RIM_COLOR) != 0) color = withRim(color, rimAt(x, y));
         } else {
-            assembly ("memory-safe") {
-                color := add(and(albedo, LANE_32), shl(MIDDLE_85_AT, and(shr(MIDDLE_AT, albedo), LANE_32)))
-                color := add(color, shl(UPPER_85_AT, shr(UPPER_AT, albedo)))
-            }
+            color = albedo;
         }
         if (load(IS_TONED) != 0) color = toned(color);
         if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
+        color = bounded(color);
+        assembly ("memory-safe") {
+            color := shr(PIXEL_AT, mul(and(add(color, HALF_LEVEL), BYTES_Q10), Q10_TO_PIXEL))
+        }
     }
 
     /// @dev The colour of the surface itself, lanes of Q10, 0..255.
@@ -124,16 +125,13 @@ library SurfaceLight {
         }
     }
 
-    /// @dev Albedo times FRAGMENT_LIGHT (Q40), and highlights, both lanes of 85 bits, Q10.
+    /// @dev Albedo times FRAGMENT_LIGHT (Q40), and highlights, lanes of Q10.
     function lit(uint256 albedo, uint256 highlights) private pure returns (uint256 color) {
         assembly ("memory-safe") {
             let light := mload(FRAGMENT_LIGHT)
             color := shr(16, mul(and(albedo, LANE_32), and(shr(BLUE_Q40_AT, light), LANE_32)))
-            color := add(
-                color,
-                shl(MIDDLE_85_AT, shr(16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32))))
-            )
-            color := add(color, shl(UPPER_85_AT, shr(16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32)))))
+            color := add(color, shl(MIDDLE_AT, shr(16, mul(and(shr(MIDDLE_AT, albedo), LANE_32), and(shr(GREEN_Q40_AT, light), LANE_32)))))
+            color := add(color, shl(UPPER_AT, shr(16, mul(shr(UPPER_AT, albedo), and(shr(RED_Q40_AT, light), LANE_32)))))
             color := add(color, highlights)
         }
     }
@@ -141,11 +139,7 @@ library SurfaceLight {
     /// @dev A colour and the rim at this strength, Q24.
     function withRim(uint256 color, uint256 strength) private pure returns (uint256) {
         unchecked {
-            uint256 rim = load(RIM_COLOR);
-            for (uint256 i; i != 3; ++i) {
-                color += (((rim >> (MIDDLE_AT * i)) & LANE_32) * strength >> (Q24 - Q10)) << (MIDDLE_85_AT * i);
-            }
-            return color;
+            return color + (((load(RIM_COLOR) * strength) >> (Q24 - Q10)) & LANES_24);
         }
     }
 
@@ -154,18 +148,18 @@ library SurfaceLight {
         unchecked {
             if (strength == 0) return color;
             color = bounded(color) * (ONE_16 - strength) + load(FOG_COLOR) * strength;
-            return (color >> Q16) & LEVELS_85;
+            return (color >> Q16) & LANES_24;
         }
     }
 
-    /// @dev A colour of which no channel is above 255, lanes of 85 bits, Q10.
+    /// @dev A colour of which no channel is above 255, lanes of Q10.
     function bounded(uint256 color) private pure returns (uint256 levels) {
         assembly ("memory-safe") {
             levels := color
-            if and(add(color, BELOW_SIGNS_85), SIGNS_85) {
+            if and(add(color, BELOW_BEYOND), BEYOND_LEVELS) {
                 levels := 0
-                for { let i := 0 } lt(i, LANES_85_END) { i := add(i, MIDDLE_85_AT) } {
-                    let channel := and(shr(i, color), LANE_85)
+                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
+                    let channel := and(shr(i, color), LANE_56)
                     if gt(channel, WHITE_10) { channel := WHITE_10 }
                     levels := or(levels, shl(i, channel))
                 }
@@ -225,27 +219,29 @@ library SurfaceLight {
         }
     }
 
-    /// @dev A colour as it is shown, lanes of 85 bits, Q10, 0..255.
+    /// @dev A colour as it is shown, lanes of Q10, 0..255.
     function toned(uint256 color) private pure returns (uint256 shown) {
         unchecked {
-            uint256 flags = load(TONE_FLAGS);
-            // channels are below 2^37, and exposures below 2^23
-            color = ((color * load(EXPOSURE)) >> Q16) & EXPOSED_85;
-            if (flags == 0) return bounded(color);
-            for (uint256 i; i != LANES_85_END; i += MIDDLE_85_AT) {
+            (uint256 exposure, uint256 flags) = (load(EXPOSURE), load(TONE_FLAGS));
+            for (uint256 i; i != LANES_END; i += MIDDLE_AT) {
                 uint256 channel;
                 assembly ("memory-safe") {
-                    // Q16, where 1 is white
-                    channel := div(shl(6, and(shr(i, color), LANE_85)), 255)
-                    if and(flags, TONE_FILMIC) {
-                        if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
-                        let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
-                        channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
+                    channel := shr(Q16, mul(and(shr(i, color), LANE_56), exposure))
+                    switch flags
+                    case 0 { if gt(channel, WHITE_10) { channel := WHITE_10 } }
+                    default {
+                        // Q16, where 1 is white
+                        channel := div(shl(6, channel), 255)
+                        if and(flags, TONE_FILMIC) {
+                            if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
+                            let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
+                            channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
+                        }
+                        if gt(channel, ONE_16) { channel := ONE_16 }
                     }
-                    if gt(channel, ONE_16) { channel := ONE_16 }
                 }
                 if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
-                else channel = (channel * 255) >> 6;
+                else if (flags != 0) channel = (channel * 255) >> 6;
                 shown |= channel << i;
             }
         }

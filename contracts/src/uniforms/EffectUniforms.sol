@@ -46,7 +46,7 @@ library EffectUniforms {
                     store(RIM_POWER, EffectRecords.rimPower(content));
                 } else if (kind == FOG) {
                     (int256 near, int256 far) = EffectRecords.fogDistances(content);
-                    store(FOG_COLOR, lanes85(content));
+                    store(FOG_COLOR, lanes(content) << Q10);
                     storeSigned(FOG_NEAR, near);
                     storeSigned(FOG_RANGE, far - near);
                 } else if (kind == TONE) {
@@ -143,14 +143,6 @@ library EffectUniforms {
     function scaled(uint256 color, uint256 k) private pure returns (uint256 light) {
         unchecked {
             for (uint256 i; i != 3 * MIDDLE_AT; i += MIDDLE_AT) light |= (((color >> i) & 0xff) * k / 255) << i;
-        }
-    }
-
-    /// @dev The colour at the top of a word as lanes of 85 bits, Q10.
-    function lanes85(uint256 content) private pure returns (uint256) {
-        unchecked {
-            uint256 lower = ((content >> 240) & 0xff) << MIDDLE_85_AT | ((content >> 232) & 0xff);
-            return ((content >> 248) << UPPER_85_AT | lower) << Q10;
         }
     }
 
