@@ -73,11 +73,13 @@ library EffectSamples {
     /// @dev The colour in the middle of the samples that are covered.
     function colorAt(uint256 attribute, uint256 covered, uint256 column, uint256 row) private pure returns (uint256 color) {
         unchecked {
-            if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
-            bool isUniform = load(IS_UNIFORM) != 0;
-            bool isKnown = isUniform && load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
-            bool fades = load(FADE_RANGE) != 0;
-            if (isKnown && !fades) return load(UNIFORM_COLOR);
+            bool isPlain = load(SHADOWS) | load(IS_UNIFORM) | load(FADE_RANGE) == 0;
+            bool isKnown;
+            if (!isPlain) {
+                if (load(SHADOWS) != 0) ShadowRows.setShare(covered, column);
+                isKnown = load(UNIFORM_SHARE) == load(SHADOW_SHARE) + 1;
+                if (isKnown && load(FADE_RANGE) == 0) return load(UNIFORM_COLOR);
+            }
             uint256 x = load(RAY_LEFT) + column * load(RAY_STEP);
             uint256 y = load(RAY_TOP) + row * load(RAY_STEP);
             if (covered != TOPS_64) {
@@ -86,11 +88,13 @@ library EffectSamples {
                 x += uint256(int256(dx * load(RAY_STEP)) >> 3);
                 y += uint256(int256(dy * load(RAY_STEP)) >> 3);
             }
-            // until the fragment is drawn
-            if (fades) store(OPACITY, Ground.opacityAt(attribute, x, y));
-            if (isKnown) return load(UNIFORM_COLOR);
+            if (!isPlain) {
+                // until the fragment is drawn
+                if (load(FADE_RANGE) != 0) store(OPACITY, Ground.opacityAt(attribute, x, y));
+                if (isKnown) return load(UNIFORM_COLOR);
+            }
             color = SurfaceLight.colorAt(attribute, x, y);
-            if (!isUniform) return color;
+            if (isPlain || load(IS_UNIFORM) == 0) return color;
             store(UNIFORM_COLOR, color);
             store(UNIFORM_SHARE, load(SHADOW_SHARE) + 1);
         }

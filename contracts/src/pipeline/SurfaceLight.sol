@@ -66,12 +66,14 @@ library SurfaceLight {
             color = FragmentLight.colorAt(attribute, s, t, x, y, true);
             addHemisphere();
             color = lit(albedo, color);
-            if (load(RIM_COLOR) != 0) color = withRim(color, rimAt(x, y));
         } else {
             color = albedo;
         }
-        if (load(IS_TONED) != 0) color = toned(color);
-        if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
+        if (load(IS_CHANGED) != 0) {
+            if (load(RIM_COLOR) != 0 && load(MODE) & IS_LIT != 0) color = withRim(color, rimAt(x, y));
+            if (load(IS_TONED) != 0) color = toned(color);
+            if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
+        }
         color = bounded(color);
         assembly ("memory-safe") {
             color := shr(PIXEL_AT, mul(and(add(color, HALF_LEVEL), BYTES_Q10), Q10_TO_PIXEL))
@@ -83,13 +85,6 @@ library SurfaceLight {
     function albedoAt(uint256 s, uint256 t) private pure returns (uint256 albedo) {
         assembly ("memory-safe") {
             albedo := shr(24, add(add(mload(COLOR_0), mul(mload(COLOR_1), s)), mul(mload(COLOR_2), t)))
-            if mload(OPACITIES) {
-                let opacity := sub(shr(OPACITY_AT, albedo), ONE_24)
-                // as the channels below
-                opacity := mul(opacity, sgt(opacity, 0))
-                if gt(opacity, WHITE_10) { opacity := WHITE_10 }
-                mstore(OPACITY, div(mul(opacity, mload(OBJECT_OPACITY)), WHITE_10))
-            }
             albedo := and(albedo, LANES_32)
             // each lane has 2^24 too much
             albedo := xor(albedo, ALBEDO_BIAS)
@@ -104,8 +99,23 @@ library SurfaceLight {
                 albedo := inside
             }
         }
-        if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
-        if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+        if (load(HAS_DETAILS) != 0) {
+            if (load(OPACITIES) != 0) setOpacity(s, t);
+            if (load(TEXTURE) != 0) albedo = textured(albedo, Texture.colorAt(s, t));
+            if (load(TONE_FLAGS) & TONE_GAMMA != 0) albedo = decoded(albedo);
+        }
+    }
+
+    /// @dev Sets OPACITY to that of the fragment, if vertices have opacities: the uppermost lane of colours.
+    function setOpacity(uint256 s, uint256 t) private pure {
+        unchecked {
+            uint256 sum = load(COLOR_0) + load(COLOR_1) * s + load(COLOR_2) * t;
+            // as for the channels
+            int256 opacity = int256(sum >> (OPACITY_AT + Q24)) - int256(ONE_24);
+            if (opacity < 0) opacity = 0;
+            if (opacity > int256(WHITE_10)) opacity = int256(WHITE_10);
+            store(OPACITY, uint256(opacity) * load(OBJECT_OPACITY) / WHITE_10);
+        }
     }
 
     /// @dev Lanes of Q10 times those of a texture, Q16.

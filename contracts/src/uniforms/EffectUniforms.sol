@@ -58,6 +58,7 @@ library EffectUniforms {
                     store(SHADOW_LIGHT, LIGHTS + index * LIGHT_SIZE);
                 }
             }
+            store(IS_CHANGED, load(RIM_COLOR) | load(IS_TONED) | load(FOG_RANGE) != 0 ? 1 : 0);
             ambient.light = Lights.colorLanes(scene.ambientLight);
             Light[] calldata lights = scene.lights;
             for (uint256 i; i != lights.length; ++i) store(LIGHT_COLORS + 32 * i, Lights.colorLanes(lights[i].color));
@@ -85,6 +86,7 @@ library EffectUniforms {
             store(TEXTURE_UVS, content == 0 ? 0 : EffectRecords.uvsOf(content) + moved);
             content = Extensions.find(scene, OPACITIES_OF, number);
             store(OPACITIES, content == 0 ? 0 : content + moved);
+            store(HAS_DETAILS, load(TEXTURE) | load(OPACITIES) | (load(TONE_FLAGS) & TONE_GAMMA) != 0 ? 1 : 0);
             content = Extensions.find(scene, GROUND, number);
             if (content == 0) {
                 store(FADE_RANGE, 0);
