@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from . import ground, layout, transform, vertex_shader
-from .effects import GROUND, SHADOW
+from .effects import GROUND, OPACITIES, SHADOW
 from .extensions import MAX_COORDINATE, OPACITY, Records
 from .mesh import Mesh, open_mesh
 from .registers import Registers
@@ -163,7 +163,7 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
 def casts(scene: Scene, index: int, records: Records) -> bool:
     """Return whether an object casts a shadow: not wires, what is not opaque, and what shall not."""
     is_wire = scene.objects[index].flags & WIREFRAME
-    return not is_wire and (OPACITY, index) not in records and (GROUND, index) not in records
+    return not is_wire and not any((kind, index) in records for kind in (OPACITY, OPACITIES, GROUND))
 
 
 def world_places(scene: Scene, index: int, mesh: Mesh) -> list[Vector]:
