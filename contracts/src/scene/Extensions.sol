@@ -17,13 +17,17 @@ import {SceneErrors} from "./SceneErrors.sol";
 //   OPACITY            of an object: 4 bytes, Q24, below 1
 //   ANTIALIAS          of the scene: nothing; edges are smoothed
 //   4 and above        effects, of the scene or of an object: see Effects.sol. A scene that has any is drawn by the EffectsEngine, which
-//                      checks them
+//                      checks them. Among them
+//   OPACITIES          of an object: a byte for each vertex of its mesh, in their order, from 0, not seen, to 255, opaque; then zeros up
+//                      to a whole word, at least one. An object that has them is drawn as one with an OPACITY, with which they are
+//                      multiplied
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
 uint256 constant ANTIALIAS = 3;
+uint256 constant OPACITIES_OF = 9;
 
 /// @dev The first kind of which sizes are told in words.
 uint256 constant LONG_KINDS = 8;
