@@ -62,7 +62,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class _Frame:
-    """The camera: its place, its axes (right, up, back as rows), and pixels per unit."""
+    """The camera: its place, its axes (right, up, back as rows), and pixels per unit.
+
+    place: which point of each pixel is drawn, in columns and rows from the centre.
+    """
 
     eye: Array
     axes: Array
@@ -71,6 +74,7 @@ class _Frame:
     near: float
     width: int
     height: int
+    place: tuple[float, float]
 
     def to_camera(self, points: Array) -> Array:
         """Points of the world as (right, up, distance)."""
@@ -147,17 +151,19 @@ def render(scene: Scene) -> Picture:
     return render_call(encode(artifact("Renderer").selectors["render"], scene))
 
 
-def render_call(data: bytes, grazing: float = 0.0, by_depth: bool = False) -> Picture:
+def render_call(
+    data: bytes, grazing: float = 0.0, by_depth: bool = False, place: tuple[float, float] = (0.0, 0.0)
+) -> Picture:
     """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it.
 
     grazing: highlights are where N.L is above it. by_depth: of objects that are not opaque, the farther are drawn first
-    in every pixel, whatever their order in the scene is, and all of them.
+    in every pixel, whatever their order in the scene is, and all of them. place: as in _Frame.
     """
     (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
     (width, height), camera, (top, bottom), invert, ambient, lights, objects, extensions = scene
     cones, opacities, of_vertices, effects = _extensions(extensions)
     lamps = [(*light, cones.get(i)) for i, light in enumerate(lights)]
-    frame = _frame(camera, width, height)
+    frame = _frame(camera, width, height, place)
     surfaces = [_surface(o, opacities.get(i, 1.0), of_vertices.get(i)) for i, o in enumerate(objects)]
     picture = _background(_rgb(top), _rgb(bottom), width, height)
     shape = (height, width)
@@ -238,13 +244,13 @@ def _rgb(color: int) -> Array:
     return np.array([color >> 16, color >> 8 & 0xFF, color & 0xFF], dtype=np.float64)
 
 
-def _frame(camera: Any, width: int, height: int) -> _Frame:
+def _frame(camera: Any, width: int, height: int, place: tuple[float, float]) -> _Frame:
     eye, target, up, projection, half_height, near = camera
     back = _unit(_q32(eye) - _q32(target))
     right = _unit(np.cross(_unit(_q32(up)), back))
     axes = np.array([right, np.cross(back, right), -back])
     focal = height / 2 / float(_q32(half_height))
-    return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height)
+    return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height, place)
 
 
 def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float], dict[int, bytes], _Effects]:
@@ -399,9 +405,9 @@ def _draw(
     divisor = points[:, 2] if frame.perspective else np.ones(3)
     x = frame.width / 2 + frame.focal * points[:, 0] / divisor
     y = frame.height / 2 - frame.focal * points[:, 1] / divisor
-    # in steps, relative to the centre of the first pixel
-    x = np.floor((x - 0.5) * SUBPIXELS + 0.5)
-    y = np.floor((y - 0.5) * SUBPIXELS + 0.5)
+    # in steps, relative to the place in the first pixel
+    x = np.floor((x - 0.5 - frame.place[0]) * SUBPIXELS + 0.5)
+    y = np.floor((y - 0.5 - frame.place[1]) * SUBPIXELS + 0.5)
     area = (x[2] - x[0]) * (y[1] - y[0]) - (x[1] - x[0]) * (y[2] - y[0])
     if area == 0 or (cull and area < 0):
         return

@@ -12,6 +12,7 @@ from pictures import Pixels, call_data, draw
 from shackled import Fog, Rim, Scene, Tone
 from shackled.scene import Hemisphere, fit
 
+from .antialiasing import SAMPLES
 from .compare import GRAZING, Result, outside
 from .neighbours import around, interior, uniform
 
@@ -33,6 +34,11 @@ def compare_effects(name: str, scene: Scene, draw: Callable[[Scene], Pixels] = d
     for layer in expected.layers:
         inner &= uniform(layer)
     error = np.abs(ours - expected.exact)
+    if (error[inner] > MOST).any():
+        # a sliver may cover a sample, but no centre
+        for place in SAMPLES.tolist():
+            seen = float64.render_call(call, by_depth=True, place=tuple(place)).layers
+            inner &= np.all([np.equal(*layers) for layers in zip(expected.layers, seen, strict=True)], axis=0)
     if (error[inner] > MOST).any():
         both = [around(float64.render_call(call, grazing, True).exact) for grazing in (-GRAZING, GRAZING)]
         error = np.minimum(error, outside(ours, np.concatenate(both)))
