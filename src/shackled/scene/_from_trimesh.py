@@ -38,11 +38,11 @@ def mesh_of(value: Any) -> Mesh:
         visual, channels = visual.to_color(), 3
         kind = visual.kind
     if kind == "face":
-        colors = np.asarray(visual.face_colors, dtype=np.uint8)[:, :channels]
+        colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
         return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
     if kind != "vertex":
         return Mesh(value.vertices, value.faces)
-    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[:, :channels])
+    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels])
 
 
 def part_of(value: Any) -> MeshPart:
