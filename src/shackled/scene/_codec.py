@@ -173,7 +173,7 @@ def shadow_rule(scene: Scene) -> int:
 def _record(kind: int, index: int, content: bytes) -> bytes:
     if index >> 16:
         raise InputError(
-            "objects with opacities, a texture or a fade must be among the first 65,536 of a scene, "
+            "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
             f"not number {index:,}"
         )
     size = len(content) // WORD if kind >= FIRST_IN_WORDS else len(content)

@@ -179,7 +179,7 @@ function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
 function record(kind: number, index: number, content: DataView): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
-            `objects with opacities, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
+            `objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, not number ${index}`,
         );
     }
     const head = new DataView(new ArrayBuffer(5));
