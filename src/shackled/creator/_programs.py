@@ -16,7 +16,7 @@ from ..chain import CallResult, EmbeddedChain
 from ..errors import InputError
 from ..gas import KEPT, floor_gas, render_call
 from ..image import Image
-from ..scene import Light, Scene
+from ..scene import Fog, Hemisphere, Light, Rim, Scene, Tone
 from ._link import LOCAL, is_local
 from ._scene import EFFECTS, FLAGS, MATERIAL, Facts
 from ._state import State
@@ -99,6 +99,15 @@ def _is_packed(subject: Subject) -> bool:
     return subject.stored is not None and subject.stored.name.lower().endswith(".zip")
 
 
+def _effect(value: Hemisphere | Rim | Fog | Tone | None) -> str:
+    """Return an effect as an expression; a hemisphere as its two colours."""
+    if value is None:
+        return "None"
+    if isinstance(value, Hemisphere):
+        return f"({_numbers(value.sky)}, {_numbers(value.ground)})"
+    return f"shackled.{value!r}"
+
+
 def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
     """Return the fields that differ between two scenes, as lines of a call of `replace`."""
     lines = [
@@ -109,7 +118,7 @@ def _changes(source: Scene, scene: Scene, with_size: bool) -> list[str]:
     if source.ambient_light != scene.ambient_light:
         lines.append(f"    ambient_light={_numbers(scene.ambient_light)},\n")
     lines += [
-        f"    {name}={'' if value is None else 'shackled.'}{value!r},\n"
+        f"    {name}={_effect(value)},\n"
         for name in EFFECTS
         if (value := getattr(scene, name)) != getattr(source, name)
     ]
