@@ -134,6 +134,12 @@ def test_creases_and_simplification_keep_them() -> None:
     assert np.abs(textured.opacities - textured.positions[:, 1] / np.ptp(BALL.positions[:, 1]) - 0.5).max() < 0.2
 
 
+def test_joined_meshes_keep_them() -> None:
+    both = shapes.joined(SQUARE, BALL)
+    assert both.opacities is not None
+    assert both.opacities.tolist() == [*np.asarray(SQUARE.opacities).tolist(), *np.ones(len(BALL.positions)).tolist()]
+
+
 def test_vertices_that_no_face_uses_are_left_out() -> None:
     more = Mesh([[9, 9, 9], *CORNERS], np.array(FACES) + 1, opacities=[0.5, 0, 0.2, 1, 0.4])
     (o,) = fit(scene_of(Object(more))).objects
