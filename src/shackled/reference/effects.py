@@ -6,11 +6,11 @@ from . import gamma
 from .extensions import MAX_COORDINATE, Records
 from .layout import MIDDLE_86_AT, UPPER_86_AT
 from .materials import scaled
-from .opacities import check_opacities
+from .opacities import OPACITIES, check_opacities
 from .registers import Registers
 from .scene_errors import Reverted
 from .structs import Material, Scene
-from .texture import check_texture
+from .texture import TEXTURE, check_texture
 from .vector import Matrix, transposed_times
 from .view import View
 from .words import color_lanes
@@ -19,8 +19,6 @@ from .words import color_lanes
 HEMISPHERE, RIM, FOG, TONE = 4, 5, 6, 7
 #: Kinds of records that `shadows` checks: of the light that casts shadows, and of objects that cast none and fade.
 SHADOW, GROUND = 10, 11
-#: Kinds of objects.
-TEXTURE, OPACITIES = 8, 9
 SIZES = {HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5}
 #: Flags of a TONE: the filmic curve; light is added up in linear values.
 TONE_FILMIC, TONE_GAMMA = 1, 2

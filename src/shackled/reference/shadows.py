@@ -10,9 +10,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from . import ground, layout, transform, vertex_shader
-from .effects import GROUND, OPACITIES, SHADOW
+from .effects import GROUND, SHADOW
 from .extensions import MAX_COORDINATE, OPACITY, Records
 from .mesh import Mesh, open_mesh
+from .opacities import OPACITIES
 from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from . import effects, ground, lights, materials, mesh_space, transform
-from .effects import OPACITIES, TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
+from .opacities import OPACITIES
 from .registers import Registers
 from .structs import UNLIT, WIREFRAME, Scene
+from .texture import TEXTURE
 from .vector import to_matrix
 from .view import View, look_at
 
