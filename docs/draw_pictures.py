@@ -93,6 +93,24 @@ def transparent() -> tuple[PillowImage.Image, int | None]:
     return PillowImage.fromarray(np.hstack([whole.pixels, np.asarray(board.convert("RGB"))])), cut.gas
 
 
+def glass() -> list[Image]:
+    """A teapot before balls: opaque, of one opacity, and with opacities that grow toward its foot."""
+    scene = pot(6, 192, GLAZED, color="#2f7fa8", lights=KEY, background=CREAM, antialias=True)
+    (vessel,) = scene.objects
+    balls = [
+        Object(painted(shapes.icosphere(3), color), place, scale=size, material=GLAZED)
+        for color, place, size in ((CLAY, (-0.3, -0.1, -0.7), 0.45), ("#e8b53a", (0.25, 0.0, -1.0), 0.36))
+    ]
+    heights = vessel.mesh.positions[:, 1]
+    opacities = np.interp(heights, [heights.min(), heights.max()], [1.0, 0.1])
+    vessels = [
+        vessel,
+        evolve(vessel, opacity=0.45),
+        evolve(vessel, mesh=evolve(vessel.mesh, opacities=opacities)),
+    ]
+    return [render(evolve(scene, objects=[*balls, each])) for each in vessels]
+
+
 def strip() -> list[Image]:
     """The same teapot in six ways, 128 x 128 pixels each."""
     flat = evolve(GLAZED, shading="flat")
@@ -227,9 +245,9 @@ def main() -> None:
         drawn = list(draw_showcase(Path(folder)))
         (IMAGES / "showcase.png").write_bytes(Path(folder, "sheet.png").read_bytes())
     figures["showcase"] = {each.name: each.gas for each in drawn}
-    images = strip()
-    PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / "strip.png", optimize=True)
-    figures["strip"] = {"gas": [image.gas for image in images]}
+    for name, images in {"strip": strip(), "glass": glass()}.items():
+        PillowImage.fromarray(np.hstack([image.pixels for image in images])).save(IMAGES / f"{name}.png", optimize=True)
+        figures[name] = {"gas": [image.gas for image in images]}
     for name, pieces, columns in (("icons", list(icons()), 7), ("common", builtin.pieces(), 8)):
         sheet, costs = contact_sheet(pieces, columns)
         sheet.save(IMAGES / f"{name}.png", optimize=True)

@@ -8,7 +8,8 @@ seen is then shaded pixel by pixel:
            + sum_i specular * max(0, N.H_i)^shininess * C_i
 
 C_i is the colour of a light, times what its cone lets through if it is a spot light. Objects that are not opaque are
-drawn after the others: colour * opacity + what is there * (1 - opacity), where each is seen first.
+drawn after the others: colour * opacity + what is there * (1 - opacity), where each is seen first. Opacities of
+vertices are interpolated as colours are.
 
 A hemisphere adds ground + (sky - ground) * (1 + N.y) / 2 to A. A rim adds its colour * (1 - max(0, N.V))^power. With
 gamma, surface, A, C_i, hemisphere and rim are linear values, decoded from sRGB. The sum times the exposure, cut off at
@@ -46,6 +47,7 @@ class Picture:
 
     pixels: (H, W, 3) uint8. exact: the same before it was rounded.
     triangle: (H, W) number of the triangle that is seen, counted through all objects; -1 for the background.
+    layers: (H, W) the same of all that is drawn one over the other: what is opaque, and each object that is not.
     corners: (n, 3) numbers of the vertices of each triangle, counted through all objects.
     is_smooth: (n,) whether its normals are interpolated.
     """
@@ -53,13 +55,17 @@ class Picture:
     pixels: NDArray[np.uint8]
     exact: Array
     triangle: Integers
+    layers: list[Integers]
     corners: Integers
     is_smooth: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class _Frame:
-    """The camera: its place, its axes (right, up, back as rows), and pixels per unit."""
+    """The camera: its place, its axes (right, up, back as rows), and pixels per unit.
+
+    place: which point of each pixel is drawn, in columns and rows from the centre.
+    """
 
     eye: Array
     axes: Array
@@ -68,6 +74,7 @@ class _Frame:
     near: float
     width: int
     height: int
+    place: tuple[float, float]
 
     def to_camera(self, points: Array) -> Array:
         """Points of the world as (right, up, distance)."""
@@ -123,7 +130,7 @@ def encoded(values: Array) -> Array:
 
 @dataclass(frozen=True)
 class _Surface:
-    """An object in the world. positions, colors, normals: of its vertices; faces: (m, 3)."""
+    """An object in the world. positions, colors, normals, opacities (n, 1): of its vertices; faces: (m, 3)."""
 
     positions: Array
     colors: Array
@@ -131,7 +138,12 @@ class _Surface:
     faces: Integers
     material: tuple[int, float, float, float, int]
     cull: bool
-    opacity: float
+    opacities: Array
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether nothing is seen through it."""
+        return bool((self.opacities == 1).all())
 
 
 def render(scene: Scene) -> Picture:
@@ -139,36 +151,46 @@ def render(scene: Scene) -> Picture:
     return render_call(encode(artifact("Renderer").selectors["render"], scene))
 
 
-def render_call(data: bytes, grazing: float = 0.0) -> Picture:
+def render_call(
+    data: bytes, grazing: float = 0.0, by_depth: bool = False, place: tuple[float, float] = (0.0, 0.0)
+) -> Picture:
     """The picture that calldata of `render(Scene)` asks for. There must be no wireframe in it.
 
-    grazing: highlights are where N.L is above it.
+    grazing: highlights are where N.L is above it. by_depth: of objects that are not opaque, the farther are drawn first
+    in every pixel, whatever their order in the scene is, and all of them. place: as in _Frame.
     """
     (scene,) = eth_abi.decode([scene_type()], data[4:])  # type: ignore[attr-defined]
     (width, height), camera, (top, bottom), invert, ambient, lights, objects, extensions = scene
-    cones, opacities, effects = _extensions(extensions)
+    cones, opacities, of_vertices, effects = _extensions(extensions)
     lamps = [(*light, cones.get(i)) for i, light in enumerate(lights)]
-    frame = _frame(camera, width, height)
-    surfaces = [_surface(o, opacities.get(i, 1.0)) for i, o in enumerate(objects)]
+    frame = _frame(camera, width, height, place)
+    surfaces = [_surface(o, opacities.get(i, 1.0), of_vertices.get(i)) for i, o in enumerate(objects)]
     picture = _background(_rgb(top), _rgb(bottom), width, height)
     shape = (height, width)
     triangle, depth = np.full(shape, -1, np.int64), np.full(shape, -np.inf)
     firsts = np.cumsum([0] + [len(surface.faces) for surface in surfaces])
     # all that is opaque at once, then one after the other
-    opaque = [i for i, surface in enumerate(surfaces) if surface.opacity == 1]
-    passes = [opaque, *([i] for i, surface in enumerate(surfaces) if 0 < surface.opacity < 1)]
+    opaque = [i for i, surface in enumerate(surfaces) if surface.is_opaque]
+    passes = [opaque, *([i] for i in range(len(surfaces)) if i not in opaque and opacities.get(i, 1.0) > 0)]
+    layers, fragments = [], []
     for numbers in passes:
-        drawn, bary = _rasterise(frame, surfaces, numbers, depth)
+        own_depth = depth.copy() if by_depth and numbers is not opaque else depth
+        drawn, bary = _rasterise(frame, surfaces, numbers, own_depth)
         triangle[drawn >= 0] = drawn[drawn >= 0]
+        layers.append(drawn)
         for i in numbers:
             surface, first = surfaces[i], firsts[i]
             seen = (drawn >= first) & (drawn < first + len(surface.faces))
             if seen.any():
-                color = _shade(frame, surface, drawn[seen] - first, bary[seen], _rgb(ambient), lamps, effects, grazing)
-                if surface.opacity < 1:
-                    color = np.clip(color, 0, 255) * surface.opacity
-                    color += np.clip(picture[seen], 0, 255) * (1 - surface.opacity)
-                picture[seen] = color
+                face, weights = drawn[seen] - first, bary[seen]
+                color = _shade(frame, surface, face, weights, _rgb(ambient), lamps, effects, grazing)
+                opacity = _mix(surface.opacities[surface.faces[face]], weights)
+                fragments.append((seen, own_depth, np.clip(color, 0, 255), opacity))
+    if by_depth:
+        _blend_by_depth(picture, fragments)
+    else:
+        for seen, _, color, opacity in fragments:
+            picture[seen] = color * opacity + np.clip(picture[seen], 0, 255) * (1 - opacity)
     if invert:
         picture = 255 - np.clip(picture, 0, 255)
     exact = np.clip(picture, 0, 255)
@@ -179,9 +201,24 @@ def render_call(data: bytes, grazing: float = 0.0) -> Picture:
         pixels=np.floor(exact + 0.5).astype(np.uint8),
         exact=exact,
         triangle=triangle,
+        layers=layers,
         corners=np.concatenate([np.empty((0, 3), np.int64), *corners]),
         is_smooth=np.concatenate([np.empty(0, bool), *smooth]),
     )
+
+
+def _blend_by_depth(picture: Array, fragments: list[tuple[NDArray[np.bool_], Array, Array, Array]]) -> None:
+    """Draws fragments, the farthest first in each pixel: where they are and their depths, (H, W); their colours, (n,
+    3), and opacities, (n, 1).
+    """
+    shape = (len(fragments), *picture.shape[:2])
+    depths, colors, opacities = np.full(shape, -np.inf), np.zeros((*shape, 3)), np.zeros((*shape, 1))
+    for i, (seen, depth, color, opacity) in enumerate(fragments):
+        depths[i][seen], colors[i][seen], opacities[i][seen] = depth[seen], color, opacity
+    order = np.argsort(depths, axis=0, kind="stable")[..., None]
+    colors, opacities = np.take_along_axis(colors, order, axis=0), np.take_along_axis(opacities, order, axis=0)
+    for color, opacity in zip(colors, opacities, strict=True):
+        picture[:] = color * opacity + picture * (1 - opacity)
 
 
 # ---- what the calldata says ----
@@ -207,30 +244,33 @@ def _rgb(color: int) -> Array:
     return np.array([color >> 16, color >> 8 & 0xFF, color & 0xFF], dtype=np.float64)
 
 
-def _frame(camera: Any, width: int, height: int) -> _Frame:
+def _frame(camera: Any, width: int, height: int, place: tuple[float, float]) -> _Frame:
     eye, target, up, projection, half_height, near = camera
     back = _unit(_q32(eye) - _q32(target))
     right = _unit(np.cross(_unit(_q32(up)), back))
     axes = np.array([right, np.cross(back, right), -back])
     focal = height / 2 / float(_q32(half_height))
-    return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height)
+    return _Frame(_q32(eye), axes, projection == 0, focal, float(_q32(near)), width, height, place)
 
 
-def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float], _Effects]:
-    """The cones of lights (where each points, the cosines of its angles) and the opacities of objects, by index; and
-    the effects of the scene.
+def _extensions(data: bytes) -> tuple[dict[int, Array], dict[int, float], dict[int, bytes], _Effects]:
+    """The cones of lights (where each points, the cosines of its angles), the opacities of objects and those of their
+    vertices, by index; and the effects of the scene.
     """
-    cones, opacities, effects = {}, {}, dict[int, bytes]()
+    cones, opacities, of_vertices, effects = {}, {}, dict[int, bytes](), dict[int, bytes]()
     while data:
         kind, index, size = data[0], int.from_bytes(data[1:3], "big"), int.from_bytes(data[3:5], "big")
+        size *= 1 if kind < 8 else 32
         content, data = data[5 : 5 + size], data[5 + size :]
         if kind == 1:
             cones[index] = _q32(np.frombuffer(content, ">i8"))
         elif kind == 2:
             opacities[index] = int.from_bytes(content, "big") / 2.0**24
+        elif kind == 9:
+            of_vertices[index] = content
         else:
             effects[kind] = content
-    return cones, opacities, _effects(effects)
+    return cones, opacities, of_vertices, _effects(effects)
 
 
 def _effects(records: dict[int, bytes]) -> _Effects:
@@ -256,11 +296,14 @@ def _effects(records: dict[int, bytes]) -> _Effects:
     )
 
 
-def _surface(o: Any, opacity: float) -> _Surface:
+def _surface(o: Any, opacity: float, of_vertices: bytes | None) -> _Surface:
     mesh, position, rotation, scale, (shading, ambient, diffuse, specular, shininess), flags = o
     assert not flags & WIREFRAME
     points, colors, normals, faces = unpack(mesh)
     turn = rotation_matrix(_q32(rotation))
+    opacities = np.full((len(points), 1), opacity)
+    if of_vertices is not None:
+        opacities[:, 0] *= np.frombuffer(of_vertices, np.uint8)[: len(points)] / 255
     return _Surface(
         positions=_q32(position) + float(_q32(scale)) * points @ turn.T,
         colors=colors,
@@ -268,7 +311,7 @@ def _surface(o: Any, opacity: float) -> _Surface:
         faces=faces,
         material=(shading, float(_q32(ambient)), float(_q32(diffuse)), float(_q32(specular)), shininess),
         cull=bool(flags & CULL_BACKFACES),
-        opacity=opacity,
+        opacities=opacities,
     )
 
 
@@ -362,9 +405,9 @@ def _draw(
     divisor = points[:, 2] if frame.perspective else np.ones(3)
     x = frame.width / 2 + frame.focal * points[:, 0] / divisor
     y = frame.height / 2 - frame.focal * points[:, 1] / divisor
-    # in steps, relative to the centre of the first pixel
-    x = np.floor((x - 0.5) * SUBPIXELS + 0.5)
-    y = np.floor((y - 0.5) * SUBPIXELS + 0.5)
+    # in steps, relative to the place in the first pixel
+    x = np.floor((x - 0.5 - frame.place[0]) * SUBPIXELS + 0.5)
+    y = np.floor((y - 0.5 - frame.place[1]) * SUBPIXELS + 0.5)
     area = (x[2] - x[0]) * (y[1] - y[0]) - (x[1] - x[0]) * (y[2] - y[0])
     if area == 0 or (cull and area < 0):
         return

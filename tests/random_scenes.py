@@ -58,6 +58,8 @@ ANTIALIASED = 0.3
 EFFECTS, EACH_EFFECT = 0.25, 0.5
 #: How often a scene has textures.
 TEXTURED = 0.2
+#: How often a scene has objects whose vertices have opacities.
+SEEN_THROUGH = 0.12
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -72,7 +74,8 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
     scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
-    return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
+    scene = _textured(np.random.default_rng([seed, 8]), scene)
+    return Case(_seen_through(np.random.default_rng([seed, 9]), scene), tile)
 
 
 def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
@@ -122,6 +125,23 @@ def _with_texture(rng: Rng, o: Object) -> Object:
     return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
+def _seen_through(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with opacities of the vertices of some of its objects."""
+    if rng.random() >= SEEN_THROUGH:
+        return scene
+    objects = [_with_opacities(rng, o) if rng.random() < 0.8 else o for o in scene.objects]
+    return evolve(scene, objects=objects)
+
+
+def _with_opacities(rng: Rng, o: Object) -> Object:
+    opacities = rng.random(len(o.mesh.positions))
+    if rng.random() < 0.3:
+        opacities = np.rint(opacities)
+    if rng.random() < 0.3:
+        opacities = 0.5 + opacities / 3
+    return evolve(o, mesh=evolve(o.mesh, opacities=opacities))
+
+
 def _scene(rng: Rng, kind: Kind) -> Scene:
     width, height = _canvas(rng)
     objects = [_object(rng, kind) for _ in range(rng.choice([0, 1, 2, 3], p=[0.02, 0.68, 0.2, 0.1]))]
@@ -138,8 +158,10 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
 
 
 def plain(scene: Scene) -> Scene:
-    """The scene without anti-aliasing, effects and textures."""
-    objects = [evolve(o, material=evolve(o.material, texture=None)) for o in scene.objects]
+    """The scene without anti-aliasing, effects, textures and opacities of vertices."""
+    objects = [
+        evolve(o, mesh=evolve(o.mesh, opacities=None), material=evolve(o.material, texture=None)) for o in scene.objects
+    ]
     return evolve(scene, objects=objects, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
 
 

@@ -238,6 +238,11 @@ def texture(index: int, flags: int, width: int, height: int, bits: int, words: i
     return bytes([8, 0, index]) + (len(content) // 32).to_bytes(2, "big") + content
 
 
+def levels(index: int, words: int) -> bytes:
+    """The record of opacities of the vertices of an object."""
+    return b"\t" + index.to_bytes(2, "big") + words.to_bytes(2, "big") + np.random.default_rng(words).bytes(32 * words)
+
+
 @pytest.mark.parametrize(
     ("data", "error"),
     [
@@ -299,6 +304,12 @@ def texture(index: int, flags: int, width: int, height: int, bits: int, words: i
         (texture(1, 0, 9, 9, 4, -1), "ExtensionSize(kind=8, index=1, expected=160, actual=128)"),
         (texture(1, 0, 9, 9, 4, 1), "ExtensionSize(kind=8, index=1, expected=160, actual=192)"),
         (texture(0, 0, 1, 1, 1) + texture(0, 0, 1, 1, 1), "ExtensionOrder(kind=8, index=0)"),
+        (levels(3, 1), "ExtensionIndex(kind=9, index=3, count=3)"),
+        (levels(65535, 0), "ExtensionIndex(kind=9, index=65535, count=3)"),
+        (levels(0, 0), "ExtensionSize(kind=9, index=0, expected=32, actual=0)"),
+        (levels(2, 2), "ExtensionSize(kind=9, index=2, expected=32, actual=64)"),
+        (levels(1, 1) + levels(1, 1), "ExtensionOrder(kind=9, index=1)"),
+        (levels(1, 1) + texture(1, 0, 1, 1, 1), "ExtensionOrder(kind=8, index=1)"),
     ],
 )
 def test_wrong_records_are_refused(data: bytes, error: str) -> None:
@@ -327,6 +338,7 @@ def test_wrong_records_are_refused(data: bytes, error: str) -> None:
         record(6, 0, fog(FAR - 1, FAR)) + record(7, 0, tone(64 << 16, 3)),
         pytest.param(texture(0, 0, 1, 1, 1) + texture(1, 1, 7, 5, 4) + texture(2, 2, 3, 256, 2), id="textures"),
         pytest.param(record(7, 0, tone(1 << 16, 2)) + texture(1, 3, 256, 256, 24), id="the largest texture"),
+        pytest.param(record(2, 0, HALF) + texture(0, 0, 1, 1, 1) + levels(0, 1) + levels(2, 1), id="opacities"),
     ],
 )
 def test_values_at_their_bounds(data: bytes) -> None:

@@ -29,7 +29,6 @@ from shackled import (
     replace,
 )
 from shackled.datasets import require
-from shackled.errors import InputWarning
 from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate, signed_volume, write_obj
 
 BALL = trimesh.creation.icosphere(subdivisions=1)
@@ -111,8 +110,10 @@ def test_colours_of_trimesh() -> None:
     assert (mesh.colors[mesh.faces] == faces[:, None, :3]).all()
     colors[0, 3] = 7
     painted = trimesh.Trimesh(BALL.vertices, BALL.faces, vertex_colors=colors, process=False)
-    with pytest.warns(InputWarning, match="not opaque"):
-        Mesh.from_trimesh(painted)
+    assert Mesh.from_trimesh(painted).rgba.tolist() == colors.tolist()
+    faces[0, 3] = 7
+    mesh = Mesh.from_trimesh(trimesh.Trimesh(BALL.vertices, BALL.faces, face_colors=faces, process=False))
+    assert (mesh.rgba[mesh.faces] == faces[:, None]).all()
     with pytest.raises(InputError, match=r"^a trimesh\.Trimesh is needed, not 5"):
         Mesh.from_trimesh(5)
 

@@ -14,7 +14,7 @@ from pictures import chain, draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.image import decode_bmp
-from shackled.reference import draw_call, layout, shadows_of
+from shackled.reference import draw_call, shadows_of
 from shackled.scene import Rectangle, decode, encode, encode_scene, encode_scene_file, extensions, fit, render_call
 
 SIZE = 40
@@ -87,8 +87,9 @@ def test_answers_of_the_contract(seed: int) -> None:
     scene = random_scene(seed, 48)
     data = encode(artifact("Effects").selectors["prepare"], scene)
     answer = chain().call("Effects", data).output
-    uniforms = layout.EFFECT_FRAME_SIZE + len(scene.objects) * layout.EFFECT_OBJECT_SIZE
-    assert answer[uniforms:] == shadows_of(render_call(scene))
+    expected = shadows_of(render_call(scene))
+    assert expected
+    assert answer.endswith(expected)
     assert equals_reference(scene)
 
 

@@ -79,7 +79,7 @@ def locate(input: str | os.PathLike[str]) -> Path | Piece:
 
 def _unplaced(part: MeshPart) -> Object:
     """Return a part of a model as an object, which `look_at` is to place."""
-    return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material))
+    return Object(part.mesh, material=evolve(MESH_STAGING.material, **part.material), opacity=part.opacity)
 
 
 def _made(thing: Any, look: dict[str, Any]) -> Mesh | list[Object] | Scene:

@@ -62,7 +62,7 @@ def main() -> int:
     plain, antialiased = Result(), Result()
     for task, result in run(list(tasks(arguments.count, seed, arguments.only)), arguments.jobs):
         rows[task.row] = rows.get(task.row, Result()) + result
-        if task.samples or task.effects:
+        if task.samples or task.effects or task.glass:
             antialiased += result
         else:
             plain += result

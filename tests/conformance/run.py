@@ -10,14 +10,14 @@ from multiprocessing import get_context
 from .antialiasing import compare_samples
 from .compare import Result, compare
 from .effects import compare_effects, with_effects
-from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
+from .scenes import SIZES, built_in, built_in_scene, glass_scene, random_scene, textured_scene
 
 
 @dataclass(frozen=True)
 class Task:
     """One comparison. row: of the table. piece: the name of a built-in piece, or "" for a random scene.
     number: the size of its canvas in pixels, or the seed. samples: whether the picture is antialiased. effects: whether
-    it has effects. textured: whether the random scene has textures.
+    it has effects. textured, glass: whether the random scene has textures, or objects that are seen through.
     """
 
     row: str
@@ -26,6 +26,7 @@ class Task:
     samples: bool = False
     effects: bool = False
     textured: bool = False
+    glass: bool = False
 
     def run(self) -> Result:
         """Compares the pictures of the scene."""
@@ -41,6 +42,8 @@ class Task:
             return compare_effects(
                 f"random scene {self.number}, effects", with_effects(random_scene(self.number), self.number)
             )
+        if self.glass:
+            return compare_effects(f"glass scene {self.number}", glass_scene(self.number))
         if self.samples:
             return compare_samples(f"random scene {self.number}, antialiased", random_scene(self.number))
         if self.textured:
@@ -56,6 +59,7 @@ def tasks(count: int, seed: int, only: str | None = None) -> Iterator[Task]:
         yield from (Task("random, textured", "", number, textured=True) for number in range(seed, seed + count))
         # the judge is slow
         yield from (Task("random, effects", "", number, effects=True) for number in range(seed, seed + count // 5))
+        yield from (Task("random, glass", "", number, glass=True) for number in range(seed, seed + count // 5))
     for piece in built_in() if only != "random" else ():
         if only in (None, piece.dataset, piece.name):
             yield from (Task(f"{piece.dataset}, {size}", piece.name, size) for size in SIZES)

@@ -56,6 +56,62 @@ def textured_scene(seed: int) -> Scene:
     return evolve(scene, objects=[_with_texture(rng, o) for o in scene.objects])
 
 
+def glass_scene(seed: int) -> Scene:
+    """The scene of a seed with convex objects apart from one another, the farthest first, whose vertices have opacities
+    of their own; and other things, before, behind and within.
+    """
+    rng = np.random.default_rng([14, seed])
+    places: list[tuple[Array, float]] = []
+    glasses = []
+    for _ in range(rng.integers(1, 5)):
+        center, radius = rng.normal(size=3), rng.uniform(0.3, 1.2)
+        if all(np.linalg.norm(center - other) > radius + size for other, size in places):
+            places.append((center, radius))
+            glasses.append(_glass(rng, center, radius))
+    camera = _camera(rng, glasses[0])
+    if camera.projection == "perspective":
+        nearness = [radius**2 - ((center - camera.eye) ** 2).sum() for center, radius in places]
+    else:
+        nearness = [-float(center @ (camera.target - camera.eye)) for center, _ in places]
+    things = [_object(rng, 1.0) for _ in range(rng.integers(1, 4))]
+    width, height = _canvas(rng)
+    return Scene(
+        [*things, *(glasses[i] for i in np.argsort(nearness))],
+        camera,
+        [_light(rng, glasses[0]) for _ in range(rng.integers(4))],
+        Background(_color(rng), _color(rng)),
+        width=width,
+        height=height,
+    )
+
+
+def _glass(rng: Rng, center: Array, radius: float) -> Object:
+    """A convex object that fills a sphere."""
+    made: list[Callable[[], Mesh]] = [
+        shapes.sphere,
+        shapes.cone,
+        shapes.cylinder,
+        shapes.dodecahedron,
+        lambda: shapes.icosphere(int(rng.integers(0, 3))),
+        lambda: _box(rng.uniform(0.3, 3, 3)),
+    ]
+    mesh = made[rng.integers(len(made))]()
+    points = mesh.positions - (mesh.positions.min(axis=0) + mesh.positions.max(axis=0)) / 2
+    size = float(np.linalg.norm(points, axis=1).max())
+    opacities = rng.random(len(points)) if rng.random() < 0.5 else 0.5 + points @ rng.normal(size=3) / (2 * size)
+    if rng.random() < 0.2:
+        opacities = np.rint(opacities)
+    return Object(
+        evolve(mesh, positions=points, colors=_colors(rng, mesh), opacities=np.clip(opacities, 0, 1)),
+        position=center,
+        rotation=rng.normal(size=4),
+        scale=radius / size,
+        material=_material(rng),
+        cull=bool(rng.random() < 0.6),
+        opacity=float(rng.choice([1.0, rng.uniform(0.2, 1)])),
+    )
+
+
 def _with_texture(rng: Rng, o: Object) -> Object:
     """The object with a texture, whose coordinates go around the mesh as on a box, up to a few times."""
     height, width = rng.integers(1, 9, 2).tolist()

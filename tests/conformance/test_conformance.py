@@ -17,7 +17,7 @@ from .compare import MEAN_OF_RUN, MOST, Result, compare
 from .coverage import judge
 from .effects import compare_effects, with_effects
 from .neighbours import interior
-from .scenes import SIZES, built_in, built_in_scene, random_scene, textured_scene
+from .scenes import SIZES, built_in, built_in_scene, glass_scene, random_scene, textured_scene
 from .world import before_camera
 
 #: About 30 seconds of scenes.
@@ -80,6 +80,13 @@ def test_effects_of_random_scenes() -> None:
     whole = sum((compare_effects(f"random scene {seed}", scene) for seed, scene in scenes), Result())
     assert whole.faults == []
     assert whole.interior > 50_000
+    assert whole.mean < MEAN_OF_RUN
+
+
+def test_glass() -> None:
+    whole = sum((compare_effects(f"glass scene {seed}", glass_scene(seed)) for seed in range(200, 212)), Result())
+    assert whole.faults == []
+    assert whole.interior > 40_000
     assert whole.mean < MEAN_OF_RUN
 
 

@@ -165,8 +165,6 @@ def test_colours_are_names_and_may_have_an_opaque_alpha() -> None:
     assert Mesh(CORNERS, FACES, ["red", "green", "#0000ff"]) == Mesh(CORNERS, FACES, rows)
     assert scene(background="navy").background == Background((0, 0, 128))
     assert scene(background=("navy", (1.0, 1.0, 1.0))).background == Background((0, 0, 128), (255, 255, 255))
-    with pytest.raises(InputError, match=r"^the colour of vertex 1 must be opaque, not of alpha 128; an Object"):
-        Mesh(CORNERS, FACES, [(1, 2, 3, 255), (1, 2, 3, 128), (1, 2, 3, 255)])
     with pytest.raises(InputError, match=r"^the background colour must be opaque, not \(1, 2, 3, 4\); an Object"):
         Background((1, 2, 3, 4))
     for wrong in ("reddish", "", "#12345", "#1234567"):

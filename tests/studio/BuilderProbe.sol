@@ -88,6 +88,19 @@ contract BuilderProbe {
         return stage.scene;
     }
 
+    function seeThrough(bytes memory levels) external pure returns (Scene memory) {
+        Model memory m = ModelMaker.model(8, 12);
+        m.box(-100, -100, -100, 100, 100, 100, 0x102030);
+        Stage memory stage = StageMaker.stage(20, 10, 2);
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.opacities("");
+        stage.add(m.pack(), StageMaker.unlit());
+        stage.fade(50);
+        stage.opacities(levels);
+        stage.antialias();
+        return stage.scene;
+    }
+
     function scene(uint256 objects, uint256 added, uint256 lights) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(20, 10, objects);
         for (uint256 k; k < added; ++k) {

@@ -203,6 +203,15 @@ def test_textures_that_are_wrong(world: World, probe: bytes) -> None:
             world.run(probe, call_data(TEXTURED, *values))
 
 
+@pytest.mark.parametrize("count", [7, 8, 32, 33, 64])
+def test_opacities(world: World, probe: bytes, count: int) -> None:
+    levels = bytes(range(1, count + 1))
+    (scene,) = ask(world, probe, [SCENE_STRUCT], "seeThrough(bytes)", levels)
+    words = (count + 31) // 32
+    expected = b"\2\0\1\0\4\0\x80\0\0" + b"\3\0\0\0\0" + b"\t\0\0\0\1" + bytes(32)
+    assert scene[7] == expected + bytes([9, 0, 1, 0, words]) + levels.ljust(32 * words, b"\0")
+
+
 @pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])
 def test_two_objects_of_one_model(world: World, probe: bytes, spare: tuple[int, int]) -> None:
     """A model is packed for each: both have its mesh."""

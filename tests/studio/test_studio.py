@@ -134,6 +134,13 @@ def test_textures_are_kept_with_the_scene(world: World, shading: Shading) -> Non
     assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
 
 
+@pytest.mark.parametrize("shading", ["flat", "smooth"])
+def test_opacities_are_kept_with_the_scene(world: World, shading: Shading) -> None:
+    mesh = evolve(POT, opacities=np.random.default_rng(2).uniform(0, 1, len(POT.positions)))
+    scene = evolve(SCENE, objects=[Object(mesh, (0, -100, 0), material=Material(shading))])
+    assert changed(world, stored(world, scene)).tolist() == render(scene).pixels.tolist()
+
+
 def test_antialiased(world: World) -> None:
     glass = evolve(SCENE, objects=[evolve(o, opacity=0.5) for o in SCENE.objects])
     for scene in (SCENE, glass, evolve(glass, antialias=True)):

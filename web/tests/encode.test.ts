@@ -34,6 +34,21 @@ test("colours of every kind", () => {
     assert.deepEqual(encode({ ...SCENE, objects: [{ mesh }] }), encode({ ...SCENE, objects: [{ mesh: rows }] }));
 });
 
+test("opacities, and colours with an alpha", () => {
+    const of = (mesh: object): Uint8Array => encode({ ...SCENE, objects: [{ mesh: { ...MESH, ...mesh } }] });
+    const colors = [
+        [1, 2, 3, 255],
+        [4, 5, 6, 51],
+        [7, 8, 9, 0],
+    ];
+    const opaque = colors.map((row) => row.slice(0, 3));
+    const seen = of({ colors });
+    assert.deepEqual(of({ colors: opaque, opacities: [1, 0.2, 0] }), seen);
+    assert.ok(seen.length > of({ colors: opaque }).length);
+    assert.deepEqual(of({ colors: opaque, opacities: [1, 1, 0.999] }), of({ colors: opaque }));
+    assert.deepEqual(of({ colors: opaque.map((row) => [...row, 255]) }), of({ colors: opaque }));
+});
+
 test("a scene file as text tells fractions from whole numbers", () => {
     const text = (color: string): string =>
         `{"objects": [], "ambient_light": ${color}, "background": {"top": [0, 0, 1]}}`;
@@ -72,6 +87,15 @@ test("wrong scenes are refused, with the place", () => {
         ],
         [{ ...SCENE, objects: [{ mesh: { ...MESH, positions: [1, 2] } }] }, /positions must be rows of three numbers/],
         [{ ...SCENE, objects: [{ mesh: { ...MESH, positions: [[0, 0, NaN]] } }] }, /positions\[0\] must be 3 finite/],
+        [{ ...SCENE, objects: [{ mesh: { ...MESH, opacities: [0, 1] } }] }, /opacities must be one for each of 3 .* 2/],
+        [
+            { ...SCENE, objects: [{ mesh: { ...MESH, opacities: [0, 1, 2] } }] },
+            /opacities\[2\] must be .* 0 to 1, not 2/,
+        ],
+        [
+            { ...SCENE, objects: [{ mesh: { ...MESH, opacities: [0, 0, 0], colors: Array(3).fill([1, 2, 3, 4]) } }] },
+            /mesh must have opacities, or colors with an alpha below 255, not both/,
+        ],
         [{ ...SCENE, objects: [{ mesh: MESH, scale: -1 }] }, /objects\[0\]\.scale must be .* at least 0, not -1/],
         [{ ...SCENE, objects: [{ mesh: MESH, rotation: [0, 0, 0, 0] }] }, /rotation must not be the zero quaternion/],
         [{ ...SCENE, objects: [{ mesh: MESH, material: { shading: "shiny" } }] }, /shading must be one of unlit, flat/],

@@ -116,7 +116,7 @@ library EffectRecords {
                 }
                 size = UV_SIZE * size + uvsOf(record) - record;
             }
-            return (size + 31) & ~uint256(31);
+            return size == 0 ? 32 : (size + 31) & ~uint256(31);
         }
     }
 

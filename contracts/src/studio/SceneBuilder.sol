@@ -5,7 +5,9 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {FOG, GROUND, HEMISPHERE, RIM, SHADOW, SHADOWS_ALL, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA} from "../scene/EffectRecords.sol";
+import {
+    FOG, GROUND, HEMISPHERE, OPACITIES_OF, RIM, SHADOW, SHADOWS_ALL, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA
+} from "../scene/EffectRecords.sol";
 import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
 import {
@@ -149,7 +151,7 @@ struct Stage {
 using {
     StageMaker.look, StageMaker.background, StageMaker.sun, StageMaker.lamp, StageMaker.spot, StageMaker.add, StageMaker.fade,
     StageMaker.antialias, StageMaker.hemisphere, StageMaker.rim, StageMaker.fog, StageMaker.tone,
-    StageMaker.shadow, StageMaker.ground, StageMaker.texture
+    StageMaker.shadow, StageMaker.ground, StageMaker.texture, StageMaker.opacities
 } for Stage global;
 
 /// @notice Scenes made step by step on chain. Lengths are whole units where a parameter is an int256, angles whole degrees, coefficients
@@ -295,6 +297,19 @@ library StageMaker {
                 }
             }
             made.scene.extensions = Extensions.added(made.scene.extensions, TEXTURE_OF, made.scene.objects.length - 1, content);
+        }
+    }
+
+    /// @notice Has each vertex of the object that was added last hide only so much of what is behind it.
+    /// @param levels A byte for each vertex of the mesh, from 0, not seen, to 255, opaque.
+    function opacities(Stage memory made, bytes memory levels) internal pure {
+        unchecked {
+            // whole words, at least one
+            bytes memory content = new bytes(levels.length == 0 ? 32 : (levels.length + 31) & ~uint256(31));
+            assembly ("memory-safe") {
+                mcopy(add(content, 32), add(levels, 32), mload(levels))
+            }
+            made.scene.extensions = Extensions.added(made.scene.extensions, OPACITIES_OF, made.scene.objects.length - 1, content);
         }
     }
 

@@ -8,9 +8,10 @@ that share an edge share the cut as well.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from .layout import GUARD_BITS, LANES_24
+from .layout import GUARD_BITS, LANES_24, SCREEN_RECORD_MASK
 from .mesh import Mesh
 from .registers import Registers
 from .vertex_shader import Vertex, clip_coordinates, screen_vertex
@@ -122,6 +123,35 @@ def project(corner: Corner, number: int, registers: Registers) -> Vertex:
     vertex = screen_vertex(x, y, number, (depth << 168) | corner.color, registers)
     vertex.normal = corner.normal
     return vertex
+
+
+def value_of(
+    vertex: Vertex, face: int, mesh: Mesh, read: Callable[[int], tuple[int, ...]], registers: Registers
+) -> tuple[int, ...]:
+    """Return what a vertex has, in whole numbers: what is read of it, or where it is new, since its face was clipped,
+    what that place of the face has.
+
+    With the clip coordinates P of the vertices of the face, (x, y, 1) of the place is a multiple of their sum with the
+    weights e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
+    """
+    number = vertex.word & SCREEN_RECORD_MASK
+    if number < len(mesh.positions):
+        return read(number)
+    corners = []
+    for each in mesh.faces[face]:
+        x, y, w, _ = clip_coordinates(mesh, each, registers)
+        corners.append((x, y, divisor(w, registers)))
+    weights = [determinant(vertex.x, vertex.y, corners[(i + 1) % 3], corners[(i + 2) % 3]) for i in range(3)]
+    total = sum(weights)
+    places = zip(*(read(each) for each in mesh.faces[face]), strict=True)
+    sums = (sum(w * value for w, value in zip(weights, values, strict=True)) for values in places)
+    return tuple(divide_signed(each, total) if total else 0 for each in sums)
+
+
+def determinant(x: int, y: int, p: tuple[int, int, int], q: tuple[int, int, int]) -> int:
+    """Return det((x, y, 1), p, q)."""
+    (px, py, pw), (qx, qy, qw) = p, q
+    return x * (py * qw - pw * qy) - y * (px * qw - pw * qx) + px * qy - py * qx
 
 
 def in_guard_band(value: int) -> int:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from .extensions import MAX_COORDINATE, Records
+from .opacities import OPACITIES, check_opacities
 from .scene_errors import Reverted
 from .structs import Scene
-from .texture import check_texture
+from .texture import TEXTURE, check_texture
 
 #: Kinds of records of the scene.
 HEMISPHERE, RIM, FOG, TONE = 4, 5, 6, 7
 #: Kinds of objects and, of the light that casts shadows, SHADOW. A GROUND casts none, and fades.
-TEXTURE, SHADOW, GROUND = 8, 10, 11
-KINDS = {HEMISPHERE, RIM, FOG, TONE, TEXTURE, SHADOW, GROUND}
-#: The sizes of contents; those of a TEXTURE depend on the mesh.
+SHADOW, GROUND = 10, 11
+KINDS = {HEMISPHERE, RIM, FOG, TONE, TEXTURE, OPACITIES, SHADOW, GROUND}
+#: The sizes of contents; those of TEXTURE and OPACITIES depend on the mesh.
 SIZES = {HEMISPHERE: 6, RIM: 4, FOG: 19, TONE: 5, SHADOW: 32, GROUND: 32}
 #: Flags of a TONE: the filmic curve; light is added up in linear values.
 TONE_FILMIC, TONE_GAMMA = 1, 2
@@ -35,6 +36,9 @@ def check(records: Records, scene: Scene) -> None:
             raise Reverted("ExtensionIndex", kind=kind, index=index, count=count)
         if kind == TEXTURE:
             check_texture(content, index, scene)
+            continue
+        if kind == OPACITIES:
+            check_opacities(content, index, scene)
             continue
         if len(content) != SIZES[kind]:
             raise Reverted("ExtensionSize", kind=kind, index=index, expected=SIZES[kind], actual=len(content))

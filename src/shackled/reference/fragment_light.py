@@ -22,13 +22,8 @@ def color_at(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
     may be negative, or above 1, outside the triangle. x, y: the ray through the place, Q24; the place itself, Q32, for
     an orthographic camera.
     """
-    if r.mode & IS_ORTHOGRAPHIC == 0:
-        s = divide_signed(s * r.depth_1, depth)
-        t = divide_signed(t * r.depth_2, depth)
-        if r.mode & IS_STEEP:
-            # rounding counts much where a near vertex meets a far fragment
-            s, t = min(s, 1 << 24), min(t, 1 << 24)
-    else:
+    s, t = corrected(depth, s, t, r)
+    if r.mode & IS_ORTHOGRAPHIC:
         r.fragment_place_x, r.fragment_place_y = x >> 16, y >> 16
         x = y = 0
     # each lane has 2^24 too much, so that it is positive
@@ -52,6 +47,16 @@ def color_at(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> int:
             value += (glossy >> (56 * channel)) & 0xFFFFFF
         lanes += value << (85 * channel)
     return lanes
+
+
+def corrected(depth: int, s: int, t: int, r: Registers) -> tuple[int, int]:
+    """Return barycentric coordinates on the screen as those of the surface, Q24: correct in perspective."""
+    if r.mode & IS_ORTHOGRAPHIC == 0:
+        s, t = divide_signed(s * r.depth_1, depth), divide_signed(t * r.depth_2, depth)
+        if r.mode & IS_STEEP:
+            # rounding counts much where a near vertex meets a far fragment
+            s, t = min(s, 1 << 24), min(t, 1 << 24)
+    return s, t
 
 
 def ray_length(x: int, y: int, r: Registers) -> int:

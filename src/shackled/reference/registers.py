@@ -197,4 +197,12 @@ class Registers:
     #: the content of the record TEXTURE of the object
     texture: bytes | None = None
     #: texture coordinates of the vertices of a triangle, Q16
-    uvs: list[tuple[int, int]] = field(default_factory=list)
+    uvs: list[tuple[int, ...]] = field(default_factory=list)
+
+    #: the content of the record OPACITIES of the object, the opacity of the object itself, Q24, and opacities of the
+    #: vertices of a triangle, 0..255 as Q16
+    opacities: bytes | None = None
+    object_opacity: int = 0
+    opacity_0: int = 0
+    opacity_1: int = 0
+    opacity_2: int = 0

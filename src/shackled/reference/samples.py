@@ -12,12 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import layout, patches, shading
+from . import ground, layout, opacities, patches, shading
 from .extensions import OPAQUE
 from .fragment_light import color_at
 from .fragment_shader import pack as pack_lanes
 from .fragment_shader import shade_quadratic
-from .ground import opacity_at
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .quadratic import Differences
@@ -270,7 +269,9 @@ def exact(word: int, samples: list[int], place: tuple[int, int], g: Gradients, r
     x = r.ray_left + column * r.ray_step + (x * r.ray_step >> 3)
     y = r.ray_top + row * r.ray_step + (y * r.ray_step >> 3)
     if r.fade_range:
-        r.opacity = opacity_at(word >> 192, x, y, r)
+        r.opacity = ground.opacity_at(word >> 192, x, y, r)
+    if r.opacities is not None:
+        r.opacity = opacities.opacity_at(word >> 192, s, t, r)
     if r.shadows:
         set_share(samples, column - layout.PIXEL_BIAS, row - layout.PIXEL_BIAS, r)
     color = (surface_color if r.has_effects else color_at)(word >> 192, s, t, x, y, r)

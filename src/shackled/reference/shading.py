@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import layout, lighting, patches, texture
+from . import layout, lighting, opacities, patches, texture
 from .fragment_light import WEIGHTED_BIAS
 from .fragment_shader import vertex_highlights
 from .mesh import Mesh
@@ -111,6 +111,7 @@ def prepare_effects(triangle: Triangle, mesh: Mesh, r: Registers) -> None:
     set_exact(triangle, [vertex.attributes for vertex in (a, b, c)], mode | crossing_of(triangle), r)
     set_albedo(r)
     texture.set_triangle(triangle, mesh, r)
+    opacities.set_triangle(triangle, mesh, r)
 
 
 def set_normals(a: Vertex, b: Vertex, c: Vertex, r: Registers) -> None:

@@ -13,6 +13,7 @@ from . import layout, transform, vertex_shader
 from .effect_records import ALL, GROUND, SHADOW, TURNED
 from .extensions import OPACITY, Records
 from .mesh import Mesh, open_mesh
+from .opacities import OPACITIES
 from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted
@@ -143,7 +144,7 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
 def casts(scene: Scene, index: int, records: Records) -> bool:
     """Return whether an object casts a shadow: not wires, what is not opaque, and what shall not."""
     is_wire = scene.objects[index].flags & WIREFRAME
-    return not is_wire and (OPACITY, index) not in records and (GROUND, index) not in records
+    return not is_wire and not any((kind, index) in records for kind in (OPACITY, OPACITIES, GROUND))
 
 
 def world_places(scene: Scene, index: int, mesh: Mesh) -> list[Vector]:

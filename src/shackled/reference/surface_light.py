@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from . import gamma, texture
 from .effect_records import TONE_FILMIC, TONE_GAMMA
-from .fragment_light import WEIGHTED_BIAS, color_at
-from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH, IS_STEEP
+from .fragment_light import WEIGHTED_BIAS, color_at, corrected
+from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH
 from .registers import Registers
 from .roots import sqrt
 from .shadow_table import dark_samples
@@ -72,10 +72,7 @@ def surface_color(depth: int, s: int, t: int, x: int, y: int, r: Registers) -> i
 
 def albedo_at(depth: int, s: int, t: int, r: Registers) -> list[int]:
     """Return the colour of the surface itself: blue, green, red, Q10, 0..255."""
-    if r.mode & IS_ORTHOGRAPHIC == 0:
-        s, t = divide_signed(s * r.depth_1, depth), divide_signed(t * r.depth_2, depth)
-        if r.mode & IS_STEEP:
-            s, t = min(s, ONE), min(t, ONE)
+    s, t = corrected(depth, s, t, r)
     color = ((r.albedo_0 + r.albedo_1 * s + r.albedo_2 * t) & MASK) >> 24
     channels = [min(max((color >> (56 * i) & 0xFFFFFFFF) - ONE, 0), WHITE) for i in range(3)]
     if r.texture is not None:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from . import layout
+from .clipper import value_of
 from .mesh import Mesh
 from .primitive_assembly import Triangle
 from .registers import Registers
 from .scene_errors import Reverted
 from .structs import Scene
-from .vertex_shader import Vertex, clip_coordinates
-from .words import divide_signed
 
 #: The kind of the record.
 TEXTURE = 8
@@ -20,9 +18,6 @@ BILINEAR, CLAMP = 1, 2
 #: Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates.
 HEADER, COLOR_BITS, UV_SIZE = 4, 24, 6
 ONE_24, HALF_24, ONE_12 = 1 << 24, 1 << 23, 1 << 12
-
-#: u and v.
-Pair = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -66,7 +61,7 @@ class Texture:
             red, green, blue = self.content[HEADER + 3 * number : HEADER + 3 * number + 3]
         return red, green, blue
 
-    def uv(self, vertex: int) -> Pair:
+    def uv(self, vertex: int) -> tuple[int, int]:
         """Return the coordinates of a vertex, Q16."""
         at = self.coordinates + UV_SIZE * vertex
         u, v = (int.from_bytes(self.content[place : place + 3], "big", signed=True) for place in (at, at + 3))
@@ -122,9 +117,8 @@ def along(x: int, size: int, flags: int) -> tuple[int, int, int]:
 def set_triangle(triangle: Triangle, mesh: Mesh, r: Registers) -> None:
     """Set the texture coordinates of the vertices of a triangle, Q16."""
     if r.texture is not None:
-        texture = Texture(r.texture)
-        corners = (triangle.a, triangle.b, triangle.c)
-        r.uvs = [coordinates_of(vertex, triangle.face, mesh, texture, r) for vertex in corners]
+        read = Texture(r.texture).uv
+        r.uvs = [value_of(vertex, triangle.face, mesh, read, r) for vertex in (triangle.a, triangle.b, triangle.c)]
 
 
 def color_at(s: int, t: int, r: Registers) -> tuple[int, int, int]:
@@ -134,32 +128,3 @@ def color_at(s: int, t: int, r: Registers) -> tuple[int, int, int]:
     u = (u0 << 24) + (u1 - u0) * s + (u2 - u0) * t
     v = (v0 << 24) + (v1 - v0) * s + (v2 - v0) * t
     return Texture(r.texture).sample(u >> 16, v >> 16)
-
-
-def coordinates_of(vertex: Vertex, face: int, mesh: Mesh, texture: Texture, registers: Registers) -> Pair:
-    """Return the coordinates of a vertex, Q16: those of the mesh, or where the vertex is new, since its face was
-    clipped, those of that place of the face.
-
-    With the clip coordinates P of the vertices of the face, (x, y, 1) of the place is a multiple of their sum with the
-    weights e0 = det((x, y, 1), P1, P2), e1 = det((x, y, 1), P2, P0), e2 = det((x, y, 1), P0, P1).
-    """
-    number = vertex.word & layout.SCREEN_RECORD_MASK
-    if number < len(mesh.positions):
-        return texture.uv(number)
-    corners = []
-    for each in mesh.faces[face]:
-        x, y, w, _ = clip_coordinates(mesh, each, registers)
-        corners.append((x, y, 1 << 32 if registers.frame_is_orthographic else w))
-    weights = [determinant(vertex.x, vertex.y, corners[(i + 1) % 3], corners[(i + 2) % 3]) for i in range(3)]
-    total = sum(weights)
-    if total == 0:
-        return 0, 0
-    places = [texture.uv(each) for each in mesh.faces[face]]
-    u, v = (divide_signed(sum(w * place[i] for w, place in zip(weights, places, strict=True)), total) for i in range(2))
-    return u, v
-
-
-def determinant(x: int, y: int, p: tuple[int, int, int], q: tuple[int, int, int]) -> int:
-    """Return det((x, y, 1), p, q)."""
-    (px, py, pw), (qx, qy, qw) = p, q
-    return x * (py * qw - pw * qy) - y * (px * qw - pw * qx) + px * qy - py * qx

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from . import effects, ground, lights, materials, mesh_space, transform
-from .effect_records import TEXTURE
 from .extensions import OPACITY, OPAQUE
 from .layout import IS_BLENDED, IS_ORTHOGRAPHIC, IS_SMOOTH, PIXEL_BIAS
+from .opacities import OPACITIES
 from .registers import Registers
 from .structs import UNLIT, WIREFRAME, Scene
+from .texture import TEXTURE
 from .vector import to_matrix
 from .view import View, look_at
 
@@ -25,13 +26,14 @@ def set_frame(scene: Scene, registers: Registers) -> View:
 def set_object(view: View, scene: Scene, index: int, registers: Registers) -> None:
     """Set the registers of an object."""
     obj = scene.objects[index]
-    registers.opacity = opacity_of(index, registers)
+    registers.opacity = registers.object_opacity = opacity_of(index, registers)
+    registers.opacities = registers.records.get((OPACITIES, index))
     registers.texture = registers.records.get((TEXTURE, index))
     rotation = to_matrix(obj.rotation)
     transform.set_matrix(view, obj, rotation, registers)
     transform.set_rounding(registers.tile, bool(obj.flags & WIREFRAME), registers)
     mode = IS_ORTHOGRAPHIC if view.orthographic else 0
-    if registers.opacity != OPAQUE:
+    if registers.opacity != OPAQUE or registers.opacities is not None:
         mode |= IS_BLENDED
     if obj.material.shading != UNLIT:
         mode |= materials.set_material(view, scene, obj.material, registers)

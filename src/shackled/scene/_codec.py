@@ -38,10 +38,13 @@ RIM = 5
 FOG = 6
 TONE = 7
 TEXTURE = 8
+OPACITIES = 9
 SHADOW = 10
 GROUND = 11
 #: Records from this kind on have a size in words of 32 bytes, others in bytes.
 FIRST_IN_WORDS = 8
+#: Bytes of a word.
+WORD = 32
 #: The unit of opacities.
 OPACITY_STEP = 2.0**-24
 #: The unit of exposures.
@@ -144,6 +147,10 @@ def extensions(scene: Scene) -> bytes:
         if thing.material.texture is not None and thing.mesh.uvs is not None:
             with about(f"objects[{index}]"):
                 records.append(_record(TEXTURE, index, pack_texture(thing.material.texture, thing.mesh.uvs)))
+    for index, thing in enumerate(scene.objects):
+        if thing.mesh.opacities is not None:
+            levels = thing.mesh.rgba[:, 3].tobytes()
+            records.append(_record(OPACITIES, index, levels + bytes(-len(levels) % WORD)))
     for index, light in enumerate(scene.lights):
         if light.shadow:
             records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
@@ -159,7 +166,7 @@ def shadow_rule(scene: Scene) -> int:
     """Return which faces of culled objects cast shadows: all, or those turned away from the light, if all of them
     together are closed.
     """
-    casters = [o for o in scene.objects if o.cull and not o.wireframe and o.opacity == 1 and o.fade is None]
+    casters = [o for o in scene.objects if o.cull and not o.wireframe and o.is_opaque and o.fade is None]
     return TURNED_AWAY if are_closed(casters) else ALL_FACES
 
 
@@ -169,7 +176,7 @@ def _record(kind: int, index: int, content: bytes) -> bytes:
             "objects with an opacity, a texture or a fade must be among the first 65,536 of a scene, "
             f"not number {index:,}"
         )
-    size = len(content) // 32 if kind >= FIRST_IN_WORDS else len(content)
+    size = len(content) // WORD if kind >= FIRST_IN_WORDS else len(content)
     return bytes([kind]) + index.to_bytes(2, "big") + size.to_bytes(2, "big") + content
 
 

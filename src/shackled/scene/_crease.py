@@ -38,7 +38,7 @@ def creased(mesh: Mesh, degrees: float = CREASE) -> Mesh:
     for flat shading, where that looks the same, or where only the splits are more than a contract takes.
     """
     normals = corner_normals(mesh.positions, mesh.faces, degrees)
-    split = weld(mesh.positions, mesh.faces, mesh.colors[mesh.faces], normals, corner_uvs(mesh))
+    split = weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], normals, corner_uvs(mesh))
     too_many = len(split.positions) > MAX_VERTICES and mesh.triangles <= MAX_FACES
     return without_normals(mesh) if too_many or is_flat(mesh.positions, mesh.faces, normals) else split
 
@@ -53,7 +53,7 @@ def without_normals(mesh: Mesh) -> Mesh:
     """Return the mesh without normals, nor vertices that differ in these only."""
     if mesh.normals is None:
         return mesh
-    return weld(mesh.positions, mesh.faces, mesh.colors[mesh.faces], uvs=corner_uvs(mesh))
+    return weld(mesh.positions, mesh.faces, mesh.rgba[mesh.faces], uvs=corner_uvs(mesh))
 
 
 def corner_uvs(mesh: Mesh) -> Floats | None:

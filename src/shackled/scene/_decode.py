@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from attrs import evolve
 
 from ..artifacts import artifact
@@ -24,6 +25,7 @@ from ._codec import (
     HEMISPHERE,
     LIGHTS,
     ONE,
+    OPACITIES,
     OPACITY,
     OPACITY_STEP,
     PROJECTIONS,
@@ -34,6 +36,7 @@ from ._codec import (
     TEXTURE,
     TONE,
     WIREFRAME,
+    WORD,
     shadow_rule,
 )
 from ._effects import EXPOSURES, Fog, Hemisphere, Rim, Tone
@@ -41,12 +44,12 @@ from ._files.table import about
 from ._fit import MAX_COORDINATE, MAX_SCALE
 from ._light import Light
 from ._material import COEFFICIENTS, EXPONENTS, Material
+from ._mesh import Mesh
 from ._object import Object
 from ._packed_mesh import WIDE, unpack
 from ._packed_texture import unpack_texture
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 
-WORD = 32
 #: Words of a struct Scene before its arrays, of a light, and of an object before its mesh.
 SCENE_WORDS, LIGHT_WORDS, OBJECT_WORDS = 21, 5, 15
 
@@ -61,6 +64,7 @@ RECORD_SIZES: dict[int, int | None] = {
     FOG: 19,
     TONE: 5,
     TEXTURE: None,
+    OPACITIES: None,
     SHADOW: 32,
     GROUND: 32,
 }
@@ -98,7 +102,8 @@ def decode(data: bytes) -> Scene:
         words.expect(f"objects[{index}]", first + offset)
         objects.append(_object(words, f"objects[{index}]"))
     words.expect(_PARTS[2], begin + to_extensions)
-    counts = {SPOT: len(lights), SHADOW: len(lights), **dict.fromkeys((OPACITY, TEXTURE, GROUND), len(objects))}
+    counts = dict.fromkeys((SPOT, SHADOW), len(lights))
+    counts |= dict.fromkeys((OPACITY, TEXTURE, OPACITIES, GROUND), len(objects))
     records = _records(words.bytes("the extensions"), counts)
     if words.place != len(words.data):
         raise InputError(f"{len(words.data) - words.place:,} bytes follow the scene; none must")
@@ -288,12 +293,24 @@ def _with_records(thing: Object, records: Records, index: int) -> Object:
         with about(f"the texture of objects[{index}]"):
             texture, uvs = unpack_texture(records[TEXTURE, index], len(thing.mesh.positions))
         thing = evolve(thing, mesh=evolve(thing.mesh, uvs=uvs), material=evolve(thing.material, texture=texture))
+    if (record := records.get((OPACITIES, index))) is not None:
+        thing = evolve(thing, mesh=_with_opacities(thing.mesh, record, f"objects[{index}]"))
     if (record := records.get((GROUND, index))) is not None:
         if any(record[16:]):
             raise InputError("zeros must fill the word of a ground in the extensions")
         radii = [int.from_bytes(record[at : at + 8], "big") for at in (0, 8)]
         thing = evolve(thing, fade=[_number(each, "a radius of a ground", 0, MAX_COORDINATE) for each in radii])
     return thing
+
+
+def _with_opacities(mesh: Mesh, record: bytes, where: str) -> Mesh:
+    count = len(mesh.positions)
+    levels, rest = record[:count], record[count:]
+    if len(levels) < count or len(rest) != -count % WORD or any(rest):
+        raise InputError(f"the opacities of {where} must be {count:,} bytes, and zeros that fill the last word")
+    if min(levels) == 255:
+        raise InputError(f"one of the opacities of {where} must be below 255")
+    return evolve(mesh, opacities=np.frombuffer(levels, np.uint8) / 255)
 
 
 def _effects(records: Records) -> dict[str, Any]:

@@ -116,7 +116,7 @@ def _prepare(o: Object) -> Object:
         positions, faces = positions[used], inverse.reshape(-1, 3)
         normals = None if normals is None else normals[used]
         uvs = None if mesh.uvs is None else mesh.uvs[used]
-        mesh = Mesh(positions, faces, mesh.colors[used], normals, uvs)
+        mesh = Mesh(positions, faces, mesh.rgba[used], normals, uvs)
     elif normals is not mesh.normals:
         mesh = evolve(mesh, normals=normals)
     return o if mesh is o.mesh else evolve(o, mesh=mesh)

@@ -26,44 +26,49 @@ def is_trimesh(value: object) -> bool:
 def mesh_of(value: Any) -> Mesh:
     """Return the mesh of a trimesh.Trimesh, with the colours of its vertices, faces or texture.
 
-    InputWarning if colours are not opaque. InputError if it is not a mesh, or empty.
+    InputError if it is not a mesh, or empty.
     """
     if not is_trimesh(value) or not hasattr(value, "faces") or not hasattr(value, "vertices"):
         raise InputError(f"a trimesh.Trimesh is needed, not {value!r:.60}")
     visual: Any = getattr(value, "visual", None)
     kind = getattr(visual, "kind", None)
+    channels = 4
     if kind == "texture":
-        visual = visual.to_color()
+        # of a texture, or of a material, whose alpha may have no meaning
+        visual, channels = visual.to_color(), 3
         kind = visual.kind
     if kind == "face":
-        colors = np.repeat(_opaque(visual.face_colors)[:, None], 3, axis=1)
-        return weld(value.vertices, value.faces, colors)
-    return Mesh(value.vertices, value.faces, _opaque(visual.vertex_colors) if kind == "vertex" else None)
+        colors = np.asarray(visual.face_colors, dtype=np.uint8)[..., :channels]
+        return weld(value.vertices, value.faces, np.repeat(colors[:, None], 3, axis=1))
+    if kind != "vertex":
+        return Mesh(value.vertices, value.faces)
+    return Mesh(value.vertices, value.faces, np.asarray(visual.vertex_colors, dtype=np.uint8)[..., :channels])
 
 
 def part_of(value: Any) -> MeshPart:
-    """Return the mesh of a trimesh.Trimesh, and its texture as a field of a `Material`, if it has one. Errors as in
-    `mesh_of`.
+    """Return the mesh of a trimesh.Trimesh, the texture of its material as a field of a `Material`, if it has one, and
+    its opacity, if it is blended. Errors as in `mesh_of`.
     """
     visual: Any = getattr(value, "visual", None)
     uvs = getattr(visual, "uv", None)
-    if not is_trimesh(value) or getattr(visual, "kind", None) != "texture" or uvs is None:
+    if not is_trimesh(value) or getattr(visual, "kind", None) != "texture":
         return MeshPart(mesh_of(value), {})
     material = visual.material
-    image, color = getattr(material, "baseColorTexture", None), np.full(3, 255.0)
+    factor = getattr(material, "baseColorFactor", None)
+    # trimesh keeps the linear factor as bytes
+    *color, alpha = np.ones(4) if factor is None else np.asarray(factor, dtype=np.float64) / 255
+    opacity = float(alpha) if getattr(material, "alphaMode", None) == "BLEND" else 1.0
+    image = getattr(material, "baseColorTexture", None)
     if image is None:
-        image = getattr(material, "image", None)
-    elif (factor := getattr(material, "baseColorFactor", None)) is not None:
-        # trimesh keeps the linear factor as bytes
-        color = to_srgb(np.asarray(factor, dtype=np.float64)[:3] / 255)
+        image, color = getattr(material, "image", None), [1.0, 1.0, 1.0]
     faces = np.asarray(value.faces)
-    if image is None or len(uvs) != len(value.vertices):
-        return MeshPart(mesh_of(value), {})
+    if image is None or uvs is None or len(uvs) != len(value.vertices):
+        return MeshPart(mesh_of(value), {}, opacity)
     picture = Picture(image.convert("RGB"), "the texture of the mesh")
     corners = finite_uvs(uvs, picture.name)[faces] * (1, -1) + (0, 1)
     texture, coordinates = picture.texture(corners, 1)
-    colors = np.broadcast_to(np.asarray(color, dtype=np.float64), (*faces.shape, 3))
-    return MeshPart(weld(value.vertices, faces, colors, uvs=coordinates), {"texture": texture})
+    colors = np.broadcast_to(to_srgb(color), (*faces.shape, 3))
+    return MeshPart(weld(value.vertices, faces, colors, uvs=coordinates), {"texture": texture}, opacity)
 
 
 def objects_of(scene: Any) -> list[Object]:
@@ -85,17 +90,10 @@ def objects_of(scene: Any) -> list[Object]:
 def _placed(part: MeshPart, matrix: NDArray[np.float64]) -> Object:
     mesh, material = part.mesh, Material(**part.material)
     try:
-        return Object.from_matrix(mesh, matrix, material=material)
+        return Object.from_matrix(mesh, matrix, material=material, opacity=part.opacity)
     except InputError:
         positions = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
         mirrored = np.linalg.det(matrix[:3, :3]) < 0
         faces = mesh.faces[:, ::-1] if mirrored else mesh.faces
-        return Object(evolve(mesh, positions=positions, faces=faces, normals=None), material=material)
-
-
-def _opaque(colors: Any) -> NDArray[np.uint8]:
-    """Return red, green and blue, (n, 3), of colours with alpha."""
-    rows = np.asarray(colors, dtype=np.uint8)
-    if rows.shape[1] > 3 and (rows[:, 3] != 255).any():
-        warnings.warn("colours of the mesh are not opaque; their alpha is left out", InputWarning, stacklevel=3)
-    return rows[:, :3]
+        moved = evolve(mesh, positions=positions, faces=faces, normals=None)
+        return Object(moved, material=material, opacity=part.opacity)

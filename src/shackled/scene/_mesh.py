@@ -61,12 +61,33 @@ def _faces(values: ArrayLike) -> NDArray[np.int64]:
     return fixed(rows, np.int64)
 
 
+def _opacities(values: ArrayLike | None) -> Floats | None:
+    """Return (n,) multiples of 1/255, or None where all of them are 1."""
+    if values is None:
+        return None
+    name = "the opacities of a mesh"
+    try:
+        row = fixed(values, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} must be numbers, one for each vertex") from None
+    if row.ndim != 1:
+        raise InputError(f"{name} must be numbers, one for each vertex, not of shape {row.shape}")
+    bad = np.flatnonzero(~((row >= 0) & (row <= 1)))
+    if len(bad):
+        raise InputError(f"the opacity of vertex {bad[0]} must be from 0 to 1, not {row[bad[0]]:g}")
+    return _of_levels(np.rint(row * 255))
+
+
+def _of_levels(levels: NDArray[Any]) -> Floats | None:
+    return None if (levels == 255).all() else fixed(levels / 255, np.float64)
+
+
 def _colors(values: Colors | None) -> NDArray[np.uint8]:
-    """Return (n, 3) colours, or (3,) for one of all vertices."""
+    """Return (n, 3) or, with alpha, (n, 4) colours; (3,) or (4,) for one of all vertices."""
     name = "the colours of a mesh"
     if values is None:
         values = DEFAULT_COLOR
-    if isinstance(values, np.ndarray) and values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] == 3:
+    if isinstance(values, np.ndarray) and values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4):
         return fixed(values, np.uint8)
     if isinstance(values, str):
         return fixed(color(values, "the colour of a mesh"), np.uint8)
@@ -76,18 +97,13 @@ def _colors(values: Colors | None) -> NDArray[np.uint8]:
         levels = np.array(channels(values), dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} must be rows of 3 numbers") from None
+    if levels.shape == (4,):
+        _check_levels(levels[None])
+        return fixed(levels, np.uint8)
     if levels.ndim == 1 and levels.size:
         return fixed(color(values, "the colour of a mesh"), np.uint8)
-    if levels.ndim == 2 and levels.shape[1] == 4:
-        _check_levels(levels)
-        bad = np.flatnonzero(levels[:, 3] != 255)
-        if len(bad):
-            raise InputError(
-                f"the colour of vertex {bad[0]} must be opaque, not of alpha {levels[bad[0], 3]:g}; "
-                "an Object has an opacity"
-            )
-        levels = levels[:, :3]
-    levels = _rows_of_3(levels, name)
+    if levels.ndim != 2 or levels.shape[1] != 4:
+        levels = _rows_of_3(levels, name)
     _check_levels(levels)
     return fixed(levels, np.uint8)
 
@@ -116,10 +132,12 @@ class Mesh(Value):
 
     positions: (n, 3) float. faces: (m, 3) int, vertex numbers.
     colors: (n, 3), red, green and blue of each vertex, 0..255; None for light grey. Also given as floats 0..1, with an
-        opaque alpha, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
+        alpha, which becomes the opacities, as a list of "#rrggbb" or names, or as one of these for the whole mesh.
     normals: (n, 3) float, or None; computed for smooth shading if they are absent.
     uvs: (n, 2) float, or None: where each vertex is on a texture, from its upper left corner (0, 0) to its lower right
         one (1, 1), as in glTF. Corners of faces with different ones need vertices of their own.
+    opacities: (n,) float, or None: what each vertex hides of what is behind it, from 0, nothing, to 1; rounded to
+        multiples of 1/255, and None where all are 1. They are multiplied with the opacity of the object.
 
     A Mesh may exceed the limits of the contracts; `render` then raises an InputError.
     """
@@ -131,6 +149,7 @@ class Mesh(Value):
         default=None, converter=_optional_table, eq=array_key, metadata=checked("the normals of a mesh")
     )
     uvs: Floats | None = field(default=None, converter=_uvs, eq=array_key)
+    opacities: Floats | None = field(default=None, converter=_opacities, eq=array_key)
 
     def __attrs_post_init__(self) -> None:
         """Check the fields against one another."""
@@ -150,6 +169,8 @@ class Mesh(Value):
             )
         if self.colors.ndim == 1:
             object.__setattr__(self, "colors", fixed(np.tile(self.colors, (count, 1)), np.uint8))
+        if self.colors.shape[1] == 4:
+            self._split_alpha()
         if len(self.colors) != count:
             raise InputError(f"a mesh of {count} vertices needs as many colours, not {len(self.colors)}")
         if self.normals is not None and (len(self.normals) != count or not np.isfinite(self.normals).all()):
@@ -158,6 +179,16 @@ class Mesh(Value):
             raise InputError(
                 f"a mesh needs finite texture coordinates for each of its {count} vertices, not {len(self.uvs)}"
             )
+        if self.opacities is not None and len(self.opacities) != count:
+            raise InputError(f"a mesh of {count} vertices needs as many opacities, not {len(self.opacities)}")
+
+    def _split_alpha(self) -> None:
+        opacities = _of_levels(self.colors[:, 3])
+        object.__setattr__(self, "colors", fixed(self.colors[:, :3], np.uint8))
+        if opacities is not None:
+            if self.opacities is not None:
+                raise InputError("a mesh has opacities, or colours with an alpha below 255, not both")
+            object.__setattr__(self, "opacities", opacities)
 
     @classmethod
     def from_trimesh(cls, mesh: Any) -> Mesh:
@@ -168,6 +199,12 @@ class Mesh(Value):
         from ._from_trimesh import mesh_of
 
         return mesh_of(mesh)
+
+    @property
+    def rgba(self) -> NDArray[np.uint8]:
+        """The colours with the opacities as alpha, (n, 4), 0..255."""
+        levels = 255.0 if self.opacities is None else np.rint(self.opacities * 255)[:, None]
+        return np.hstack([self.colors, np.broadcast_to(levels, (len(self.colors), 1)).astype(np.uint8)])
 
     @property
     def triangles(self) -> int:

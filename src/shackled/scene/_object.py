@@ -51,8 +51,8 @@ class Object(Value):
     rotation: a quaternion (x, y, z, w) of any length but zero; the identity is (0, 0, 0, 1). Also given as three angles
         in degrees about x, then y, then z, or as a (3, 3) matrix.
     cull: whether faces that turn away from the viewer are left out. wireframe: draw the edges only, one pixel wide.
-    opacity: 0..1. Objects below 1 are drawn after the others, blended in the order of the scene; the farthest should
-        come first.
+    opacity: 0..1. Objects below 1, and those whose mesh has opacities, are drawn after the others, blended in the order
+        of the scene; the farthest should come first.
     fade: of a ground, which casts no shadow: the distances from its position, in world units, at which it begins to
         fade into what is behind it, and at which nothing is left of it; (0 <= first < second). None for other objects.
     """
@@ -88,6 +88,11 @@ class Object(Value):
         if scale == 0 or (lengths < (1 - ORTHOGONAL) * scale).any() or (m[3] != (0, 0, 0, 1)).any():
             raise InputError("the matrix of an object must scale all axes alike, and have (0, 0, 0, 1) as its last row")
         return cls(mesh, position=m[:3, 3], rotation=quaternion_of(m[:3, :3] / scale), scale=scale, **fields)
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether it hides all that is behind it."""
+        return self.opacity == 1 and self.mesh.opacities is None
 
     def world_positions(self) -> Floats:
         """Return the vertices of the mesh in the world, (n, 3)."""

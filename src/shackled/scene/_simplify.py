@@ -28,10 +28,10 @@ GENTLE = ((5, 1.0), (5, 0.9))
 def simplify(mesh: Mesh, max_triangles: int, tries: Sequence[tuple[int, float]] = FORCEFUL) -> Mesh:
     """Return a mesh of at most `max_triangles` triangles, by edge collapse.
 
-    Each vertex has the colour of the nearest vertex that was collapsed into it; so have corners of faces their texture
-    coordinates, on their side of a seam. Normals are dropped. A mesh that is small enough is
-    returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the
-    target cannot be reached (it names a number that can), or fast-simplification is not installed.
+    Each vertex has the colour and the opacity of the nearest vertex that was collapsed into it; so have corners of
+    faces their texture coordinates, on their side of a seam. Normals are dropped. A mesh that is small enough is
+    returned unchanged. tries: pairs of aggressiveness and target, as `FORCEFUL`. InputError if the target cannot be
+    reached (it names a number that can), or fast-simplification is not installed.
     """
     most = integer(max_triangles)
     if most is None or most < 1:
@@ -75,8 +75,8 @@ def _simplified_object(o: Object, max_triangles: int, crease: float) -> Object:
 class _Surface:
     """A mesh with one vertex for each position.
 
-    uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. places: (m, 3), numbers that corners have
-    in common which are one point of the texture.
+    colors: (n, 4), with alpha. uvs: (m, 3, 2), texture coordinates of corners; zeros if there are none. places: (m, 3),
+    numbers that corners have in common which are one point of the texture.
     """
 
     positions: NDArray[np.float64]
@@ -112,7 +112,7 @@ def _connect(mesh: Mesh) -> _Surface:
         uvs = mesh.uvs[mesh.faces]
         both = np.hstack([mesh.positions, mesh.uvs])
         places = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)[mesh.faces]
-    surface = _Surface(unique, faces, mesh.colors[first], uvs, places)
+    surface = _Surface(unique, faces, mesh.rgba[first], uvs, places)
     return surface.part(faces, _proper(faces))
 
 

@@ -91,10 +91,13 @@ def store_scene(
 
 
 def _as_stored(o: Object) -> Object:
-    """Return the object with texture coordinates in the order that vertices have in a stored mesh."""
-    if o.material.texture is None or o.mesh.uvs is None:
+    """Return the object with texture coordinates and opacities in the order that vertices have in a stored mesh."""
+    uvs, opacities = o.mesh.uvs, o.mesh.opacities
+    if uvs is None and opacities is None:
         return o
-    return evolve(o, mesh=evolve(o.mesh, uvs=o.mesh.uvs[vertex_order(pack(o.mesh))]))
+    order = vertex_order(pack(o.mesh))
+    uvs, opacities = (None if each is None else each[order] for each in (uvs, opacities))
+    return evolve(o, mesh=evolve(o.mesh, uvs=uvs, opacities=opacities))
 
 
 def store_mesh(

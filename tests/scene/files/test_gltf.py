@@ -172,6 +172,44 @@ def test_material_color_times_vertex_color(tmp_path: Path) -> None:
     assert corner_colors(read_mesh(model.glb(tmp_path / "model.glb"))) == [[[255, 124, 0], [188, 124, 0], [0, 0, 0]]]
 
 
+@pytest.mark.parametrize("mode", [None, "OPAQUE", "MASK", "BLEND"])
+def test_alpha_is_that_of_materials_that_are_blended(tmp_path: Path, mode: str | None) -> None:
+    model = Gltf()
+    model.attribute("COLOR_0", np.array([[1, 0, 0, 0.2], [1, 1, 1, 1], [0, 0, 0, 0]], dtype=np.float32))
+    model.material(baseColorFactor=[1, 1, 1, 0.4])
+    if mode is not None:
+        model.document["materials"][0]["alphaMode"] = mode
+    path = model.glb(tmp_path / "model.glb")
+    (part,) = read_model(path)
+    corners = part.mesh.rgba[part.mesh.faces]
+    assert corners[0, :, :3].tolist() == [[255, 0, 0], [255, 255, 255], [0, 0, 0]]
+    assert corners[0, :, 3].tolist() == ([51, 255, 0] if mode == "BLEND" else [255] * 3)
+    assert part.opacity == (0.4 if mode == "BLEND" else 1)
+    assert load(path).objects[0].opacity == part.opacity
+    assert load(path, opacity=0.7).objects[0].opacity == 0.7
+    # both in one where there is one mesh only
+    assert read_mesh(path).rgba[:, 3].tolist() == ([20, 102, 0] if mode == "BLEND" else [255] * 3)
+
+
+def test_what_is_blended_is_apart(tmp_path: Path) -> None:
+    model = Gltf()
+    model.attribute("COLOR_0", np.array([[1, 1, 1, 0.2]] * 3, dtype=np.float32))
+    plain = {"attributes": {"POSITION": model.primitive["attributes"]["POSITION"]}}
+    factors = [("BLEND", 0.4), ("OPAQUE", 0.4), ("BLEND", 0.4), ("BLEND", 0.6), ("BLEND", 1)]
+    model.document["materials"] = [
+        {"alphaMode": mode, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, alpha]}} for mode, alpha in factors
+    ]
+    materials = [{**plain, "material": number} for number in range(5)]
+    model.document["meshes"][0]["primitives"] = [*materials, plain, {**model.primitive, "material": 4}]
+    parts = read_model(model.glb(tmp_path / "model.glb"))
+    # what is opaque, with or without a material, is one
+    found = [(part.opacity, part.mesh.triangles, part.mesh.opacities is None) for part in parts]
+    assert found == [(0.4, 2, True), (1, 3, True), (0.6, 1, True), (1, 1, False)]
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[[objects]]\nmesh = "model.glb"\n[[objects]]\nmesh = "model.glb"\nopacity = 0.5\n')
+    assert [o.opacity for o in load(scene).objects] == [0.4, 1, 0.6, 1, *[0.5] * 4]
+
+
 def test_texture_is_sampled_from_its_top(tmp_path: Path) -> None:
     model = Gltf()
     image = Image.new("RGB", (1, 2), (255, 0, 0))

@@ -212,7 +212,7 @@ def test_written_files_read_back(tmp_path: Path) -> None:
         ),
         (
             "v 0 0 0\nv 1 0 0 1 nan 0\nv 0 1 0\nf 1 2 3\n",
-            "colour 1 must be three finite numbers, not [1.0, nan, 0.0]",
+            "colour 1 must be finite numbers, not [1.0, nan, 0.0]",
         ),
         (TRIANGLE + "f 1 2\n", "line 4 is not one of an OBJ file: 'f 1 2'"),
         (TRIANGLE + "f 1 two 3\n", "line 4 is not one of an OBJ file: 'f 1 two 3'"),

@@ -163,7 +163,7 @@ def test_normals_are_kept(tmp_path: Path) -> None:
         (header("ascii", "", 1) + VERTICES + "3 0 1.5 2\n", "the numbers of vertices must be whole, not 1.5"),
         (header("ascii", COLOR.replace("uchar", "float"), 1)
          + VERTICES.replace("\n", " 0 nan 1\n") + "3 0 1 2\n",
-         "colour 0 must be three finite numbers, not [0.0, nan, 1.0]"),
+         "colour 0 must be finite numbers, not [0.0, nan, 1.0]"),
         ("ply\nformat ascii 1.0\nelement vertex 0\nend_header\n",
          "a mesh needs the elements vertex and face; this file has vertex"),
         (header("ascii", "", 1) + "0 0 0\n1 0 0\n", "it ends before its 4 elements vertex are complete"),

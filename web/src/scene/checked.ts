@@ -50,15 +50,15 @@ const LIGHTS = {
 } as const;
 const OBJECT = ["mesh", "position", "rotation", "scale", "material", "cull", "wireframe", "opacity", "fade"] as const;
 const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture"] as const;
-const MESH = ["positions", "faces", "colors", "normals", "uvs"] as const;
+const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
 const TEXTURE = ["width", "height", "pixels", "filter", "wrap"] as const;
 export const FILTERS = ["nearest", "bilinear"] as const;
 export const WRAPS = ["repeat", "clamp"] as const;
 const MAX_TEXTURE_SIDE = 256;
 
 /**
- * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers; faces three vertex
- * numbers each.
+ * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers, opacities a byte, of
+ * which one at least is below 255; faces three vertex numbers each.
  */
 export interface Mesh {
     positions: Float64Array;
@@ -66,6 +66,7 @@ export interface Mesh {
     colors: Uint8Array;
     normals: Float64Array | undefined;
     uvs: Float64Array | undefined;
+    opacities: Uint8Array | undefined;
 }
 
 /** `pixels` has three bytes for each texel. */
@@ -280,13 +281,33 @@ function checkedMesh(mesh: given.Mesh, where: string): Mesh {
     if (normals && normals.length !== positions.length) {
         throw new InputError(`${where}.normals must be one for each of ${count} vertices, not ${normals.length / 3}`);
     }
+    const { colors, alpha } = colorsOf(mesh.colors, count, `${where}.colors`);
+    const opacities = mesh.opacities && opacitiesOf(mesh.opacities, count, `${where}.opacities`);
+    if (alpha && opacities) {
+        throw new InputError(`${where} must have opacities, or colors with an alpha below 255, not both`);
+    }
     return {
         positions,
         faces: Uint32Array.from(faces),
-        colors: colorsOf(mesh.colors, count, `${where}.colors`),
+        colors,
         normals,
         uvs: mesh.uvs && uvsOf(mesh.uvs, count, `${where}.uvs`),
+        opacities: opacities ?? alpha,
     };
+}
+
+/** Return a byte for each vertex, or undefined where all are opaque. */
+function opacitiesOf(value: ArrayLike<number>, count: number, where: string): Uint8Array | undefined {
+    if (!check.isList(value)) throw new InputError(`${where} must be a list of numbers, not ${show(value)}`);
+    const levels = Array.from(value, (each, index) => rint(255 * check.number(each, `${where}[${index}]`, 0, 1)));
+    if (levels.length !== count) {
+        throw new InputError(`${where} must be one for each of ${count} vertices, not ${levels.length}`);
+    }
+    return unlessOpaque(levels);
+}
+
+function unlessOpaque(levels: number[]): Uint8Array | undefined {
+    return levels.every((level) => level === 255) ? undefined : Uint8Array.from(levels);
 }
 
 function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: string): Float64Array {
@@ -302,30 +323,43 @@ function uvsOf(value: NonNullable<given.Mesh["uvs"]>, count: number, where: stri
     return Float64Array.from(flat as number[]);
 }
 
-function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Uint8Array {
+interface Painted {
+    colors: Uint8Array;
+    /** A byte for each vertex; undefined where all are opaque. */
+    alpha: Uint8Array | undefined;
+}
+
+function colorsOf(value: given.Rows | given.Color | undefined, count: number, where: string): Painted {
     const isOne =
         typeof value === "string" || (check.isList(value) && value.length === 3 && typeof value[0] === "number");
     if (value === undefined || (isOne && count !== 1)) {
         const one = value === undefined ? DEFAULT_COLOR : check.color(value, where);
-        return Uint8Array.from({ length: 3 * count }, (_, index) => one[index % 3] as number);
+        return { colors: Uint8Array.from({ length: 3 * count }, (_, at) => one[at % 3] as number), alpha: undefined };
     }
-    const levels = rows(value as given.Rows, where);
-    if (levels.length !== 3 * count) {
-        throw new InputError(`${where} must be one for each of ${count} vertices, not ${levels.length / 3}`);
+    const width = check.isList(value) && check.isList(value[0]) && value[0].length === 4 ? 4 : 3;
+    const levels = rows(value as given.Rows, where, width);
+    if (levels.length !== width * count) {
+        throw new InputError(`${where} must be one for each of ${count} vertices, not ${levels.length / width}`);
     }
     const bad = levels.findIndex((level) => !check.isLevel(level));
-    if (bad < 0) return Uint8Array.from(levels);
-    throw new InputError(`${where}[${Math.floor(bad / 3)}] must be whole numbers from 0 to 255, not ${levels[bad]}`);
+    if (bad >= 0) {
+        throw new InputError(
+            `${where}[${Math.floor(bad / width)}] must be whole numbers from 0 to 255, not ${levels[bad]}`,
+        );
+    }
+    if (width === 3) return { colors: Uint8Array.from(levels), alpha: undefined };
+    const [colors, alpha] = [levels.filter((_, at) => at % 4 < 3), levels.filter((_, at) => at % 4 === 3)];
+    return { colors: Uint8Array.from(colors), alpha: unlessOpaque(Array.from(alpha)) };
 }
 
-/** Return rows of three finite numbers, one after the other. */
-function rows(value: given.Rows, where: string): Float64Array {
+/** Return rows of three finite numbers, or of `width`, one after the other. */
+function rows(value: given.Rows, where: string, width: 3 | 4 = 3): Float64Array {
     if (!check.isList(value)) throw new InputError(`${where} must be rows of three numbers, not ${show(value)}`);
     let flat: Float64Array;
     if (value.length && typeof value[0] !== "number") {
-        flat = new Float64Array(3 * value.length);
+        flat = new Float64Array(width * value.length);
         for (let index = 0; index < value.length; index++) {
-            flat.set(check.vector(value[index], `${where}[${index}]`), 3 * index);
+            flat.set(check.numbers(value[index], `${where}[${index}]`, width), width * index);
         }
         return flat;
     }

@@ -92,7 +92,8 @@ function colorOfText(text: string, name: string): Rgb {
     return [level >> 16, (level >> 8) & 255, level & 255];
 }
 
-function numbers(value: unknown, name: string, size: number): number[] {
+/** Return so many finite numbers. */
+export function numbers(value: unknown, name: string, size: number): number[] {
     if (isList(value) && value.length === size) {
         const found = Array.from(value);
         if (found.every((x): x is number => typeof x === "number" && Number.isFinite(x))) return found;

@@ -34,6 +34,7 @@ const RIM = 5;
 const FOG = 6;
 const TONE = 7;
 const TEXTURE = 8;
+const OPACITIES = 9;
 const SHADOW = 10;
 const GROUND = 11;
 /** Records from this kind on have a size in words of 32 bytes, others in bytes. */
@@ -132,6 +133,12 @@ function extensions(scene: CheckedScene): Uint8Array {
         if (!texture || !mesh.uvs) return;
         const content = packTexture(texture, mesh.uvs, `objects[${index}]`);
         records.push(record(TEXTURE, index, new DataView(content.buffer)));
+    });
+    scene.objects.forEach(({ mesh: { opacities } }, index) => {
+        if (!opacities) return;
+        const content = new Uint8Array(opacities.length + (-opacities.length & (WORD - 1)));
+        content.set(opacities);
+        records.push(record(OPACITIES, index, new DataView(content.buffer)));
     });
     scene.lights.forEach(({ shadow }, index) => {
         if (shadow) records.push(record(SHADOW, index, new DataView(words([shadowRule(scene)]).buffer)));

@@ -275,14 +275,21 @@ function meshOf(keys: Table): given.Mesh {
     if (!keys.has("mesh") || typeof keys.get("mesh") === "string") {
         throw new InputError(`${keys.place("mesh")} must be a table with positions and faces: no files are read here`);
     }
-    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals", "uvs"]);
+    const inside = keys.table("mesh", ["positions", "faces", "colors", "normals", "uvs", "opacities"]);
     return {
         positions: inside.rows("positions"),
         faces: inside.rows("faces"),
-        colors: inside.has("colors") ? inside.rows("colors") : undefined,
+        colors: inside.has("colors") ? colorsOf(inside) : undefined,
         normals: inside.has("normals") ? inside.rows("normals") : undefined,
         uvs: inside.has("uvs") ? (inside.list("uvs") as number[][]) : undefined,
+        opacities: inside.has("opacities") ? (inside.list("opacities") as number[]) : undefined,
     };
+}
+
+function colorsOf(mesh: Table): number[][] {
+    const rows = mesh.list("colors");
+    const width = Array.isArray(rows[0]) && rows[0].length === 4 ? 4 : 3;
+    return rows.map((row, index) => check.numbers(row, `${mesh.place("colors")}[${index}]`, width));
 }
 
 function rotationOf(keys: Table): given.Rotation | undefined {

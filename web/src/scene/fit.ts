@@ -104,6 +104,7 @@ function prepare(object: SceneObject): SceneObject {
     if (used === count) return { ...object, mesh: { ...mesh, normals } };
     const kept = <T extends Float64Array | Uint8Array>(table: T, width = 3): T =>
         table.filter((_, index) => (numbers[Math.floor(index / width)] as number) >= 0) as T;
+    const opacities = mesh.opacities && kept(mesh.opacities, 1);
     return {
         ...object,
         mesh: {
@@ -112,6 +113,7 @@ function prepare(object: SceneObject): SceneObject {
             colors: kept(mesh.colors),
             normals: normals && kept(normals),
             uvs: mesh.uvs && kept(mesh.uvs, 2),
+            opacities: opacities?.some((level) => level < 255) ? opacities : undefined,
         },
     };
 }

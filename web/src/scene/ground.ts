@@ -36,6 +36,7 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
             colors: Uint8Array.from({ length: 12 }, (_, index) => color[index % 3] as number),
             normals: undefined,
             uvs: undefined,
+            opacities: undefined,
         },
         position: [x, height ?? onGrid(2 * lowest - GAP * half), z],
         rotation: [0, 0, 0, 1],
@@ -54,7 +55,9 @@ function groundUnder({ color, height, radius }: Ground, points: Vector[]): Scene
  * together are closed.
  */
 export function shadowRule({ objects }: Scene): number {
-    const casters = objects.filter((each) => each.cull && !each.wireframe && each.opacity === 1 && !each.fade);
+    const casters = objects.filter(
+        (each) => each.cull && !each.wireframe && each.opacity === 1 && !each.mesh.opacities && !each.fade,
+    );
     return areClosed(casters) ? 2 : 1;
 }
 

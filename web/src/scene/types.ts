@@ -21,7 +21,10 @@ export interface Mesh {
     positions: Rows;
     /** Three vertex numbers, from 0, for each triangle. */
     faces: Rows;
-    /** Red, green and blue of each vertex, 0..255; or one colour for all. Light grey by default. */
+    /**
+     * Red, green and blue of each vertex, 0..255, in rows of four also with an alpha, which becomes the opacity; or one
+     * colour for all. Light grey by default.
+     */
     colors?: Rows | Color | undefined;
     /** The normal of each vertex; computed for smooth shading where there are none. */
     normals?: Rows | undefined;
@@ -30,6 +33,8 @@ export interface Mesh {
      * lower right one (1, 1), as in glTF.
      */
     uvs?: ArrayLike<number> | readonly ArrayLike<number>[] | undefined;
+    /** What each vertex hides of what is behind it, 0..1; multiplied with the opacity of the object. */
+    opacities?: ArrayLike<number> | undefined;
 }
 
 /** An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives. */
@@ -69,7 +74,7 @@ export interface SceneObject {
     cull?: boolean | undefined;
     /** Whether only the edges are drawn. */
     wireframe?: boolean | undefined;
-    /** 0..1. Objects below 1 are drawn after the others, in their order. */
+    /** 0..1. Objects below 1, and those of which vertices are, are drawn after the others, in their order. */
     opacity?: number | undefined;
     /**
      * Of a ground, which casts no shadow: the distances from its position at which it begins to fade into what is behind

@@ -285,13 +285,13 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
 
 
 def joined(*meshes: Mesh) -> Mesh:
-    """Return several meshes as one, with normals if all have some."""
+    """Return several meshes as one, with their opacities, and with normals if all have some."""
     starts = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     normals = [mesh.normals for mesh in meshes if mesh.normals is not None]
     return Mesh(
         np.concatenate([mesh.positions for mesh in meshes]),
         np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
-        np.concatenate([mesh.colors for mesh in meshes]),
+        np.concatenate([mesh.rgba for mesh in meshes]),
         np.concatenate(normals) if len(normals) == len(meshes) else None,
     )
 

@@ -50,6 +50,9 @@ _KNOWN_BEGINNING = "KHR_materials_"
 _GLOSSINESS = "KHR_materials_pbrSpecularGlossiness"
 _UNLIT = "KHR_materials_unlit"
 
+#: The mode of materials through which one sees what is behind them.
+_BLEND = "BLEND"
+
 #: Roughness and metalness, 0..1, and whether light falls on it; None if the file does not say.
 _Surface = tuple[float, float, bool] | None
 #: The exponent of the widest highlights; even wider ones only fade the colours.
@@ -64,7 +67,11 @@ _IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.
 
 @dataclass(frozen=True)
 class _Piece:
-    """A primitive with triangles. normals: zeros if there are none. picture, uvs: of its texture, or None."""
+    """A primitive with triangles.
+
+    colors: (n, 4), with alpha. normals: zeros if there are none. picture, uvs: of its texture, or None. opacity: of its
+    material.
+    """
 
     positions: Array
     faces: NDArray[np.int64]
@@ -73,29 +80,37 @@ class _Piece:
     surface: _Surface
     picture: Picture | None
     uvs: Array
+    opacity: float
+
+    @property
+    def group(self) -> tuple[int, float, bool]:
+        """What pieces of one mesh have in common: the texture, and how they hide what is behind them."""
+        return id(self.picture) if self.picture else 0, self.opacity, bool((self.colors[:, 3] < 255).any())
 
 
 @np.errstate(all="ignore")
 def read_gltf(path: Path) -> list[MeshPart]:
     """Return the meshes of a glTF or GLB file: its scene, or else its first one, with all nodes in their places.
 
-    There is one for each base colour texture, and one for all that has none. The colour of a vertex is the product of
-    the base colour of its material and the colour of the vertex, as far as they are given; light grey if none is. Both
-    are linear in the file, and encoded as sRGB here. Points and lines are left out, and textures that cannot be read,
-    of which an InputWarning tells. What materials say of roughness becomes the mean of the triangles of a mesh.
+    There is one for each base colour texture, and one for all that has none. What is not opaque, of materials that are
+    blended, is apart from what is. The colour of a vertex is the product of the base colour of its material and the
+    colour of the vertex, as far as they are given; light grey if none is. Both are linear in the file, and encoded as
+    sRGB here. Points and lines are left out, and textures that cannot be read, of which an InputWarning tells. What
+    materials say of roughness becomes the mean of the triangles of a mesh.
     """
     gltf = _Gltf(path)
-    groups: dict[int, list[_Piece]] = {}
+    groups: dict[tuple[int, float, bool], list[_Piece]] = {}
     triangles = 0
     for node, matrix in _nodes(gltf):
         for piece in _primitives(gltf, gltf.item(node, "mesh", "meshes")) if "mesh" in node else ():
             triangles += len(piece.faces)
             if triangles > MAX_TRIANGLES:
                 raise InputError(f"it shows more than {MAX_TRIANGLES:,} triangles, the most that are read")
-            groups.setdefault(id(piece.picture) if piece.picture else 0, []).append(_place(piece, matrix))
+            groups.setdefault(piece.group, []).append(_place(piece, matrix))
     if not groups:
         raise InputError("it has no triangles")
-    return [_join(pieces, len(groups.keys() - {0})) for pieces in groups.values()]
+    textures = {picture for picture, _, _ in groups} - {0}
+    return [_join(pieces, len(textures)) for pieces in groups.values()]
 
 
 class _Gltf:
@@ -335,7 +350,7 @@ def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Piece]:
         vertices = _Vertices(gltf, attributes, used, len(positions))
         with about(where):
             normals = vertices.values("NORMAL", "VEC3")
-            colors = _colors(vertices, keys)
+            colors, opacity = _colors(vertices, keys)
             surface = _surface(gltf, keys)
             picture, uvs = _picture(vertices, keys)
         if picture is not None and not picture.is_varied:
@@ -348,6 +363,7 @@ def _primitives(gltf: _Gltf, mesh: Table) -> Iterator[_Piece]:
             surface,
             picture,
             uvs,
+            opacity,
         )
 
 
@@ -432,23 +448,30 @@ def _base_color(gltf: _Gltf, primitive: Table) -> tuple[Table, str, str]:
     return material.table("pbrMetallicRoughness"), "baseColorFactor", "baseColorTexture"
 
 
-def _colors(vertices: _Vertices, primitive: Table) -> Array:
-    """Return the colours of vertices, (n, 3), 0..255, without those of a texture."""
+def _colors(vertices: _Vertices, primitive: Table) -> tuple[Array, float]:
+    """Return the colours of vertices with alpha, (n, 4), 0..255, without those of a texture; and the opacity of the
+    material.
+
+    Only materials that are blended have either.
+    """
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if "material" not in primitive and vertex_colors is None:
-        return np.full((len(vertices.used), 3), DEFAULT_COLOR, dtype=np.float64)
-    linear = np.ones((len(vertices.used), 3))
+        return np.full((len(vertices.used), 4), (*DEFAULT_COLOR, 255), dtype=np.float64), 1.0
+    linear, opacity, is_blended = np.ones((len(vertices.used), 4)), 1.0, False
     if "material" in primitive:
-        keys, factor, _ = _base_color(vertices.gltf, primitive)
-        linear *= np.clip(keys.numbers(factor, (1, 1, 1, 1))[:3], 0, 1)
+        keys, name, _ = _base_color(vertices.gltf, primitive)
+        *factor, opacity = np.clip(keys.numbers(name, (1, 1, 1, 1)), 0, 1).tolist()
+        linear[:, :3] *= factor
+        is_blended = vertices.gltf.item(primitive, "material", "materials").get("alphaMode") == _BLEND
     if vertex_colors is not None:
         most = np.iinfo(vertex_colors.dtype).max if vertex_colors.dtype.kind in "iu" else 1
-        own = vertex_colors[:, :3].astype(np.float64) / most
+        own = vertex_colors.astype(np.float64) / most
         bad = np.flatnonzero(~np.isfinite(own).all(axis=1))
         if len(bad):
-            raise InputError(f"colour {bad[0]} must be three finite numbers, not {own[bad[0]].tolist()}")
-        linear *= np.clip(own, 0, 1)
-    return to_srgb(linear)
+            raise InputError(f"colour {bad[0]} must be finite numbers, not {own[bad[0]].tolist()}")
+        linear[:, : own.shape[1]] *= np.clip(own, 0, 1)
+    alpha = np.rint(255 * linear[:, 3:]) if is_blended else np.full((len(linear), 1), 255.0)
+    return np.hstack([to_srgb(linear[:, :3]), alpha]), opacity if is_blended else 1.0
 
 
 def _picture(vertices: _Vertices, primitive: Table) -> tuple[Picture | None, Array]:
@@ -503,4 +526,4 @@ def _join(pieces: Sequence[_Piece], count: int) -> MeshPart:
     elif picture is not None:
         material["texture"], corner_uvs = picture.texture(uvs[corners], count)
     found = filled(positions, corners, normals[corners]) if normals.any() else None
-    return MeshPart(weld(positions, corners, corner_colors, found, corner_uvs), material)
+    return MeshPart(weld(positions, corners, corner_colors, found, corner_uvs), material, pieces[0].opacity)

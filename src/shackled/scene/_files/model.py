@@ -36,10 +36,14 @@ _FULL_SIZE = 4
 
 @dataclass(frozen=True)
 class MeshPart:
-    """A mesh of a file, and fields of a `Material` that the file gives, by their names, such as its texture."""
+    """A mesh of a file, and fields of a `Material` that the file gives, by their names, such as its texture.
+
+    opacity: of the `Object`.
+    """
 
     mesh: Mesh
     material: dict[str, Any]
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -133,16 +137,18 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
 
 
 def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:
-    """Return colours, (..., 3), times those of an image at texture coordinates, (..., 2): 0..255."""
+    """Return colours, (..., 3), times those of an image at texture coordinates, (..., 2): 0..255. An alpha stays."""
     places = uvs.reshape(-1, 2)
     texels = sample(picture.image, np.stack([places[:, 0], 1 - places[:, 1]], axis=1))
-    return np.asarray(np.rint(colors * texels.reshape(colors.shape) / 255))
+    product = np.array(colors, dtype=np.float64)
+    product[..., :3] = np.rint(product[..., :3] * texels.reshape(*product.shape[:-1], 3) / 255)
+    return product
 
 
 def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     """Return all meshes as one, with the colours of their textures at the vertices, and whether that loses anything."""
     textured = [part for part in parts if "texture" in part.material]
-    if len(parts) == 1 and not textured:
+    if len(parts) == 1 and not textured and parts[0].opacity == 1:
         return parts[0].mesh, False
     starts = np.cumsum([0, *(len(part.mesh.positions) for part in parts)])
     faces = np.concatenate([part.mesh.faces + start for part, start in zip(parts, starts, strict=False)])
@@ -156,7 +162,7 @@ def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
 
 
 def _baked_colors(part: MeshPart) -> Array:
-    colors = part.mesh.colors.astype(np.float64)
+    colors: Array = np.rint(part.mesh.rgba * np.array([1, 1, 1, part.opacity]))
     texture: Texture | None = part.material.get("texture")
     if texture is None or part.mesh.uvs is None:
         return colors

@@ -32,6 +32,13 @@ _TYPES = {
 #: How many bits of a larger integer a colour has: 0..65535 becomes 0..255.
 _LARGEST = {"u1": 255, "i1": 255, "u2": 65535, "i2": 255, "u4": 255, "i4": 255}
 
+#: The names of red, green, blue and alpha.
+_COLORS = (
+    ("red", "green", "blue", "alpha"),
+    ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
+    ("r", "g", "b", "a"),
+)
+
 
 def read_ply(path: Path) -> Mesh:
     """Return the mesh of a PLY file.
@@ -107,12 +114,19 @@ class _Element:
         return None
 
     def colors(self) -> NDArray[np.float64] | None:
-        for names in (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b")):
-            table = self.table(*names)
-            if table is not None and len(table):
-                kind = next(p.type for p in self.properties if p.name == names[0])
-                return to_bytes(table, _LARGEST.get(kind))
+        """Return (n, 3) colours, or (n, 4) with alpha, 0..255; None if there are none."""
+        for *names, alpha in _COLORS:
+            if (colors := self._levels(*names)) is not None:
+                opacities = self._levels(alpha)
+                return colors if opacities is None else np.hstack([colors, opacities])
         return None
+
+    def _levels(self, *names: str) -> NDArray[np.float64] | None:
+        table = self.table(*names)
+        if table is None or not len(table):
+            return None
+        kind = next(p.type for p in self.properties if p.name == names[0])
+        return to_bytes(table, _LARGEST.get(kind))
 
 
 @dataclass

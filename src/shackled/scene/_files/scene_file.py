@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from attrs import asdict, evolve
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
 from ...whole_file import check_output_file, write_output
@@ -54,7 +54,7 @@ _RIM = ("color", "power")
 _FOG = ("color", "near", "far")
 _GROUND = ("color", "height", "radius")
 _LIGHT = ("kind", "direction", "position", "color", "inner_angle", "outer_angle", "shadow")
-_MESH = ("positions", "faces", "colors", "normals", "uvs")
+_MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 _TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap")
 _ROTATION = ("quaternion", "axis", "angle")
 
@@ -306,7 +306,7 @@ def _objects(value: object, where: str, folder: Path) -> list[Object]:
         objects = []
         for part in parts:
             material = Material(**fields, texture=texture or part.material.get("texture"))
-            thing = Object(part.mesh, position, rotation, scale, material, **given)
+            thing = Object(part.mesh, position, rotation, scale, material, **{"opacity": part.opacity, **given})
             objects.append(thing if color is None else painted_object(thing, color))
         return objects
 
@@ -323,11 +323,18 @@ def _parts(keys: Table, where: str, folder: Path) -> list[MeshPart]:
         mesh = Mesh(
             inside.matrix("positions"),
             inside.matrix("faces", whole=True),
-            inside.matrix("colors", whole=True) if "colors" in inside else None,
+            _colors(inside) if "colors" in inside else None,
             inside.matrix("normals") if "normals" in inside else None,
             inside.matrix("uvs", width=2) if "uvs" in inside else None,
+            inside.series("opacities") if "opacities" in inside else None,
         )
     return [MeshPart(mesh, {})]
+
+
+def _colors(mesh: Table) -> NDArray[Any]:
+    """Return rows of red, green and blue, or with alpha if the first row has one."""
+    _, first = next(iter(mesh.rows("colors")), ("", None))
+    return mesh.matrix("colors", whole=True, width=4 if isinstance(first, list) and len(first) == 4 else 3)
 
 
 def _texture(surface: Table, folder: Path) -> Texture:

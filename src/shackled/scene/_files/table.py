@@ -78,10 +78,17 @@ class Table:
             raise InputError(f"{self.place(key)} must be {count} numbers, not {value!r:.60}")
         return tuple(float(part) for part in value)
 
+    def series(self, key: str) -> NDArray[np.float64]:
+        """Return a list of numbers, (n,)."""
+        for place, value in self.rows(key):
+            if not is_number(value):
+                raise InputError(f"{place} must be a number, not {value!r:.60}")
+        return np.array([value for _, value in self.rows(key)], dtype=np.float64)
+
     def matrix(self, key: str, whole: bool = False, width: int = 3) -> NDArray[Any]:
         """Return rows of `width` numbers, (n, width), none if the key is absent; integers if they must be whole."""
         rows, kind = self.rows(key), "whole numbers" if whole else "numbers"
-        count = {2: "two", 3: "three"}[width]
+        count = {2: "two", 3: "three", 4: "four"}[width]
         for place, row in rows:
             if not isinstance(row, list) or len(row) != width or not all(is_number(value) for value in row):
                 raise InputError(f"{place} must be {count} {kind}, not {row!r:.60}")

@@ -23,7 +23,7 @@ def weld(
     """Return a mesh with one vertex for each distinct position, colour, normal and texture coordinate that a face uses.
 
     positions: (n, 3) float. faces: (m, 3) int, numbers of positions. colors: (m, 3, 3), the colour 0..255 of each
-    corner of each face, or None for light grey. normals: (m, 3, 3) float likewise, or None for no normals. uvs:
+    corner of each face, or (m, 3, 4) with alpha; None for light grey. normals: (m, 3, 3) float likewise, or None. uvs:
     (m, 3, 2) float likewise. InputError as in `Mesh`.
     """
     checked = Mesh(positions, faces)
