@@ -355,7 +355,7 @@ FOUR_SAMPLES = ["AntialiasedEngine", "AntialiasedFragmentEngine"]
 def test_engines_of_a_call() -> None:
     spots, opacity, antialias = record(1, 1, DOWN), record(2, 2, HALF), record(3, 0, b"")
     assert engines(with_records(mixed(), spots + opacity + antialias)) == FOUR_SAMPLES
-    assert engines(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == ["EffectsEngine"]
+    assert engines(with_records(mixed(), spots + antialias + record(4, 0, bytes(6)))) == ["EffectsEngine", "Effects"]
     for data in (b"", spots + opacity, record(2, 2, antialias[:4])):
         assert engines(with_records(mixed(), data)) == PLAIN
     # other functions of the Renderer, and data that are no call at all

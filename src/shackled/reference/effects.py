@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import effect_records, gamma
+from . import gamma
 from .effect_records import FOG, HEMISPHERE, RIM, TONE, TONE_GAMMA, fog_distances
 from .layout import MIDDLE_86_AT, UPPER_86_AT
 from .materials import scaled
@@ -17,8 +17,7 @@ UP = (0, 1 << 32, 0)
 
 
 def set_frame(scene: Scene, view: View, r: Registers) -> None:
-    """Check the records, and set the registers of the frame."""
-    effect_records.check(r.records, scene)
+    """Set the registers of the frame."""
     if content := r.records.get((TONE, 0)):
         r.exposure, r.tone_flags = int.from_bytes(content[:4], "big"), content[4]
     if content := r.records.get((RIM, 0)):

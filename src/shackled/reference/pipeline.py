@@ -7,7 +7,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from . import compositor, effects, primitive_assembly, rasterizer, samples, shadows, uniforms, vertex_shader, wireframe
+from . import (
+    compositor,
+    effect_records,
+    effects,
+    primitive_assembly,
+    rasterizer,
+    samples,
+    shadows,
+    uniforms,
+    vertex_shader,
+    wireframe,
+)
 from .checks import check_scene
 from .extensions import has_effects, is_antialiased, read_records
 from .layout import IS_BLENDED, IS_DEPTH_PASS, IS_ORTHOGRAPHIC, PIXEL_BIAS
@@ -86,11 +97,12 @@ def draw_object(part: Geometry, registers: Registers) -> None:
 def assemble(scene: Scene, tile: Rectangle) -> tuple[Registers, View, list[Geometry], int]:
     """Return registers, view and geometry before the first pixel is drawn, and the number of faces to draw."""
     check_scene(scene, tile)
+    effect_records.check(records := read_records(scene.extensions), scene)
     registers = Registers(
         tile=tile,
         depth=np.zeros((tile.height, tile.width), np.uint64),
         image=np.zeros((tile.height, tile.width, 3), np.uint8),
-        records=(records := read_records(scene.extensions)),
+        records=records,
         antialiased=is_antialiased(records),
         has_effects=has_effects(records),
         sample_depths=np.zeros((tile.height, tile.width, 4), np.uint64),
