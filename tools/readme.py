@@ -18,6 +18,7 @@ LIGHT = ROOT / "docs" / "light.md"
 RESULTS = ROOT / "benchmarks" / "results.json"
 TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = ROOT / "docs" / "images" / "pictures.json"
+EFFECTS = ROOT / "benchmarks" / "effects.json"
 
 #: Rows of the cost table for the README: a part of the name of the row, and the title.
 ROWS = {
@@ -79,6 +80,14 @@ def effects() -> str:
     return "\n".join(lines)
 
 
+def pixels() -> str:
+    """Return the table of what each effect costs for each pixel."""
+    data: dict[str, list[int]] = json.loads(EFFECTS.read_text("utf-8"))
+    lines = ["| gas for each pixel | flat | smooth |", "|---|---:|---:|"]
+    lines += [f"| {name} | {' | '.join(f'{gas:,}' for gas in each)} |" for name, each in data.items()]
+    return "\n".join(lines)
+
+
 def showcase() -> str:
     """Return a line about the scenes of the showcase."""
     gas = json.loads(PICTURES.read_text("utf-8"))["showcase"].values()
@@ -98,7 +107,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Update the figures of README.md.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check
-    contents = {"costs": costs, "effects": effects, "pictures": pictures, "showcase": showcase, "tokens": tokens}
+    contents = {each.__name__: each for each in (costs, effects, pictures, pixels, showcase, tokens)}
     return update(dict.fromkeys((README, LIGHT), lambda name: contents[name]()), "python -m tools.readme", check)
 
 

@@ -211,6 +211,7 @@ library FragmentLight {
                 case 0 { mstore(FRAGMENT_NORMAL_RAY, add(mload(FACE_N_DOT_RAY), sar(94, mul(mload(FACE_N_DOT_RAY_SLOPE), depth)))) }
                 default { interpolateNormal(s, t, x, y) }
                 color := and(shr(6, light(depth, x, y)), LANES_24)
+                if mload(RIM_COLOR) { mstore(FRAGMENT_RAY_LENGTH, rayLength(x, y)) }
             }
             default {
                 // each lane has 2^24 too much, so that it is positive

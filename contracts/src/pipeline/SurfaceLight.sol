@@ -2,7 +2,6 @@
 pragma solidity 0.8.37;
 
 import {Gamma} from "../math/Gamma.sol";
-import {sqrt} from "../math/Roots.sol";
 import {TONE_FILMIC, TONE_GAMMA} from "../scene/EffectRecords.sol";
 import {FragmentLight} from "./FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
@@ -19,10 +18,13 @@ import "./Registers.sol";
 
 /// @dev 255 levels, Q10.
 uint256 constant WHITE_10 = 0x3fc00;
-/// @dev What makes a lane above that carry into bit 55; that bit in each lane; a lane.
+/// @dev What makes a lane above that carry into bit 55; that bit in each lane, and its place; a lane.
 uint256 constant BELOW_BEYOND = 0x7ffffffffc03ff7ffffffffc03ff7ffffffffc03ff;
 uint256 constant BEYOND_LEVELS = 0x800000000000008000000000000080000000000000;
+uint256 constant BEYOND_AT = 55;
 uint256 constant LANE_56 = 0xffffffffffffff;
+/// @dev 40 bits of each lane.
+uint256 constant LANES_40 = 0xffffffffff0000ffffffffff0000ffffffffff;
 /// @dev Values of the filmic curve above 64 (Q16) are as good as white.
 uint256 constant BRIGHTEST_FILMIC = 1 << 22;
 /// @dev 0.59 and 0.03, Q16, and 0.14, Q32, times 100.
@@ -70,7 +72,7 @@ library SurfaceLight {
             color = albedo;
         }
         if (load(IS_CHANGED) != 0) {
-            if (load(RIM_COLOR) != 0 && load(MODE) & IS_LIT != 0) color = withRim(color, rimAt(x, y));
+            if (load(RIM_COLOR) != 0 && load(MODE) & IS_LIT != 0) color = withRim(color, rimAt());
             if (load(IS_TONED) != 0) color = toned(color);
             if (load(FOG_RANGE) != 0) color = fogged(color, fogAt(attribute));
         }
@@ -166,13 +168,11 @@ library SurfaceLight {
     function bounded(uint256 color) private pure returns (uint256 levels) {
         assembly ("memory-safe") {
             levels := color
-            if and(add(color, BELOW_BEYOND), BEYOND_LEVELS) {
-                levels := 0
-                for { let i := 0 } lt(i, LANES_END) { i := add(i, MIDDLE_AT) } {
-                    let channel := and(shr(i, color), LANE_56)
-                    if gt(channel, WHITE_10) { channel := WHITE_10 }
-                    levels := or(levels, shl(i, channel))
-                }
+            let beyond := and(add(color, BELOW_BEYOND), BEYOND_LEVELS)
+            if beyond {
+                // 1 in each lane
+                beyond := shr(BEYOND_AT, beyond)
+                levels := or(and(color, not(mul(beyond, LANE_56))), mul(beyond, WHITE_10))
             }
         }
     }
@@ -197,12 +197,11 @@ library SurfaceLight {
     }
 
     /// @dev How strong the rim is at a fragment, Q24.
-    function rimAt(uint256 x, uint256 y) private pure returns (uint256 strength) {
+    function rimAt() private pure returns (uint256 strength) {
         unchecked {
             uint256 normalRay = load(FRAGMENT_NORMAL_RAY);
             uint256 length = load(FRAGMENT_NORMAL_LENGTH);
-            if (load(MODE) & IS_ORTHOGRAPHIC == 0) length *= sqrt(x * x + y * y + ONE_48);
-            else length <<= Q24;
+            length *= load(FRAGMENT_RAY_LENGTH);
             uint256 part;
             assembly ("memory-safe") {
                 // 1 - N.V, where V = -ray
@@ -232,26 +231,24 @@ library SurfaceLight {
     /// @dev A colour as it is shown, lanes of Q10, 0..255.
     function toned(uint256 color) private pure returns (uint256 shown) {
         unchecked {
-            (uint256 exposure, uint256 flags) = (load(EXPOSURE), load(TONE_FLAGS));
+            uint256 flags = load(TONE_FLAGS);
+            // Four lights, ambient light and a hemisphere, with coefficients up to 4, are less than 2^24; exposures are 2^22 at most
+            color = ((color * load(EXPOSURE)) >> Q16) & LANES_40;
+            if (flags == 0) return bounded(color);
             for (uint256 i; i != LANES_END; i += MIDDLE_AT) {
                 uint256 channel;
                 assembly ("memory-safe") {
-                    channel := shr(Q16, mul(and(shr(i, color), LANE_56), exposure))
-                    switch flags
-                    case 0 { if gt(channel, WHITE_10) { channel := WHITE_10 } }
-                    default {
-                        // Q16, where 1 is white
-                        channel := div(shl(6, channel), 255)
-                        if and(flags, TONE_FILMIC) {
-                            if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
-                            let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
-                            channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
-                        }
-                        if gt(channel, ONE_16) { channel := ONE_16 }
+                    // Q16, where 1 is white
+                    channel := div(shl(6, and(shr(i, color), LANE_56)), 255)
+                    if and(flags, TONE_FILMIC) {
+                        if gt(channel, BRIGHTEST_FILMIC) { channel := BRIGHTEST_FILMIC }
+                        let divisor := add(mul(channel, add(mul(243, channel), FILMIC_59)), FILMIC_14)
+                        channel := div(shl(Q16, mul(channel, add(mul(251, channel), FILMIC_3))), divisor)
                     }
+                    if gt(channel, ONE_16) { channel := ONE_16 }
                 }
                 if (flags & TONE_GAMMA != 0) channel = Gamma.encode(channel) << 2;
-                else if (flags != 0) channel = (channel * 255) >> 6;
+                else channel = (channel * 255) >> 6;
                 shown |= channel << i;
             }
         }

@@ -13,10 +13,9 @@ from __future__ import annotations
 
 from . import gamma, texture
 from .effect_records import TONE_FILMIC, TONE_GAMMA
-from .fragment_light import WEIGHTED_BIAS, color_at, corrected
+from .fragment_light import WEIGHTED_BIAS, color_at, corrected, ray_length
 from .layout import IS_LIT, IS_ORTHOGRAPHIC, IS_SMOOTH
 from .registers import Registers
-from .roots import sqrt
 from .shadow_table import dark_samples
 from .words import MASK, divide, divide_signed, signed
 
@@ -24,7 +23,7 @@ ONE = 1 << 24
 #: 255 levels, Q10.
 WHITE = 255 << 10
 #: Radiance above 2^30 levels, and values of the filmic curve above 64 (Q16), are as good as white.
-BRIGHTEST, BRIGHTEST_FILMIC = 1 << 40, 1 << 22
+BRIGHTEST_FILMIC = 1 << 22
 
 
 def set_albedo(r: Registers) -> None:
@@ -95,7 +94,7 @@ def add_hemisphere(r: Registers) -> None:
 
 def rim_at(x: int, y: int, r: Registers) -> int:
     """Return how strong the rim is at a fragment, Q24."""
-    length = r.fragment_normal_length * (ONE if r.mode & IS_ORTHOGRAPHIC else sqrt(x * x + y * y + (1 << 48)))
+    length = r.fragment_normal_length * (ONE if r.mode & IS_ORTHOGRAPHIC else ray_length(x, y, r))
     # 1 - N.V, where V = -ray
     part = min(max(ONE + divide_signed(r.fragment_normal_ray << 24, length), 0), ONE)
     strength = ONE
@@ -113,7 +112,7 @@ def fog_at(depth: int, r: Registers) -> int:
 
 def toned(channel: int, r: Registers) -> int:
     """Return a channel, Q10, as it is shown: 0..255, Q10."""
-    channel = min(channel, BRIGHTEST) * r.exposure >> 16
+    channel = channel * r.exposure >> 16
     if not r.tone_flags:
         return min(channel, WHITE)
     # Q16, where 1 is white
