@@ -277,6 +277,14 @@ uint256 constant FADE_Y = 0x2f00;
 uint256 constant FADE_Z = 0x2f20;
 /// @dev The functions of a shadow in the row, and their changes from pixel to pixel.
 uint256 constant SHADOW_FUNCTIONS = 0x2f40;
+uint256 constant SHADOW_STEP_0 = 0x2f60;
+uint256 constant SHADOW_FUNCTION_1 = 0x2f80;
+uint256 constant SHADOW_STEP_1 = 0x2fa0;
+uint256 constant SHADOW_FUNCTION_2 = 0x2fc0;
+uint256 constant SHADOW_STEP_2 = 0x2fe0;
+uint256 constant SHADOW_FUNCTION_3 = 0x3000;
+uint256 constant SHADOW_STEP_3 = 0x3020;
+uint256 constant SHADOW_FUNCTIONS_END = 0x3040;
 /// @dev 1 if there is a TONE that changes anything; what light is multiplied by in the end, Q16, and its flags.
 uint256 constant IS_TONED = 0x3040;
 uint256 constant EXPOSURE = 0x3060;

@@ -52,133 +52,98 @@ library ShadowRows {
 
     /// @notice Sets the words of a row of the triangle from `column` to before `end`. Rows must ascend.
     function prepare(uint256 column, uint256 end, uint256 row) internal pure {
-        unchecked {
-            uint256 pixel = load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN));
-            uint256 shadow = load(SHADOW_BEGIN);
-            assembly ("memory-safe") {
-                calldatacopy(pixel, calldatasize(), shl(5, sub(end, column)))
-            }
-            (column, end, row) = (column - PIXEL_BIAS, end - PIXEL_BIAS, row - PIXEL_BIAS);
-            bool isLeading = true;
-            while (true) {
-                uint256 word = loadCalldata(shadow);
-                if ((word >> TOP_AT) & ROW_MASK > row) return;
-                uint256 next = shadow + 32 * (word & SHADOW_COUNT_MASK);
-                if ((word >> BOTTOM_AT) & ROW_MASK > row) {
-                    isLeading = false;
-                    uint256 first;
-                    uint256 last;
-                    assembly ("memory-safe") {
-                        first := and(shr(LEFT_AT, word), ROW_MASK)
-                        last := and(shr(RIGHT_AT, word), ROW_MASK)
-                        if lt(first, column) { first := column }
-                        if gt(last, end) { last := end }
-                    }
-                    uint256 inner;
-                    uint256 innerEnd;
-                    if (first < last) (first, last, inner, innerEnd) = setFunctions(shadow, next, row, first, last);
-                    if (first < last) fill(pixel + 32 * (first - column), first, last, inner, innerEnd, next - shadow);
-                }
-                if (word & LAST_SHADOW != 0) return;
-                shadow = next;
-                // those above are passed over from now on
-                if (isLeading) store(SHADOW_BEGIN, shadow);
-            }
-        }
-    }
-
-    /// @dev Writes the functions in a row: each at the samples of the first pixel of the canvas, and its change from pixel to pixel.
-    /// @return first The first pixel that may have samples in the shadow.
-    /// @return last The one after the last.
-    /// @return inner The first pixel of which all samples are in the shadow.
-    /// @return innerEnd The one after the last.
-    function setFunctions(uint256 shadow, uint256 shadowEnd, uint256 row, uint256 column, uint256 end)
-        private
-        pure
-        returns (uint256 first, uint256 last, uint256 inner, uint256 innerEnd)
-    {
         assembly ("memory-safe") {
-            // the least whole number that is not below n / d, and not below low
-            function from(n, d, low) -> result {
-                result := low
-                if sgt(n, 0) {
-                    result := div(add(n, sub(d, 1)), d)
-                    if lt(result, low) { result := low }
-                }
-            }
-            // 1 more than the greatest whole number that is not above n / d, and not above high
-            function to(n, d, high) -> result {
-                if sgt(n, not(0)) {
-                    result := add(div(n, d), 1)
-                    if gt(result, high) { result := high }
-                }
-            }
-
-            first := column
-            last := end
-            inner := column
-            innerEnd := end
-            let target := SHADOW_FUNCTIONS
-            for {} lt(shadow, shadowEnd) { shadow := add(shadow, 32) } {
-                let word := calldataload(shadow)
-                let x := sar(X_AT, word)
-                let y := sar(X_AT, shl(sub(X_AT, Y_AT), word))
-                let value := add(sar(LANE_AT_TOP, shl(CONSTANT_TO_TOP, word)), mul(y, shl(3, row)))
-                mstore(
-                    target,
-                    add(add(mul(value, ONES_64), TOPS_64), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8)))
-                )
-                mstore(add(target, 0x20), mul(shl(3, x), ONES_64))
-                target := add(target, 0x40)
+            // Reads the functions in a row: each at the samples of the first pixel of the canvas, and its change from pixel to pixel.
+            // From `first` to before `last` pixels may have samples in the shadow, from `inner` to before `innerEnd` all are.
+            function setFunctions(shadow, shadowEnd, y8, column_, end_) -> first, last, inner, innerEnd {
+                first := column_
+                last := end_
+                inner := column_
                 // ranges would cost more than the few pixels
-                if lt(sub(end, column), SHORT_SPAN) {
-                    innerEnd := 0
-                    continue
-                }
-                // more than the change from the centre to a sample
-                let sign := sar(255, y)
-                let change := sub(xor(y, sign), sign)
-                sign := sar(255, x)
-                let step := sub(xor(x, sign), sign)
-                change := mul(3, add(change, step))
-                switch step
-                case 0 {
-                    if slt(add(value, change), 0) { last := 0 }
-                    if slt(value, change) { innerEnd := 0 }
-                }
-                default {
-                    step := shl(3, step)
-                    switch sign
-                    case 0 {
-                        first := from(sub(0, add(value, change)), step, first)
-                        inner := from(sub(change, value), step, inner)
+                if iszero(lt(sub(end_, column_), SHORT_SPAN)) { innerEnd := end_ }
+                let target := SHADOW_FUNCTIONS
+                for {} lt(shadow, shadowEnd) { shadow := add(shadow, 32) } {
+                    let word := calldataload(shadow)
+                    let x := sar(X_AT, word)
+                    let y := sar(X_AT, shl(sub(X_AT, Y_AT), word))
+                    word := add(sar(LANE_AT_TOP, shl(CONSTANT_TO_TOP, word)), mul(y, y8))
+                    mstore(target, add(add(mul(word, ONES_64), TOPS_64), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8))))
+                    mstore(add(target, 0x20), mul(shl(3, x), ONES_64))
+                    target := add(target, 0x40)
+                    if innerEnd {
+                        // more than the change from the centre to a sample
+                        let sign := sar(255, y)
+                        let change := sub(xor(y, sign), sign)
+                        sign := sar(255, x)
+                        let step := sub(xor(x, sign), sign)
+                        change := mul(3, add(change, step))
+                        step := shl(3, step)
+                        switch sign
+                        case 0 {
+                            // the least whole number that is not below -(word + change) / step; where that is 0, it is 0
+                            let bound := sub(step, 1)
+                            let t := sdiv(sub(bound, add(word, change)), step)
+                            if sgt(t, first) { first := t }
+                            t := sdiv(add(bound, sub(change, word)), step)
+                            if sgt(t, inner) { inner := t }
+                            if lt(step, slt(word, change)) { inner := end_ }
+                        }
+                        default {
+                            let t := sdiv(add(step, add(word, change)), step)
+                            if slt(t, last) { last := t }
+                            t := sdiv(add(step, sub(word, change)), step)
+                            if slt(t, innerEnd) { innerEnd := mul(t, sgt(t, 0)) }
+                        }
                     }
-                    default {
-                        last := to(add(value, change), step, last)
-                        innerEnd := to(sub(value, change), step, innerEnd)
-                    }
+                }
+                for {} lt(target, SHADOW_FUNCTIONS_END) { target := add(target, 0x40) } {
+                    mstore(target, TOPS_64)
+                    mstore(add(target, 0x20), 0)
                 }
             }
-        }
-    }
-
-    /// @dev Adds a shadow to the words of a row.
-    /// @param pixel The address of the word of the first pixel.
-    /// @param size Bytes of the functions in calldata.
-    function fill(uint256 pixel, uint256 first, uint256 last, uint256 inner, uint256 innerEnd, uint256 size) private pure {
-        assembly ("memory-safe") {
-            size := add(SHADOW_FUNCTIONS, shl(1, size))
-            for {} lt(first, last) { first := add(first, 1) } {
-                switch or(and(lt(first, innerEnd), iszero(lt(first, inner))), eq(mload(pixel), TOPS_64))
-                case 1 { mstore(pixel, TOPS_64) }
-                default {
-                    let lanes := TOPS_64
-                    for { let p := SHADOW_FUNCTIONS } lt(p, size) { p := add(p, 0x40) } {
-                        lanes := and(lanes, add(mload(p), mul(first, mload(add(p, 0x20)))))
-                    }
+            // Adds a shadow to words of which not all samples need be in it.
+            function mix(pixel, column_, end_) {
+                for {} slt(column_, end_) { column_ := add(column_, 1) } {
+                    let lanes := add(mload(SHADOW_FUNCTIONS), mul(column_, mload(SHADOW_STEP_0)))
+                    lanes := and(lanes, add(mload(SHADOW_FUNCTION_1), mul(column_, mload(SHADOW_STEP_1))))
+                    lanes := and(lanes, add(mload(SHADOW_FUNCTION_2), mul(column_, mload(SHADOW_STEP_2))))
+                    lanes := and(lanes, add(mload(SHADOW_FUNCTION_3), mul(column_, mload(SHADOW_STEP_3))))
                     mstore(pixel, or(mload(pixel), lanes))
+                    pixel := add(pixel, 0x20)
                 }
-                pixel := add(pixel, 0x20)
+            }
+
+            let words := sub(mload(SHADOW_ROW), shl(5, mload(COLUMN_BEGIN)))
+            calldatacopy(add(words, shl(5, column)), calldatasize(), shl(5, sub(end, column)))
+            words := add(words, shl(5, PIXEL_BIAS))
+            column := sub(column, PIXEL_BIAS)
+            end := sub(end, PIXEL_BIAS)
+            row := sub(row, PIXEL_BIAS)
+            let isLeading := 1
+            let shadow := mload(SHADOW_BEGIN)
+            for {} 1 {} {
+                let word := calldataload(shadow)
+                if gt(and(shr(TOP_AT, word), ROW_MASK), row) { break }
+                let next := add(shadow, shl(5, and(word, SHADOW_COUNT_MASK)))
+                if gt(and(shr(BOTTOM_AT, word), ROW_MASK), row) {
+                    isLeading := 0
+                    let first := and(shr(LEFT_AT, word), ROW_MASK)
+                    let last := and(shr(RIGHT_AT, word), ROW_MASK)
+                    if lt(first, column) { first := column }
+                    if gt(last, end) { last := end }
+                    if lt(first, last) {
+                        let inner, innerEnd
+                        first, last, inner, innerEnd := setFunctions(shadow, next, shl(3, row), first, last)
+                        if iszero(lt(inner, innerEnd)) { inner := last }
+                        mix(add(words, shl(5, first)), first, inner)
+                        for {} lt(inner, innerEnd) { inner := add(inner, 1) } { mstore(add(words, shl(5, inner)), TOPS_64) }
+                        mix(add(words, shl(5, inner)), inner, last)
+                    }
+                }
+                if and(word, LAST_SHADOW) { break }
+                shadow := next
+                // those above are passed over from now on
+                if isLeading { mstore(SHADOW_BEGIN, shadow) }
             }
         }
     }
@@ -187,17 +152,21 @@ library ShadowRows {
     /// @param covered The highest bit of the lane of each sample of the fragment.
     function setShare(uint256 covered, uint256 column) internal pure {
         unchecked {
-            uint256 list = load(SHADOW_LIST);
             uint256 dark;
-            if (list == SHADOW_DARK) dark = covered;
-            else if (list != 0) dark = load(load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN))) & covered;
-            uint256 share = load(SHADOW_SHARE);
-            if (dark == 0 && share == ALL_SAMPLES) return;
+            bool isKnown;
+            assembly ("memory-safe") {
+                let list := mload(SHADOW_LIST)
+                if list {
+                    dark := covered
+                    if gt(list, SHADOW_DARK) { dark := and(dark, mload(add(mload(SHADOW_ROW), shl(5, sub(column, mload(COLUMN_BEGIN)))))) }
+                }
+                isKnown := iszero(or(dark, sub(mload(SHADOW_SHARE), ALL_SAMPLES)))
+            }
+            if (isKnown) return;
             uint256 total = count(covered);
             uint256 visible = total - count(dark);
-            uint256 before = share;
-            share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
-            if (share == before) return;
+            uint256 share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
+            if (share == load(SHADOW_SHARE)) return;
             store(SHADOW_SHARE, share);
             uint256 light = load(SHADOW_LIGHT);
             store(light + LIGHT_COLOR, part(load(SHADOW_COLOR), visible, total));
