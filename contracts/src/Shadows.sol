@@ -9,7 +9,7 @@ import {Mesh, openMesh} from "./scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
 import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
-import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
+import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
 import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
@@ -31,6 +31,7 @@ contract Shadows is SceneErrors {
     /// @param begin, end Of the faces.
     /// @param casters The addresses of the faces that cast shadows.
     /// @param sets See Faces; of `words` words each.
+    /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
     /// @param found What shades a face, one address for each face that casts shadows.
     /// @param heads A word for each row of the canvas, whose size is `width` and `height`.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
@@ -44,6 +45,7 @@ contract Shadows is SceneErrors {
         uint256 casterCount;
         uint256 sets;
         uint256 words;
+        uint256 boxes;
         uint256 found;
         uint256 heads;
         uint256 width;
@@ -196,15 +198,20 @@ contract Shadows is SceneErrors {
             uint256 count = (end - state.casters) >> 5;
             uint256 words = (count + 255) >> 8;
             (state.casterCount, state.words, state.sets) = (count, words, end);
-            uint256 size = 5 * BUCKETS * words * 32;
+            uint256 size = 5 * BUCKETS * words * 32 * state.frame.sides;
             assembly ("memory-safe") {
                 calldatacopy(end, calldatasize(), size)
             }
             state.found = end + size;
             state.heads = state.found + 32 * count;
             setFreeMemory(state.heads + 32 * scene.canvas.height);
-            for (uint256 i; i != count; ++i) Faces.insert(state.sets, words, i, load(state.casters + 32 * i));
-            Faces.complete(state.sets, words);
+            state.boxes = freeMemory();
+            setFreeMemory(state.boxes + 0x40 * state.frame.sides);
+            for (uint256 i; i != count; ++i) {
+                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, load(load(state.casters + 32 * i)));
+                for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) Faces.insert(load(p), words, i, load(p + 0x20));
+            }
+            for (uint256 i; i != state.frame.sides; ++i) Faces.complete(state.sets + i * (size / state.frame.sides), words);
         }
     }
 
@@ -346,13 +353,11 @@ contract Shadows is SceneErrors {
             (receiver.corners, receiver.isPlaced) = (corners, false);
             bool hasPlanes;
             uint256 count;
+            uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, state.words, state.frame, corners);
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
-                if (corners & BESIDE == 0) {
-                    bits = Faces.candidates(state.sets, state.words, corners, offset);
-                } else {
-                    bits = state.casterCount - 8 * offset;
-                    bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
+                for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) {
+                    bits |= Faces.candidates(load(p), state.words, load(p + 0x20), offset);
                 }
                 if (bits != 0 && !hasPlanes) {
                     hasPlanes = true;

@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
-import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
+import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
 
 // Faces in the space of the light, and which of them may shade a face.
 //
@@ -11,7 +11,7 @@ import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
 //
 // Those that cast shadows have numbers, each a bit in the sets of what lies in a range of coordinates. There are five tables of sets: what
 // reaches a range in x or beyond it, what begins in it or before; the same of y; what is in a range of depths or nearer to the light.
-// What may shade a face is in five of these sets: 256 faces are found by four `and`s.
+// What may shade a face is in five of these sets: 256 faces are found by four `and`s. Each side of a cube has such tables.
 
 uint256 constant FACE_RECORD_SIZE = 0xc0;
 uint256 constant FACE_NORMAL = 0x20;
@@ -24,6 +24,7 @@ uint256 constant FACE_C_AT = 64;
 uint256 constant FACE_PLANES_AT = 96;
 uint256 constant FACE_BOX_AT = 128;
 uint256 constant ADDRESS_MASK = 0xffffffff;
+uint256 constant BOX_MASK = 0xffffffffffffffff;
 /// @dev The highest bit of each lane of the ranges of a vertex.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
@@ -64,13 +65,14 @@ library Faces {
         }
     }
 
-    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper.
+    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper; BESIDE if a vertex is, or if
+    /// they are on several sides of the cube.
     function boxOf(uint256 a, uint256 b, uint256 c) private pure returns (uint256 box) {
         assembly ("memory-safe") {
             a := mload(add(a, PLACE_BUCKETS))
             b := mload(add(b, PLACE_BUCKETS))
             c := mload(add(c, PLACE_BUCKETS))
-            switch and(or(or(a, b), c), BESIDE)
+            switch or(and(or(or(a, b), c), BESIDE), shr(SIDE_AT, or(xor(a, b), xor(b, c))))
             case 0 {
                 // where a lane of a is not less than that of b, the mask has ones
                 let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS)
@@ -87,15 +89,43 @@ library Faces {
         }
     }
 
+    /// @notice Writes where to look for what may shade a face: for each side of the cube that it is on, the tables and the ranges.
+    /// @param target Where to write them.
+    /// @param tables Where those of the first side begin.
+    /// @param corners The first word of its record.
+    /// @return end The address after the last of these pairs.
+    function writeBoxes(uint256 target, uint256 tables, uint256 words, Frame memory frame, uint256 corners)
+        internal
+        pure
+        returns (uint256 end)
+    {
+        unchecked {
+            uint256 box = (corners >> FACE_BOX_AT) & BOX_MASK;
+            uint256 size = 5 * BUCKETS * 32 * words;
+            if (corners & BESIDE == 0 || frame.sides == 1) {
+                // what is beside a point light may shade everything
+                store(target, tables + (box >> SIDE_AT & 7) * size);
+                store(target + 0x20, corners & BESIDE == 0 ? box : EVERYWHERE);
+                return target + 0x40;
+            }
+            uint256[3] memory places =
+                [corners & ADDRESS_MASK, (corners >> FACE_B_AT) & ADDRESS_MASK, (corners >> FACE_C_AT) & ADDRESS_MASK];
+            for (uint256 side; side != CUBE; ++side) {
+                box = LightSpace.boxOn(frame, places, side);
+                if (box != 0) {
+                    store(target, tables + side * size);
+                    store(target + 0x20, box);
+                    target += 0x40;
+                }
+            }
+            return target;
+        }
+    }
+
     /// @notice Puts a face into the sets of its ranges.
-    /// @param words Of each set.
-    function insert(uint256 sets, uint256 words, uint256 index, uint256 face) internal pure {
+    /// @param sets Tables of sets of `words` words each.
+    function insert(uint256 sets, uint256 words, uint256 index, uint256 box) internal pure {
         assembly ("memory-safe") {
-            let box := mload(face)
-            // what is beside a point light may shade everything
-            switch and(box, BESIDE)
-            case 0 { box := shr(FACE_BOX_AT, box) }
-            default { box := 0x1f001f001f00 }
             let bit := shl(and(index, 0xff), 1)
             let size := shl(5, words)
             let set := add(sets, shl(5, shr(8, index)))
@@ -142,11 +172,10 @@ library Faces {
     }
 
     /// @notice What may shade a face, of 256 faces.
-    /// @param box The first word of its record.
+    /// @param box Its ranges.
     /// @param offset Of the word in each set.
     function candidates(uint256 sets, uint256 words, uint256 box, uint256 offset) internal pure returns (uint256 bits) {
         assembly ("memory-safe") {
-            box := shr(FACE_BOX_AT, box)
             let size := shl(5, words)
             let set := add(sets, offset)
             bits := mload(add(set, mul(size, byte(31, box))))

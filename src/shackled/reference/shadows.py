@@ -28,6 +28,11 @@ ALL, AVERSE, TURNED = 1, 2, 3
 COORDINATE_BITS = 19
 #: Coordinates are divided into so many ranges, to find what may shade a face.
 BUCKETS = 32
+#: The first and the last range of x, y and z.
+Box = tuple[int, int, int, int, int, int]
+EVERYWHERE = (0, BUCKETS - 1) * 3
+#: A point light with a greater slope across what casts shadows is among that.
+WIDEST = 2 << 16
 #: Bits of the distances of vertices, and of other homogeneous coordinates.
 DISTANCE_BITS, CLIP_BITS = 38, 60
 #: Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
@@ -45,7 +50,8 @@ class Frame:
     z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
     what casts shadows, or the point light.
 
-    axes: times 2^64 / radius. low, factor: of the ranges into which coordinates are divided.
+    axes: times 2^64 / radius. low, factor: of the ranges into which coordinates are divided. sides: of a point light,
+    the sides of a cube around it that have ranges of their own: 6 where it is among what casts shadows, else 1.
     """
 
     is_point: bool
@@ -54,6 +60,7 @@ class Frame:
     radius: int
     low: Vector
     factor: Vector
+    sides: int = 1
 
     def place(self, v: Vector) -> Vector:
         """Return a place of the world."""
@@ -71,32 +78,67 @@ class Frame:
         x, y, z = (self._along(axis, scaled) for axis in self.axes)
         return x, y, z
 
-    def bucket(self, place: Vector) -> tuple[int, int, int] | None:
-        """Return the ranges of a place; None for one that is beside or behind a point light."""
-        x, y, z = place
-        if self.is_point:
-            if 4 * z <= max(abs(x), abs(y)):
-                return None
-            x, y, z = divide_signed(x << 16, z), divide_signed(y << 16, z), -z
-        ranges = (
-            (value - low) * factor >> 32 for value, low, factor in zip((x, y, z), self.low, self.factor, strict=True)
-        )
-        i, j, k = (min(max(value, 0), BUCKETS - 1) for value in ranges)
-        return i, j, k
+    def bucket(self, axis: int, value: int) -> int:
+        """Return the range of a coordinate."""
+        return min(max((value - self.low[axis]) * self.factor[axis] >> 32, 0), BUCKETS - 1)
+
+    def boxes(self, corners: Sequence[Vector]) -> list[Box | None]:
+        """Return the ranges of a face on each side of the cube; None where it is not on it."""
+        if not self.is_point:
+            return [self._box(corners)]
+        if self.sides == 1:
+            is_beside = any(4 * z <= max(abs(x), abs(y)) for x, y, z in corners)
+            return [EVERYWHERE if is_beside else self._box([slopes(each) for each in corners])]
+        main = [main_side(each) for each in corners]
+        if None not in main and len(set(main)) == 1:
+            return [self._box([slopes(turned(c, k)) for c in corners]) if k == main[0] else None for k in range(6)]
+        return [self._box_on([turned(each, k) for each in corners]) for k in range(6)]
+
+    def _box(self, places: Sequence[Vector]) -> Box:
+        x, y, z = (sorted(self.bucket(axis, place[axis]) for place in places) for axis in range(3))
+        return x[0], x[-1], y[0], y[-1], z[0], z[-1]
+
+    def _box_on(self, corners: Sequence[Vector]) -> Box | None:
+        """Return the ranges on a side of the cube of a face that is on several."""
+        far = max(z for _, _, z in corners)
+        outside = any(all(s * place[axis] > place[2] for place in corners) for axis in (0, 1) for s in (1, -1))
+        if far <= 0 or outside:
+            return None
+        if min(z for _, _, z in corners) > 0:
+            return self._box([slopes(each) for each in corners])
+        return 0, BUCKETS - 1, 0, BUCKETS - 1, self.bucket(2, -far), BUCKETS - 1
+
+
+def slopes(place: Vector) -> Vector:
+    """Return x / z and y / z, and how near a place is to a point light."""
+    x, y, z = place
+    return divide_signed(x << 16, z), divide_signed(y << 16, z), -z
+
+
+def turned(place: Vector, side: int) -> Vector:
+    """Return a place with the axis of a side of the cube in place of z: z, -z, x, -x, y, -y."""
+    axis = (2, 0, 1)[side // 2]
+    return place[(axis + 1) % 3], place[(axis + 2) % 3], -place[axis] if side % 2 else place[axis]
+
+
+def main_side(place: Vector) -> int | None:
+    """Return the side of the cube on which a place is; None for the light itself."""
+    far = max(map(abs, place))
+    return next((k for k in range(6) if turned(place, k)[2] == far), None) if far else None
 
 
 @dataclass
 class Face:
     """A face in the space of the light.
 
-    corners: their places. box: the ranges of its coordinates; None if a corner is beside a point light. normal: the
-    cross product of two sides. side: positive if it is turned to the light, 0 if it is seen edge-on.
+    corners: their places. boxes: the ranges of its coordinates: see Frame.boxes. normal: the cross product of two
+    sides. side: positive if it is turned to the light, 0 if it is seen edge-on.
     """
 
     object: int
     number: int
     corners: tuple[Vector, Vector, Vector]
-    box: tuple[int, int, int, int, int, int] | None
+    boxes: list[Box | None]
     normal: Vector
     side: int
     planes: list[tuple[int, int, int, int]] = field(default_factory=list)
@@ -147,9 +189,9 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
         return table
     frame = frame_of(scene, light, points)
     faces = [
-        face_of(frame, index, number, [places[k] for k in corners], [buckets[k] for k in corners])
+        face_of(frame, index, number, [places[k] for k in corners])
         for index, (mesh, world) in enumerate(zip(meshes, worlds, strict=True))
-        for places, buckets in [light_places(frame, world)]
+        for places in [[frame.place(each) for each in world]]
         for number, corners in enumerate(mesh.faces)
     ]
     casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
@@ -187,6 +229,7 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
     is_point = scene.lights[light].kind == POINT
     vector = scene.lights[light].vector
     half = (length_of(subtract(high, low)) >> 1) + 1
+    sides = 1
     if is_point:
         origin = vector
         reach = tuple(max(abs(a - o), abs(b - o)) for a, b, o in zip(low, high, origin, strict=True))
@@ -197,9 +240,12 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
         # the cone around the sphere around what casts shadows
         size = (half << COORDINATE_BITS) // radius + 2
         distance = (length_of(subtract(middle, origin)) << COORDINATE_BITS) // radius
-        most = 4 << 16
-        across = min((size << 16) // (distance - size) + 1, most) if distance > size else most
-        lows, sizes = (-across, -across, -(distance + size)), (2 * across, 2 * across, 2 * size)
+        across = (size << 16) // (distance - size) + 1 if distance > size else WIDEST + 1
+        if across > WIDEST:
+            across, lowest, depth, sides = 1 << 16, 1 << COORDINATE_BITS, 1 << COORDINATE_BITS, 6
+        else:
+            lowest, depth = distance + size, 2 * size
+        lows, sizes = (-across, -across, -lowest), (2 * across, 2 * across, depth)
     else:
         origin, radius, z = middle, half, normalize(vector)
         most = 1 << COORDINATE_BITS
@@ -207,7 +253,7 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
     x = normalize(cross(z, (0, 1 << 32, 0) if abs(z[1]) < 3 << 30 else (1 << 32, 0, 0)))
     i, j, k = (divided(axis, radius) for axis in (x, cross(z, x), z))
     f, g, h = ((BUCKETS << 32) // each for each in sizes)
-    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h))
+    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h), sides)
 
 
 def divided(axis: Vector, radius: int) -> Vector:
@@ -221,25 +267,13 @@ def length_of(v: Iterable[int]) -> int:
     return sqrt(sum(k * k for k in v))
 
 
-def light_places(frame: Frame, world: Iterable[Vector]) -> tuple[list[Vector], list[tuple[int, int, int] | None]]:
-    """Return places in the space of the light, and their ranges."""
-    places = [frame.place(each) for each in world]
-    return places, [frame.bucket(each) for each in places]
-
-
-def face_of(
-    frame: Frame, index: int, number: int, corners: Sequence[Vector], buckets: Sequence[tuple[int, int, int] | None]
-) -> Face:
+def face_of(frame: Frame, index: int, number: int, corners: Sequence[Vector]) -> Face:
     """Return a face in the space of the light."""
     a, b, c = corners
     normal = product(subtract(b, a), subtract(c, a))
     side = -inner(normal, a) if frame.is_point else normal[2]
-    box = None
-    if None not in buckets:
-        x, y, z = zip(*buckets, strict=True)
-        box = min(x), max(x), min(y), max(y), min(z), max(z)
     planes = planes_of((a, b, c), normal, side, frame.is_point) if side else []
-    return Face(index, number, (a, b, c), box, normal, side, planes)
+    return Face(index, number, (a, b, c), frame.boxes(corners), normal, side, planes)
 
 
 def planes_of(
@@ -312,10 +346,13 @@ def turns_away(scene: Scene, light: int, face: Face, mesh: Mesh) -> bool:
 
 def may_shade(caster: Face, face: Face) -> bool:
     """Return whether the ranges of a face let it shade another."""
-    if caster.box is None or face.box is None:
-        return True
-    left, right, low, high, _, near = caster.box
-    x, x_end, y, y_end, z, _ = face.box
+    return any(a and b and overlaps(a, b) for a, b in zip(caster.boxes, face.boxes, strict=True))
+
+
+def overlaps(caster: Box, face: Box) -> bool:
+    """Return whether ranges overlap, and the first are not all behind the others."""
+    left, right, low, high, _, near = caster
+    x, x_end, y, y_end, z, _ = face
     return right >= x and left <= x_end and high >= y and low <= y_end and near >= z
 
 
