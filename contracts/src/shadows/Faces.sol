@@ -29,7 +29,7 @@ uint256 constant BOX_MASK = 0xffffffffffffffff;
 uint256 constant LANE_GUARDS = 0x800080008000;
 
 /// @dev Four functions of x, y and z with a constant: the sides, each opposite to a corner, and what lies behind the face. All are positive
-/// in shadow.
+/// in shadow. Of the sides z is written only for a point light, and the constant, which is 0 there, only for others.
 uint256 constant PLANE_SIZE = 0x80;
 uint256 constant PLANES_SIZE = 0x200;
 uint256 constant BEHIND = 0x180;
@@ -216,13 +216,18 @@ library Faces {
             writeSide(plane, b, c, sign, isPoint);
             writeSide(plane + PLANE_SIZE, c, a, sign, isPoint);
             writeSide(plane + 2 * PLANE_SIZE, a, b, sign, isPoint);
-            plane += BEHIND;
-            (int256 x, int256 y, int256 z) =
-                (-sign * loadSigned(face + 0x20), -sign * loadSigned(face + 0x40), -sign * loadSigned(face + 0x60));
-            storeSigned(plane, x);
-            storeSigned(plane + 0x20, y);
-            storeSigned(plane + 0x40, z);
-            storeSigned(plane + 0x60, -(x * loadSigned(a) + y * loadSigned(a + 0x20) + z * loadSigned(a + 0x40)));
+            assembly ("memory-safe") {
+                plane := add(plane, BEHIND)
+                sign := sub(0, sign)
+                let x := mul(sign, mload(add(face, 0x20)))
+                let y := mul(sign, mload(add(face, 0x40)))
+                let z := mul(sign, mload(add(face, 0x60)))
+                mstore(plane, x)
+                mstore(add(plane, 0x20), y)
+                mstore(add(plane, 0x40), z)
+                x := add(mul(x, mload(a)), add(mul(y, mload(add(a, 0x20))), mul(z, mload(add(a, 0x40)))))
+                mstore(add(plane, 0x60), sub(0, x))
+            }
         }
     }
 
@@ -234,12 +239,15 @@ library Faces {
             let qy := mload(add(q, 0x20))
             switch isPoint
             case 0 {
-                let x := mul(sign, sub(py, qy))
-                let y := mul(sign, sub(qx, px))
+                px := mul(sign, px)
+                py := mul(sign, py)
+                qx := mul(sign, qx)
+                qy := mul(sign, qy)
+                let x := sub(py, qy)
+                let y := sub(qx, px)
                 mstore(plane, x)
                 mstore(add(plane, 0x20), y)
-                mstore(add(plane, 0x40), 0)
-                mstore(add(plane, 0x60), sub(0, add(mul(x, px), mul(y, py))))
+                mstore(add(plane, 0x60), mul(sign, sub(mul(px, qy), mul(py, qx))))
             }
             default {
                 let pz := mload(add(p, 0x40))
@@ -247,7 +255,6 @@ library Faces {
                 mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
                 mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
                 mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
-                mstore(add(plane, 0x60), 0)
             }
         }
     }

@@ -20,7 +20,7 @@ import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
 /// @dev Bits of the coordinates of the farthest place that casts a shadow, without the sign.
 uint256 constant COORDINATE_BITS = 19;
 /// @dev Coordinates are divided into so many ranges, to find what may shade a face.
-uint256 constant BUCKETS = 32;
+uint256 constant BUCKETS = 128;
 uint256 constant PLACE_SIZE = 0x80;
 uint256 constant PLACE_BUCKETS = 0x60;
 /// @dev The vertex is beside or behind a point light that is not in a cube, or at the light.
@@ -36,7 +36,7 @@ uint256 constant CUBE = 6;
 uint256 constant SIDE_AT = 48;
 uint256 constant HAS_BOX = 1 << 63;
 /// @dev All ranges of x and y, and from the least one of z on.
-uint256 constant EVERYWHERE = 0x1f001f001f00;
+uint256 constant EVERYWHERE = 0x7f007f007f00;
 /// @dev Above this, Q32, the y component of a direction is not taken as that of a second axis.
 int256 constant UPRIGHT = 3 << 30;
 
@@ -230,7 +230,7 @@ library LightSpace {
             value := sub(value, mload(add(mload(add(frame, 0x80)), offset)))
             value := sar(32, mul(value, mload(add(mload(add(frame, 0xa0)), offset))))
             range := mul(value, sgt(value, 0))
-            if gt(range, 31) { range := 31 }
+            if gt(range, 127) { range := 127 }
         }
     }
 

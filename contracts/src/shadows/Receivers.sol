@@ -45,14 +45,15 @@ int256 constant WIDER = 112;
 /// @notice What is known of the face that receives shadows.
 /// @param corners The first word of its record.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
-/// @param weights Their cross products.
-/// @param sides Its sides at the corners of what may shade it.
+/// @param isVisible Whether it is not seen edge-on.
+/// @param weights Their cross products, as the coefficients of functions that are 1 at one corner, but for a positive factor.
+/// @param sides Its sides at the corners of what may shade it, three of each side.
 /// @param values The functions of that at its own corners.
 struct Receiver {
     uint256 corners;
     uint256 planes;
     bool isPlaced;
-    int256 determinant;
+    bool isVisible;
     int256[9] places;
     int256[9] weights;
     int256[9] sides;
@@ -70,24 +71,17 @@ library Receivers {
     function test(Receiver memory receiver, uint256 caster, bool isPoint) internal pure returns (uint256) {
         unchecked {
             uint256 corners = load(caster);
+            (int256 a, int256 b, int256 c) = Faces.values(receiver.planes + BEHIND, corners);
+            if (a | b | c >= 0) return MISSED;
+            uint256 target;
             {
-                uint256 own = receiver.planes;
-                (int256 a, int256 b, int256 c) = Faces.values(own + BEHIND, corners);
-                if (a >= 0 && b >= 0 && c >= 0) return MISSED;
-                uint256 side;
                 int256[9] memory sides = receiver.sides;
                 assembly ("memory-safe") {
-                    side := sides
-                }
-                for (uint256 end = own + BEHIND; own != end; own += PLANE_SIZE) {
-                    (a, b, c) = Faces.values(own, corners);
-                    if (a <= 0 && b <= 0 && c <= 0) return MISSED;
-                    storeSigned(side, a);
-                    storeSigned(side + 0x60, b);
-                    storeSigned(side + 0xc0, c);
-                    side += 0x20;
+                    target := sides
                 }
             }
+            (bool isMissed, int256 signs) = valuesOfSides(receiver.planes, corners, isPoint, target);
+            if (isMissed) return MISSED;
             uint256 plane = (corners >> FACE_PLANES_AT) & ADDRESS_MASK;
             if (plane == 0) {
                 plane = freeMemory();
@@ -95,23 +89,85 @@ library Receivers {
                 Faces.writePlanes(caster, isPoint, plane);
                 store(caster, corners | (plane << FACE_PLANES_AT));
             }
-            int256 isMixed;
-            uint256 value;
-            int256[12] memory values = receiver.values;
             corners = receiver.corners;
-            assembly ("memory-safe") {
-                value := values
+            {
+                int256[12] memory values = receiver.values;
+                assembly ("memory-safe") {
+                    target := values
+                }
             }
-            for (uint256 end = plane + PLANES_SIZE; plane != end; plane += PLANE_SIZE) {
-                (int256 a, int256 b, int256 c) = Faces.values(plane, corners);
-                if (a <= 0 && b <= 0 && c <= 0) return MISSED;
-                isMixed |= a | b | c;
-                storeSigned(value, a);
-                storeSigned(value + 0x20, b);
-                storeSigned(value + 0x40, c);
-                value += 0x60;
+            (isMissed, signs) = valuesOfSides(plane, corners, isPoint, target);
+            if (isMissed) return MISSED;
+            (a, b, c) = Faces.values(plane + BEHIND, corners);
+            if (a <= 0 && b <= 0 && c <= 0) return MISSED;
+            storeSigned(target + 0x120, a);
+            storeSigned(target + 0x140, b);
+            storeSigned(target + 0x160, c);
+            return (signs | a | b | c) < 0 ? MIXED_SHADOW : COVERED;
+        }
+    }
+
+    /// @dev The sides of a face at the corners of another.
+    /// @param plane The functions of the one; `corners`: the first word of the record of the other.
+    /// @param target Where to write the values, three of each side.
+    /// @return isMissed Whether the other is outside a side; then not all values are written.
+    /// @return signs Negative if any value is.
+    function valuesOfSides(uint256 plane, uint256 corners, bool isPoint, uint256 target)
+        private
+        pure
+        returns (bool isMissed, int256 signs)
+    {
+        assembly ("memory-safe") {
+            let p := and(corners, ADDRESS_MASK)
+            let q := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
+            let r := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
+            let end := add(target, 0x120)
+            switch isPoint
+            case 0 {
+                let py := mload(add(p, 0x20))
+                let qy := mload(add(q, 0x20))
+                let ry := mload(add(r, 0x20))
+                p := mload(p)
+                q := mload(q)
+                r := mload(r)
+                for {} lt(target, end) { target := add(target, 0x60) } {
+                    let x := mload(plane)
+                    let y := mload(add(plane, 0x20))
+                    let w := mload(add(plane, 0x60))
+                    let a := add(w, add(mul(x, p), mul(y, py)))
+                    let b := add(w, add(mul(x, q), mul(y, qy)))
+                    w := add(w, add(mul(x, r), mul(y, ry)))
+                    // all are at most 0
+                    if slt(and(and(sub(a, 1), sub(b, 1)), sub(w, 1)), 0) {
+                        isMissed := 1
+                        break
+                    }
+                    mstore(target, a)
+                    mstore(add(target, 0x20), b)
+                    mstore(add(target, 0x40), w)
+                    signs := or(or(signs, a), or(b, w))
+                    plane := add(plane, PLANE_SIZE)
+                }
             }
-            return isMixed < 0 ? MIXED_SHADOW : COVERED;
+            default {
+                for {} lt(target, end) { target := add(target, 0x60) } {
+                    let x := mload(plane)
+                    let y := mload(add(plane, 0x20))
+                    let z := mload(add(plane, 0x40))
+                    let a := add(mul(x, mload(p)), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
+                    let b := add(mul(x, mload(q)), add(mul(y, mload(add(q, 0x20))), mul(z, mload(add(q, 0x40)))))
+                    let c := add(mul(x, mload(r)), add(mul(y, mload(add(r, 0x20))), mul(z, mload(add(r, 0x40)))))
+                    if slt(and(and(sub(a, 1), sub(b, 1)), sub(c, 1)), 0) {
+                        isMissed := 1
+                        break
+                    }
+                    mstore(target, a)
+                    mstore(add(target, 0x20), b)
+                    mstore(add(target, 0x40), c)
+                    signs := or(or(signs, a), or(b, c))
+                    plane := add(plane, PLANE_SIZE)
+                }
+            }
         }
     }
 
@@ -158,7 +214,13 @@ library Receivers {
             cross(weights, 0, p, 3, 6);
             cross(weights, 3, p, 6, 0);
             cross(weights, 6, p, 0, 3);
-            receiver.determinant = weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2];
+            int256 determinant = weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2];
+            receiver.isVisible = determinant != 0;
+            for (uint256 i; i != 9; ++i) {
+                int256 weight = determinant < 0 ? -weights[i] : weights[i];
+                // changes are per eighth of a pixel
+                weights[i] = i % 3 == 2 ? weight : weight << 5;
+            }
         }
     }
 
@@ -203,103 +265,108 @@ library Receivers {
         returns (uint256 shade, uint256 end)
     {
         unchecked {
-            if (receiver.determinant == 0) return (MISSED, begin);
-            uint256 head;
-            {
-                (uint256 top, uint256 bottom) = boundsOf(receiver, 0x20, height);
-                (uint256 left, uint256 right) = boundsOf(receiver, 0, width);
-                if (top >= bottom || left >= right) return (MISSED, begin);
-                head = (top << TOP_AT) | (bottom << BOTTOM_AT) | (right << RIGHT_AT) | (left << LEFT_AT);
-            }
+            uint256 head = receiver.isVisible ? boundsOf(receiver, width, height) : 0;
+            if (head == 0) return (MISSED, begin);
             end = begin;
-            uint256 values;
-            int256[12] memory all = receiver.values;
+            int256[12] memory values = receiver.values;
+            int256[9] memory weights = receiver.weights;
             assembly ("memory-safe") {
-                values := all
+                let value := values
+                for { let valuesEnd := add(values, 0x180) } lt(value, valuesEnd) { value := add(value, 0x60) } {
+                    let a := mload(value)
+                    let b := mload(add(value, 0x20))
+                    let c := mload(add(value, 0x40))
+                    if sgt(or(or(a, b), c), not(0)) { continue }
+                    let x := add(mul(a, mload(weights)), add(mul(b, mload(add(weights, 0x60))), mul(c, mload(add(weights, 0xc0)))))
+                    let y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
+                    y := add(y, mul(c, mload(add(weights, 0xe0))))
+                    a := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
+                    a := add(a, mul(c, mload(add(weights, 0x100))))
+                    // the bits of the greater one above GRADIENT_BITS are left out
+                    c := sar(255, y)
+                    b := sub(xor(y, c), c)
+                    c := sar(255, x)
+                    c := sub(xor(x, c), c)
+                    if gt(c, b) { b := c }
+                    b := shr(GRADIENT_BITS, b)
+                    if b {
+                        c := shl(7, lt(0xffffffffffffffffffffffffffffffff, b))
+                        c := or(c, shl(6, lt(0xffffffffffffffff, shr(c, b))))
+                        c := or(c, shl(5, lt(0xffffffff, shr(c, b))))
+                        c := or(c, shl(4, lt(0xffff, shr(c, b))))
+                        c := or(c, shl(3, lt(0xff, shr(c, b))))
+                        c := or(c, shl(2, lt(0xf, shr(c, b))))
+                        c := or(c, shl(1, lt(0x3, shr(c, b))))
+                        c := add(or(c, lt(1, shr(c, b))), 1)
+                        x := sar(c, x)
+                        y := sar(c, y)
+                        a := sar(c, a)
+                    }
+                    // neighbours overlap, so that rounding makes no cracks
+                    if lt(sub(value, values), 0x120) { a := add(a, SLACK) }
+                    if iszero(sgt(a, sub(0, BOUND))) {
+                        shade := 1
+                        break
+                    }
+                    if slt(a, BOUND) {
+                        mstore(
+                            end,
+                            or(or(shl(X_AT, x), shl(Y_AT, and(y, LANE_48))), or(shl(CONSTANT_AT, and(a, LANE_64)), head))
+                        )
+                        end := add(end, 0x20)
+                    }
+                }
             }
-            for (uint256 i; i != 4; ++i) {
-                (int256 a, int256 b, int256 c) = (loadSigned(values), loadSigned(values + 0x20), loadSigned(values + 0x40));
-                values += 0x60;
-                if (a | b | c >= 0) continue;
-                (int256 x, int256 y, int256 constant_) = combine(receiver, a, b, c);
-                // neighbours overlap, so that rounding makes no cracks
-                if (i != 3) constant_ += SLACK;
-                if (constant_ <= -BOUND) return (MISSED, begin);
-                if (constant_ >= BOUND) continue;
-                store(
-                    end,
-                    (uint256(x) << X_AT) | ((uint256(y) & LANE_48) << Y_AT) | ((uint256(constant_) & LANE_64) << CONSTANT_AT) | head
-                );
-                end += 32;
-            }
+            if (shade != 0) return (MISSED, begin);
             if (end == begin) return (COVERED, begin);
             store(begin, load(begin) | (end - begin) >> 5);
             return (MIXED_SHADOW, end);
         }
     }
 
-    /// @dev A function on the canvas with these values at the corners.
-    function combine(Receiver memory receiver, int256 a, int256 b, int256 c)
-        private
-        pure
-        returns (int256 x, int256 y, int256 constant_)
-    {
-        unchecked {
-            if (receiver.determinant < 0) (a, b, c) = (-a, -b, -c);
-            int256[9] memory weights = receiver.weights;
-            uint256 most;
-            assembly ("memory-safe") {
-                x := add(mul(a, mload(weights)), mul(b, mload(add(weights, 0x60))))
-                x := shl(5, add(x, mul(c, mload(add(weights, 0xc0)))))
-                y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
-                y := shl(5, add(y, mul(c, mload(add(weights, 0xe0)))))
-                constant_ := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
-                constant_ := add(constant_, mul(c, mload(add(weights, 0x100))))
-                let sign := sar(255, y)
-                most := sub(xor(y, sign), sign)
-                sign := sar(255, x)
-                sign := sub(xor(x, sign), sign)
-                if gt(sign, most) { most := sign }
-            }
-            uint256 shift = excess(most, GRADIENT_BITS);
-            return (x >> shift, y >> shift, constant_ >> shift);
-        }
-    }
-
-    /// @dev The columns or rows of the canvas in which the shadow may be: the first, and the one after the last.
-    /// @param axis 0 for columns, 0x20 for rows.
-    /// @param size How many the canvas has.
-    function boundsOf(Receiver memory receiver, uint256 axis, uint256 size) private pure returns (uint256, uint256) {
+    /// @dev The columns and rows of the canvas in which the shadow may be, as they stand in the words; 0 if there are none.
+    function boundsOf(Receiver memory receiver, uint256 width, uint256 height) private pure returns (uint256) {
         unchecked {
             int256[9] memory places = receiver.places;
             int256[9] memory sides = receiver.sides;
-            int256 low = type(int256).max;
-            int256 high = type(int256).min;
-            bool isBounded = true;
+            int256 left = type(int256).max;
+            int256 right = type(int256).min;
+            int256 top = left;
+            int256 bottom = right;
             assembly ("memory-safe") {
-                for { let i := 0 } lt(i, 0x120) { i := add(i, 0x60) } {
-                    let a := mload(add(sides, i))
-                    let b := mload(add(sides, add(i, 0x20)))
-                    let c := mload(add(sides, add(i, 0x40)))
+                for { let end := add(sides, 0x60) } lt(sides, end) { sides := add(sides, 0x20) } {
+                    let a := mload(sides)
+                    let b := mload(add(sides, 0x60))
+                    let c := mload(add(sides, 0xc0))
                     let w := add(mul(a, mload(add(places, 0x40))), mul(b, mload(add(places, 0xa0))))
                     w := add(w, mul(c, mload(add(places, 0x100))))
                     if or(slt(add(add(a, b), c), 1), slt(w, 1)) {
-                        isBounded := 0
+                        left := WIDER
+                        top := WIDER
+                        right := shl(SUBPIXEL_BITS, width)
+                        bottom := shl(SUBPIXEL_BITS, height)
                         break
                     }
-                    let p := add(places, axis)
-                    let value := add(mul(a, mload(p)), mul(b, mload(add(p, 0x60))))
-                    value := sdiv(add(value, mul(c, mload(add(p, 0xc0)))), w)
-                    if slt(value, low) { low := value }
-                    if sgt(value, high) { high := value }
+                    let value := add(mul(a, mload(places)), mul(b, mload(add(places, 0x60))))
+                    value := sdiv(add(value, mul(c, mload(add(places, 0xc0)))), w)
+                    if slt(value, left) { left := value }
+                    if sgt(value, right) { right := value }
+                    value := add(mul(a, mload(add(places, 0x20))), mul(b, mload(add(places, 0x80))))
+                    value := sdiv(add(value, mul(c, mload(add(places, 0xe0)))), w)
+                    if slt(value, top) { top := value }
+                    if sgt(value, bottom) { bottom := value }
                 }
+                left := sar(SUBPIXEL_BITS, sub(left, WIDER))
+                left := mul(left, sgt(left, 0))
+                top := sar(SUBPIXEL_BITS, sub(top, WIDER))
+                top := mul(top, sgt(top, 0))
+                right := add(sar(SUBPIXEL_BITS, add(right, WIDER)), 1)
+                if sgt(right, width) { right := width }
+                bottom := add(sar(SUBPIXEL_BITS, add(bottom, WIDER)), 1)
+                if sgt(bottom, height) { bottom := height }
             }
-            if (!isBounded) return (0, size);
-            low = (low - WIDER) >> SUBPIXEL_BITS;
-            high = ((high + WIDER) >> SUBPIXEL_BITS) + 1;
-            if (low < 0) low = 0;
-            if (high > int256(size)) high = int256(size);
-            return high <= low ? (0, 0) : (uint256(low), uint256(high));
+            if (left >= right || top >= bottom) return 0;
+            return (uint256(top) << TOP_AT) | (uint256(bottom) << BOTTOM_AT) | (uint256(right) << RIGHT_AT) | (uint256(left) << LEFT_AT);
         }
     }
 }

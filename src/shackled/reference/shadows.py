@@ -27,7 +27,7 @@ ALL, AVERSE, TURNED = 1, 2, 3
 #: The farthest place that casts a shadow has coordinates of so many bits in the space of the light.
 COORDINATE_BITS = 19
 #: Coordinates are divided into so many ranges, to find what may shade a face.
-BUCKETS = 32
+BUCKETS = 128
 #: The first and the last range of x, y and z.
 Box = tuple[int, int, int, int, int, int]
 EVERYWHERE = (0, BUCKETS - 1) * 3
