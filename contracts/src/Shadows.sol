@@ -8,9 +8,9 @@ import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
 import {Mesh, openMesh} from "./scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
-import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
+import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
-import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
+import {COVERED, LAST_SHADOW, MISSED, RECEIVER_SIZE, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
 import {GROUND, MAX_FADE, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
@@ -29,11 +29,11 @@ contract Shadows is SceneErrors {
     /// @param frame The space of the light.
     /// @param vertices, faces Of each object, where its vertices and faces begin.
     /// @param begin, end Of the faces.
-    /// @param casters The addresses of the faces that cast shadows.
+    /// @param casters The faces that cast shadows: see Faces.
     /// @param sets See Faces; of `words` words each.
     /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
     /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas, whose size is `width` and `height`.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
@@ -195,7 +195,7 @@ contract Shadows is SceneErrors {
                     state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0
                 );
             }
-            uint256 count = (end - state.casters) >> 5;
+            uint256 count = (end - state.casters) / CASTER_SIZE;
             uint256 words = (count + 255) >> 8;
             (state.casterCount, state.words, state.sets) = (count, words, end);
             uint256 size = 5 * BUCKETS * words * 32 * state.frame.sides;
@@ -208,14 +208,14 @@ contract Shadows is SceneErrors {
             state.boxes = freeMemory();
             setFreeMemory(state.boxes + 0x40 * state.frame.sides);
             for (uint256 i; i != count; ++i) {
-                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, load(load(state.casters + 32 * i)));
+                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, load(load(state.casters + CASTER_SIZE * i)));
                 for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) Faces.insert(load(p), words, i, load(p + 0x20));
             }
             for (uint256 i; i != state.frame.sides; ++i) Faces.complete(state.sets + i * (size / state.frame.sides), words);
         }
     }
 
-    /// @param end Where to append the addresses of faces that cast shadows.
+    /// @param end Where to append those that cast shadows.
     /// @param rule Which of them do; 0 for none.
     function readObject(State memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
         private
@@ -240,7 +240,8 @@ contract Shadows is SceneErrors {
                     int256 side = loadSigned(face + FACE_SIDE);
                     if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_TURNED))) {
                         store(end, face);
-                        end += 32;
+                        Faces.pack(end + 0x20, load(face));
+                        end += CASTER_SIZE;
                     }
                 }
                 face += FACE_RECORD_SIZE;
@@ -263,7 +264,7 @@ contract Shadows is SceneErrors {
             }
             Receiver memory receiver;
             receiver.planes = freeMemory();
-            setFreeMemory(receiver.planes + 0x200);
+            setFreeMemory(receiver.planes + RECEIVER_SIZE);
             uint256 source = mesh.faces;
             bool isFlat = object.material.shading == FLAT;
             bool isCulled = object.flags & CULL_BACKFACES != 0;
@@ -350,8 +351,7 @@ contract Shadows is SceneErrors {
     ) private pure returns (uint256) {
         unchecked {
             uint256 corners = load(face);
-            (receiver.corners, receiver.isPlaced) = (corners, false);
-            bool hasPlanes;
+            bool isSet;
             uint256 count;
             uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, state.words, state.frame, corners);
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
@@ -359,15 +359,15 @@ contract Shadows is SceneErrors {
                 for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) {
                     bits |= Faces.candidates(load(p), state.words, load(p + 0x20), offset);
                 }
-                if (bits != 0 && !hasPlanes) {
-                    hasPlanes = true;
-                    Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
+                if (bits != 0 && !isSet) {
+                    isSet = true;
+                    Receivers.setFace(receiver, face, state.frame.isPoint);
                 }
                 while (bits != 0) {
-                    uint256 caster = load(state.casters + 32 * (8 * offset + Faces.lowestBit(bits)));
-                    bits &= bits - 1;
-                    if (caster == face) continue;
-                    uint256 found = shadowOf(state, receiver, caster, source);
+                    uint256 caster;
+                    (caster, bits) = Receivers.next(receiver, bits, state.casters + 8 * CASTER_SIZE * offset);
+                    if (caster == 0) break;
+                    uint256 found = shadowOf(state, receiver, load(caster), source);
                     if (found == DARK) return DARK;
                     if (found != LIT) store(state.found + 32 * count++, found);
                 }
@@ -400,21 +400,23 @@ contract Shadows is SceneErrors {
         unchecked {
             uint256 found = state.found;
             uint256 heads = state.heads;
-            uint256 size = 32 * state.height;
             assembly ("memory-safe") {
-                calldatacopy(heads, calldatasize(), size)
                 // those of a row in front of one another, from the last on
+                let top := not(0)
                 for { let p := add(found, shl(5, count)) } gt(p, found) {} {
                     p := sub(p, 0x20)
                     let list := mload(p)
                     let head := add(heads, shl(5, and(shr(TOP_AT, mload(add(list, 0x40))), ROW_MASK)))
                     mstore(list, mload(head))
                     mstore(head, list)
+                    if lt(head, top) { top := head }
                 }
+                heads := top
                 let last
                 for {} count { heads := add(heads, 0x20) } {
                     let list := mload(heads)
                     if list {
+                        mstore(heads, 0)
                         switch last
                         case 0 { first := list }
                         default { mstore(last, list) }

@@ -29,10 +29,21 @@ uint256 constant BOX_MASK = 0xffffffffffffffff;
 uint256 constant LANE_GUARDS = 0x800080008000;
 
 /// @dev Four functions of x, y and z with a constant: the sides, each opposite to a corner, and what lies behind the face. All are positive
-/// in shadow. Of the sides z is written only for a point light, and the constant, which is 0 there, only for others.
+/// in shadow.
 uint256 constant PLANE_SIZE = 0x80;
 uint256 constant PLANES_SIZE = 0x200;
 uint256 constant BEHIND = 0x180;
+
+/// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes as
+/// many products for three corners as for one.
+uint256 constant CASTER_SIZE = 0x80;
+uint256 constant CASTER_BITS = 7;
+uint256 constant LANE = 85;
+/// @dev The highest bit of a lane is added to its value, so that it is set where that is at least 0.
+uint256 constant LANE_ONES = 0x4000000000000000000002000000000000000000001;
+uint256 constant LANE_TOP = 0x1000000000000000000000;
+uint256 constant LANE_TOPS = 0x4000000000000000000002000000000000000000001000000000000000000000;
+uint256 constant LANE_MASK = 0x1fffffffffffffffffffff;
 
 library Faces {
     /// @notice Writes the record of a face.
@@ -205,6 +216,19 @@ library Faces {
         }
     }
 
+    /// @notice Writes the coordinates of three corners as lanes.
+    /// @param corners The first word of the record of a face.
+    function pack(uint256 target, uint256 corners) internal pure {
+        assembly ("memory-safe") {
+            let a := and(corners, ADDRESS_MASK)
+            let b := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
+            let c := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
+            for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
+                mstore(add(target, i), add(mload(add(a, i)), shl(LANE, add(mload(add(b, i)), shl(LANE, mload(add(c, i)))))))
+            }
+        }
+    }
+
     /// @notice Writes the four functions of a face.
     function writePlanes(uint256 face, bool isPoint, uint256 plane) internal pure {
         unchecked {
@@ -247,6 +271,7 @@ library Faces {
                 let y := sub(qx, px)
                 mstore(plane, x)
                 mstore(add(plane, 0x20), y)
+                mstore(add(plane, 0x40), 0)
                 mstore(add(plane, 0x60), mul(sign, sub(mul(px, qy), mul(py, qx))))
             }
             default {
@@ -255,6 +280,7 @@ library Faces {
                 mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
                 mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
                 mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
+                mstore(add(plane, 0x60), 0)
             }
         }
     }

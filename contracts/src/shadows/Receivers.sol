@@ -3,7 +3,22 @@ pragma solidity 0.8.37;
 
 import {VertexShader} from "../pipeline/VertexShader.sol";
 import "../pipeline/Registers.sol";
-import {ADDRESS_MASK, BEHIND, FACE_B_AT, FACE_C_AT, FACE_PLANES_AT, Faces, PLANES_SIZE, PLANE_SIZE} from "./Faces.sol";
+import {
+    ADDRESS_MASK,
+    BEHIND,
+    FACE_B_AT,
+    FACE_C_AT,
+    FACE_PLANES_AT,
+    CASTER_SIZE,
+    Faces,
+    LANE,
+    LANE_MASK,
+    LANE_ONES,
+    LANE_TOP,
+    LANE_TOPS,
+    PLANES_SIZE,
+    PLANE_SIZE
+} from "./Faces.sol";
 
 // What one face casts on another. The functions of what casts the shadow, at the corners of the other, become functions of the place on the
 // canvas: with homogeneous corners H the function is the sum of f_i * (H_j x H_k), exactly. Divided by a power of two each takes a word:
@@ -41,23 +56,35 @@ int256 constant BOUND = 1 << 60;
 int256 constant SLACK = 1 << 16;
 /// @dev Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
 int256 constant WIDER = 112;
+/// @dev No place in sub-pixels.
+int256 constant UNBOUNDED = 0x10000000000000000000000000000000000000000000000000;
+
+/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes.
+uint256 constant NARROW_BITS = 27;
+/// @dev Bits of values in lanes without the sign; others are divided by a power of two.
+uint256 constant VALUE_BITS = 83;
+/// @dev What stands behind the functions of the face that receives shadows: its coordinates, its sides at the corners of what may shade
+/// it, and the functions of that at its own corners; lanes.
+uint256 constant OWN_COORDINATES = 0x200;
+uint256 constant SIDES = 0x260;
+uint256 constant VALUES = 0x2c0;
+uint256 constant RECEIVER_SIZE = 0x340;
 
 /// @notice What is known of the face that receives shadows.
+/// @param planes Its functions, and what stands behind them.
 /// @param corners The first word of its record.
+/// @param isWide Whether its functions do not fit lanes: it is much larger than what casts shadows.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
 /// @param isVisible Whether it is not seen edge-on.
 /// @param weights Their cross products, as the coefficients of functions that are 1 at one corner, but for a positive factor.
-/// @param sides Its sides at the corners of what may shade it, three of each side.
-/// @param values The functions of that at its own corners.
 struct Receiver {
-    uint256 corners;
     uint256 planes;
+    uint256 corners;
+    bool isWide;
     bool isPlaced;
     bool isVisible;
     int256[9] places;
     int256[9] weights;
-    int256[9] sides;
-    int256[12] values;
 }
 
 uint256 constant MISSED = 0;
@@ -65,108 +92,154 @@ uint256 constant COVERED = 1;
 uint256 constant MIXED_SHADOW = 2;
 
 library Receivers {
-    /// @notice Whether a face shades another.
-    /// @param caster Its record.
-    /// @return MISSED, COVERED, or MIXED_SHADOW; then `sides` and `values` are set.
-    function test(Receiver memory receiver, uint256 caster, bool isPoint) internal pure returns (uint256) {
+    /// @notice Begins with a face.
+    /// @param face Its record.
+    function setFace(Receiver memory receiver, uint256 face, bool isPoint) internal pure {
         unchecked {
-            uint256 corners = load(caster);
-            (int256 a, int256 b, int256 c) = Faces.values(receiver.planes + BEHIND, corners);
-            if (a | b | c >= 0) return MISSED;
-            uint256 target;
-            {
-                int256[9] memory sides = receiver.sides;
-                assembly ("memory-safe") {
-                    target := sides
+            uint256 corners = load(face);
+            (receiver.corners, receiver.isPlaced) = (corners, false);
+            uint256 planes = receiver.planes;
+            Faces.writePlanes(face, isPoint, planes);
+            Faces.pack(planes + OWN_COORDINATES, corners);
+            bool isWide;
+            assembly ("memory-safe") {
+                for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
+                    let bias := shl(sub(NARROW_BITS, 1), 1)
+                    let all := add(mload(add(and(corners, ADDRESS_MASK), i)), bias)
+                    all := or(all, add(mload(add(and(shr(FACE_B_AT, corners), ADDRESS_MASK), i)), bias))
+                    all := or(all, add(mload(add(and(shr(FACE_C_AT, corners), ADDRESS_MASK), i)), bias))
+                    isWide := or(isWide, gt(shr(NARROW_BITS, all), 0))
                 }
             }
-            (bool isMissed, int256 signs) = valuesOfSides(receiver.planes, corners, isPoint, target);
-            if (isMissed) return MISSED;
-            uint256 plane = (corners >> FACE_PLANES_AT) & ADDRESS_MASK;
+            receiver.isWide = isWide;
+        }
+    }
+
+    /// @notice The next of up to 256 faces that may shade the one of the receiver: it is in front of it, and inside its sides.
+    /// @param bits Which of them may be.
+    /// @param casters The address of the first.
+    /// @return caster The address of the one that was found; then its corners are in SIDES; or 0.
+    /// @return rest The bits of those behind it.
+    function next(Receiver memory receiver, uint256 bits, uint256 casters) internal pure returns (uint256 caster, uint256 rest) {
+        unchecked {
+            uint256 planes = receiver.planes;
+            bool isWide = receiver.isWide;
+            for (; bits != 0; bits &= bits - 1) {
+                caster = casters + CASTER_SIZE * Faces.lowestBit(bits);
+                if (isWide ? isBeforeWide(planes, load(load(caster))) : isBefore(planes, caster)) return (caster, bits & (bits - 1));
+            }
+            return (0, 0);
+        }
+    }
+
+    function isBefore(uint256 planes, uint256 caster) private pure returns (bool found) {
+        assembly ("memory-safe") {
+            let x := mload(add(caster, 0x20))
+            let y := mload(add(caster, 0x40))
+            let z := mload(add(caster, 0x60))
+            let p := add(planes, BEHIND)
+            let v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
+            v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
+            // not all are behind it
+            if sub(and(v, LANE_TOPS), LANE_TOPS) {
+                found := 1
+                p := planes
+                for { let target := add(planes, SIDES) } lt(p, add(planes, BEHIND)) { target := add(target, 0x20) } {
+                    v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
+                    v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
+                    // all are at most 0
+                    if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
+                        found := 0
+                        break
+                    }
+                    mstore(target, v)
+                    p := add(p, PLANE_SIZE)
+                }
+            }
+        }
+    }
+
+    /// @dev The same with numbers that do not fit lanes.
+    function isBeforeWide(uint256 planes, uint256 corners) private pure returns (bool) {
+        unchecked {
+            int256[9] memory all;
+            (int256 a, int256 b, int256 c) = Faces.values(planes + BEHIND, corners);
+            if (a | b | c >= 0) return false;
+            uint256 most;
+            for (uint256 i; i != 9; i += 3) {
+                (a, b, c) = Faces.values(planes + PLANE_SIZE * (i / 3), corners);
+                if (a <= 0 && b <= 0 && c <= 0) return false;
+                (all[i], all[i + 1], all[i + 2]) = (a, b, c);
+                most |= magnitude(a) | magnitude(b) | magnitude(c);
+            }
+            uint256 shift = excess(most, VALUE_BITS);
+            for (uint256 i; i != 3; ++i) {
+                store(planes + SIDES + 32 * i, lanesOf(all[3 * i] >> shift, all[3 * i + 1] >> shift, all[3 * i + 2] >> shift));
+            }
+            return true;
+        }
+    }
+
+    function lanesOf(int256 a, int256 b, int256 c) private pure returns (uint256) {
+        unchecked {
+            return uint256(a + (b << LANE) + (c << (2 * LANE))) + LANE_TOPS;
+        }
+    }
+
+    /// @notice Whether a face that `next` has found shades the one of the receiver.
+    /// @param caster Its record.
+    /// @return MISSED, COVERED, or MIXED_SHADOW; then its functions are in VALUES.
+    function test(Receiver memory receiver, uint256 caster, bool isPoint) internal pure returns (uint256) {
+        unchecked {
+            uint256 first = load(caster);
+            uint256 plane = (first >> FACE_PLANES_AT) & ADDRESS_MASK;
             if (plane == 0) {
                 plane = freeMemory();
                 setFreeMemory(plane + PLANES_SIZE);
                 Faces.writePlanes(caster, isPoint, plane);
-                store(caster, corners | (plane << FACE_PLANES_AT));
+                store(caster, first | (plane << FACE_PLANES_AT));
             }
-            corners = receiver.corners;
-            {
-                int256[12] memory values = receiver.values;
-                assembly ("memory-safe") {
-                    target := values
-                }
-            }
-            (isMissed, signs) = valuesOfSides(plane, corners, isPoint, target);
-            if (isMissed) return MISSED;
-            (a, b, c) = Faces.values(plane + BEHIND, corners);
-            if (a <= 0 && b <= 0 && c <= 0) return MISSED;
-            storeSigned(target + 0x120, a);
-            storeSigned(target + 0x140, b);
-            storeSigned(target + 0x160, c);
-            return (signs | a | b | c) < 0 ? MIXED_SHADOW : COVERED;
+            uint256 own = receiver.planes;
+            uint256 all = receiver.isWide ? functionsWide(own, plane, receiver.corners) : functions(own, plane);
+            if (all == 0) return MISSED;
+            return all & LANE_TOPS == LANE_TOPS ? COVERED : MIXED_SHADOW;
         }
     }
 
-    /// @dev The sides of a face at the corners of another.
-    /// @param plane The functions of the one; `corners`: the first word of the record of the other.
-    /// @param target Where to write the values, three of each side.
-    /// @return isMissed Whether the other is outside a side; then not all values are written.
-    /// @return signs Negative if any value is.
-    function valuesOfSides(uint256 plane, uint256 corners, bool isPoint, uint256 target)
-        private
-        pure
-        returns (bool isMissed, int256 signs)
-    {
+    /// @return all 0 if no place is inside all functions; else the highest bits of its lanes are set where all are at least 0.
+    function functions(uint256 own, uint256 plane) private pure returns (uint256 all) {
         assembly ("memory-safe") {
-            let p := and(corners, ADDRESS_MASK)
-            let q := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
-            let r := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
-            let end := add(target, 0x120)
-            switch isPoint
-            case 0 {
-                let py := mload(add(p, 0x20))
-                let qy := mload(add(q, 0x20))
-                let ry := mload(add(r, 0x20))
-                p := mload(p)
-                q := mload(q)
-                r := mload(r)
-                for {} lt(target, end) { target := add(target, 0x60) } {
-                    let x := mload(plane)
-                    let y := mload(add(plane, 0x20))
-                    let w := mload(add(plane, 0x60))
-                    let a := add(w, add(mul(x, p), mul(y, py)))
-                    let b := add(w, add(mul(x, q), mul(y, qy)))
-                    w := add(w, add(mul(x, r), mul(y, ry)))
-                    // all are at most 0
-                    if slt(and(and(sub(a, 1), sub(b, 1)), sub(w, 1)), 0) {
-                        isMissed := 1
-                        break
-                    }
-                    mstore(target, a)
-                    mstore(add(target, 0x20), b)
-                    mstore(add(target, 0x40), w)
-                    signs := or(or(signs, a), or(b, w))
-                    plane := add(plane, PLANE_SIZE)
+            let x := mload(add(own, OWN_COORDINATES))
+            let y := mload(add(add(own, OWN_COORDINATES), 0x20))
+            let z := mload(add(add(own, OWN_COORDINATES), 0x40))
+            all := not(0)
+            let target := add(own, VALUES)
+            for { let end := add(target, 0x80) } lt(target, end) { target := add(target, 0x20) } {
+                let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
+                v := add(add(v, mul(z, mload(add(plane, 0x40)))), add(mul(LANE_ONES, mload(add(plane, 0x60))), LANE_TOPS))
+                if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
+                    all := 0
+                    break
                 }
+                mstore(target, v)
+                // the highest bit of a word is not one of a lane
+                all := and(all, or(v, shl(255, 1)))
+                plane := add(plane, PLANE_SIZE)
             }
-            default {
-                for {} lt(target, end) { target := add(target, 0x60) } {
-                    let x := mload(plane)
-                    let y := mload(add(plane, 0x20))
-                    let z := mload(add(plane, 0x40))
-                    let a := add(mul(x, mload(p)), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
-                    let b := add(mul(x, mload(q)), add(mul(y, mload(add(q, 0x20))), mul(z, mload(add(q, 0x40)))))
-                    let c := add(mul(x, mload(r)), add(mul(y, mload(add(r, 0x20))), mul(z, mload(add(r, 0x40)))))
-                    if slt(and(and(sub(a, 1), sub(b, 1)), sub(c, 1)), 0) {
-                        isMissed := 1
-                        break
-                    }
-                    mstore(target, a)
-                    mstore(add(target, 0x20), b)
-                    mstore(add(target, 0x40), c)
-                    signs := or(or(signs, a), or(b, c))
-                    plane := add(plane, PLANE_SIZE)
-                }
+        }
+    }
+
+    /// @dev The same with numbers that do not fit lanes.
+    function functionsWide(uint256 own, uint256 plane, uint256 corners) private pure returns (uint256 all) {
+        unchecked {
+            all = type(uint256).max;
+            for (uint256 i; i != 4; ++i) {
+                (int256 a, int256 b, int256 c) = Faces.values(plane + PLANE_SIZE * i, corners);
+                if (a <= 0 && b <= 0 && c <= 0) return 0;
+                uint256 shift = excess(magnitude(a) | magnitude(b) | magnitude(c), VALUE_BITS);
+                uint256 lanes = lanesOf(a >> shift, b >> shift, c >> shift);
+                store(own + VALUES + 32 * i, lanes);
+                all &= lanes | (1 << 255);
             }
         }
     }
@@ -268,94 +341,63 @@ library Receivers {
             uint256 head = receiver.isVisible ? boundsOf(receiver, width, height) : 0;
             if (head == 0) return (MISSED, begin);
             end = begin;
-            int256[12] memory values = receiver.values;
             int256[9] memory weights = receiver.weights;
-            assembly ("memory-safe") {
-                let value := values
-                for { let valuesEnd := add(values, 0x180) } lt(value, valuesEnd) { value := add(value, 0x60) } {
-                    let a := mload(value)
-                    let b := mload(add(value, 0x20))
-                    let c := mload(add(value, 0x40))
-                    if sgt(or(or(a, b), c), not(0)) { continue }
-                    let x := add(mul(a, mload(weights)), add(mul(b, mload(add(weights, 0x60))), mul(c, mload(add(weights, 0xc0)))))
-                    let y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
-                    y := add(y, mul(c, mload(add(weights, 0xe0))))
-                    a := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
-                    a := add(a, mul(c, mload(add(weights, 0x100))))
-                    // the bits of the greater one above GRADIENT_BITS are left out
-                    c := sar(255, y)
-                    b := sub(xor(y, c), c)
-                    c := sar(255, x)
-                    c := sub(xor(x, c), c)
-                    if gt(c, b) { b := c }
-                    b := shr(GRADIENT_BITS, b)
-                    if b {
-                        c := shl(7, lt(0xffffffffffffffffffffffffffffffff, b))
-                        c := or(c, shl(6, lt(0xffffffffffffffff, shr(c, b))))
-                        c := or(c, shl(5, lt(0xffffffff, shr(c, b))))
-                        c := or(c, shl(4, lt(0xffff, shr(c, b))))
-                        c := or(c, shl(3, lt(0xff, shr(c, b))))
-                        c := or(c, shl(2, lt(0xf, shr(c, b))))
-                        c := or(c, shl(1, lt(0x3, shr(c, b))))
-                        c := add(or(c, lt(1, shr(c, b))), 1)
-                        x := sar(c, x)
-                        y := sar(c, y)
-                        a := sar(c, a)
-                    }
-                    // neighbours overlap, so that rounding makes no cracks
-                    if lt(sub(value, values), 0x120) { a := add(a, SLACK) }
-                    if iszero(sgt(a, sub(0, BOUND))) {
-                        shade := 1
-                        break
-                    }
-                    if slt(a, BOUND) {
-                        mstore(
-                            end,
-                            or(or(shl(X_AT, x), shl(Y_AT, and(y, LANE_48))), or(shl(CONSTANT_AT, and(a, LANE_64)), head))
-                        )
-                        end := add(end, 0x20)
-                    }
+            uint256 value = receiver.planes + VALUES;
+            for (uint256 i; i != 4; ++i) {
+                uint256 lanes = load(value);
+                value += 32;
+                if (lanes & LANE_TOPS == LANE_TOPS) continue;
+                int256 x;
+                int256 y;
+                int256 constant_;
+                assembly ("memory-safe") {
+                    let a := sub(and(lanes, LANE_MASK), LANE_TOP)
+                    let b := sub(and(shr(LANE, lanes), LANE_MASK), LANE_TOP)
+                    lanes := sub(shr(LANE, shr(LANE, lanes)), LANE_TOP)
+                    x := add(mul(a, mload(weights)), add(mul(b, mload(add(weights, 0x60))), mul(lanes, mload(add(weights, 0xc0)))))
+                    y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
+                    y := add(y, mul(lanes, mload(add(weights, 0xe0))))
+                    constant_ := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
+                    constant_ := add(constant_, mul(lanes, mload(add(weights, 0x100))))
                 }
+                uint256 shift = excess(greater(magnitude(x), magnitude(y)), GRADIENT_BITS);
+                constant_ >>= shift;
+                // neighbours overlap, so that rounding makes no cracks
+                if (i != 3) constant_ += SLACK;
+                if (constant_ <= -BOUND) return (MISSED, begin);
+                if (constant_ >= BOUND) continue;
+                assembly ("memory-safe") {
+                    let word := or(shl(X_AT, sar(shift, x)), shl(Y_AT, and(sar(shift, y), LANE_48)))
+                    mstore(end, or(word, or(shl(CONSTANT_AT, and(constant_, LANE_64)), head)))
+                }
+                end += 32;
             }
-            if (shade != 0) return (MISSED, begin);
             if (end == begin) return (COVERED, begin);
             store(begin, load(begin) | (end - begin) >> 5);
             return (MIXED_SHADOW, end);
         }
     }
 
+    function greater(uint256 a, uint256 b) private pure returns (uint256) {
+        return a > b ? a : b;
+    }
+
     /// @dev The columns and rows of the canvas in which the shadow may be, as they stand in the words; 0 if there are none.
     function boundsOf(Receiver memory receiver, uint256 width, uint256 height) private pure returns (uint256) {
         unchecked {
-            int256[9] memory places = receiver.places;
-            int256[9] memory sides = receiver.sides;
-            int256 left = type(int256).max;
-            int256 right = type(int256).min;
-            int256 top = left;
-            int256 bottom = right;
+            (int256 left, int256 top) = cornerOf(receiver, 0);
+            (int256 right, int256 bottom) = (left, top);
+            bool isBounded = left != UNBOUNDED;
+            for (uint256 lane = LANE; lane != 3 * LANE && isBounded; lane += LANE) {
+                (int256 x, int256 y) = cornerOf(receiver, lane);
+                isBounded = x != UNBOUNDED;
+                if (x < left) left = x;
+                if (x > right) right = x;
+                if (y < top) top = y;
+                if (y > bottom) bottom = y;
+            }
+            if (!isBounded) return (height << BOTTOM_AT) | (width << RIGHT_AT);
             assembly ("memory-safe") {
-                for { let end := add(sides, 0x60) } lt(sides, end) { sides := add(sides, 0x20) } {
-                    let a := mload(sides)
-                    let b := mload(add(sides, 0x60))
-                    let c := mload(add(sides, 0xc0))
-                    let w := add(mul(a, mload(add(places, 0x40))), mul(b, mload(add(places, 0xa0))))
-                    w := add(w, mul(c, mload(add(places, 0x100))))
-                    if or(slt(add(add(a, b), c), 1), slt(w, 1)) {
-                        left := WIDER
-                        top := WIDER
-                        right := shl(SUBPIXEL_BITS, width)
-                        bottom := shl(SUBPIXEL_BITS, height)
-                        break
-                    }
-                    let value := add(mul(a, mload(places)), mul(b, mload(add(places, 0x60))))
-                    value := sdiv(add(value, mul(c, mload(add(places, 0xc0)))), w)
-                    if slt(value, left) { left := value }
-                    if sgt(value, right) { right := value }
-                    value := add(mul(a, mload(add(places, 0x20))), mul(b, mload(add(places, 0x80))))
-                    value := sdiv(add(value, mul(c, mload(add(places, 0xe0)))), w)
-                    if slt(value, top) { top := value }
-                    if sgt(value, bottom) { bottom := value }
-                }
                 left := sar(SUBPIXEL_BITS, sub(left, WIDER))
                 left := mul(left, sgt(left, 0))
                 top := sar(SUBPIXEL_BITS, sub(top, WIDER))
@@ -367,6 +409,30 @@ library Receivers {
             }
             if (left >= right || top >= bottom) return 0;
             return (uint256(top) << TOP_AT) | (uint256(bottom) << BOTTOM_AT) | (uint256(right) << RIGHT_AT) | (uint256(left) << LEFT_AT);
+        }
+    }
+
+    /// @dev Where a corner of what casts the shadow does so on the canvas, in sub-pixels; UNBOUNDED if it does not.
+    /// @param lane Where its lane begins.
+    function cornerOf(Receiver memory receiver, uint256 lane) private pure returns (int256 x, int256 y) {
+        unchecked {
+            int256[9] memory places = receiver.places;
+            uint256 side = receiver.planes + SIDES;
+            assembly ("memory-safe") {
+                let a := sub(and(shr(lane, mload(side)), LANE_MASK), LANE_TOP)
+                let b := sub(and(shr(lane, mload(add(side, 0x20))), LANE_MASK), LANE_TOP)
+                side := sub(and(shr(lane, mload(add(side, 0x40))), LANE_MASK), LANE_TOP)
+                let w := add(mul(a, mload(add(places, 0x40))), mul(b, mload(add(places, 0xa0))))
+                w := add(w, mul(side, mload(add(places, 0x100))))
+                switch or(slt(add(add(a, b), side), 1), slt(w, 1))
+                case 0 {
+                    x := add(mul(a, mload(places)), mul(b, mload(add(places, 0x60))))
+                    x := sdiv(add(x, mul(side, mload(add(places, 0xc0)))), w)
+                    y := add(mul(a, mload(add(places, 0x20))), mul(b, mload(add(places, 0x80))))
+                    y := sdiv(add(y, mul(side, mload(add(places, 0xe0)))), w)
+                }
+                default { x := UNBOUNDED }
+            }
         }
     }
 }

@@ -33,6 +33,8 @@ Box = tuple[int, int, int, int, int, int]
 EVERYWHERE = (0, BUCKETS - 1) * 3
 #: A point light with a greater slope across what casts shadows is among that.
 WIDEST = 2 << 16
+#: Bits of the values of functions at corners of faces, without the sign.
+VALUE_BITS = 83
 #: Bits of the distances of vertices, and of other homogeneous coordinates.
 DISTANCE_BITS, CLIP_BITS = 38, 60
 #: Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
@@ -362,6 +364,12 @@ def values(plane: tuple[int, int, int, int], corners: Iterable[Vector]) -> tuple
     return a, b, c
 
 
+def fitted(rows: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
+    """Return values divided by a power of two, 1 in most cases, so that all have VALUE_BITS bits."""
+    shift = max(max(abs(each) for row in rows for each in row).bit_length() - VALUE_BITS, 0)
+    return [(a >> shift, b >> shift, c >> shift) for a, b, c in rows]
+
+
 def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
     """Return LIT, DARK, or what shades parts of a face."""
     shadows: list[Shadow] = []
@@ -379,6 +387,7 @@ def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: V
             continue
         if all(min(lane) >= 0 for lane in lanes):
             return DARK
+        sides, lanes = fitted(sides), [each for lane in lanes for each in fitted([lane])]
         if not homogeneous:
             homogeneous = canvas_places(scene, face, mesh, view, registers)
         shadow = shadow_on(homogeneous, sides, lanes, scene.canvas)
