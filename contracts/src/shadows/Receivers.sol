@@ -68,7 +68,9 @@ uint256 constant VALUE_BITS = 83;
 uint256 constant OWN_COORDINATES = 0x200;
 uint256 constant SIDES = 0x260;
 uint256 constant VALUES = 0x2c0;
-uint256 constant RECEIVER_SIZE = 0x340;
+/// @dev 1 if all of that is in front of the face: then all that is inside its sides is behind it as well.
+uint256 constant IS_IN_FRONT = 0x340;
+uint256 constant RECEIVER_SIZE = 0x360;
 
 /// @notice What is known of the face that receives shadows.
 /// @param planes Its functions, and what stands behind them.
@@ -143,6 +145,7 @@ library Receivers {
             // not all are behind it
             if sub(and(v, LANE_TOPS), LANE_TOPS) {
                 found := 1
+                mstore(add(planes, IS_IN_FRONT), iszero(and(sub(v, LANE_ONES), LANE_TOPS)))
                 p := planes
                 for { let target := add(planes, SIDES) } lt(p, add(planes, BEHIND)) { target := add(target, 0x20) } {
                     v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
@@ -165,6 +168,7 @@ library Receivers {
             int256[9] memory all;
             (int256 a, int256 b, int256 c) = Faces.values(planes + BEHIND, corners);
             if (a | b | c >= 0) return false;
+            store(planes + IS_IN_FRONT, a <= 0 && b <= 0 && c <= 0 ? 1 : 0);
             uint256 most;
             for (uint256 i; i != 9; i += 3) {
                 (a, b, c) = Faces.values(planes + PLANE_SIZE * (i / 3), corners);
@@ -214,7 +218,10 @@ library Receivers {
             let z := mload(add(add(own, OWN_COORDINATES), 0x40))
             all := not(0)
             let target := add(own, VALUES)
-            for { let end := add(target, 0x80) } lt(target, end) { target := add(target, 0x20) } {
+            mstore(add(target, 0x60), LANE_TOPS)
+            for { let end := add(target, sub(0x80, shl(5, mload(add(own, IS_IN_FRONT))))) } lt(target, end) {
+                target := add(target, 0x20)
+            } {
                 let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
                 v := add(add(v, mul(z, mload(add(plane, 0x40)))), add(mul(LANE_ONES, mload(add(plane, 0x60))), LANE_TOPS))
                 if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
@@ -233,7 +240,8 @@ library Receivers {
     function functionsWide(uint256 own, uint256 plane, uint256 corners) private pure returns (uint256 all) {
         unchecked {
             all = type(uint256).max;
-            for (uint256 i; i != 4; ++i) {
+            store(own + VALUES + 0x60, LANE_TOPS);
+            for (uint256 i; i != 4 - load(own + IS_IN_FRONT); ++i) {
                 (int256 a, int256 b, int256 c) = Faces.values(plane + PLANE_SIZE * i, corners);
                 if (a <= 0 && b <= 0 && c <= 0) return 0;
                 uint256 shift = excess(magnitude(a) | magnitude(b) | magnitude(c), VALUE_BITS);

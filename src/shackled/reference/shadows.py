@@ -377,13 +377,17 @@ def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: V
     for caster in casters:
         if caster is face or not may_shade(caster, face):
             continue
-        if min(values(face.planes[3], caster.corners)) >= 0:
+        heights = values(face.planes[3], caster.corners)
+        if min(heights) >= 0:
             continue
         sides = [values(plane, caster.corners) for plane in face.planes[:3]]
         if any(max(side) <= 0 for side in sides):
             continue
         lanes = [values(plane, face.corners) for plane in caster.planes]
-        if any(max(lane) <= 0 for lane in lanes):
+        if max(heights) <= 0:
+            # it is in front of the face: all that is inside its sides is behind it as well
+            lanes[3] = (0, 0, 0)
+        if any(max(lane) <= 0 for lane in lanes[:3]) or min(lanes[3]) < 0 >= max(lanes[3]):
             continue
         if all(min(lane) >= 0 for lane in lanes):
             return DARK
