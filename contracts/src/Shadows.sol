@@ -8,9 +8,9 @@ import {Extensions, OPACITY_OF, RECORD_HEADER} from "./scene/Extensions.sol";
 import {Mesh, openMesh} from "./scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "./scene/Scene.sol";
 import {SceneErrors} from "./scene/SceneErrors.sol";
-import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./shadows/Faces.sol";
+import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE} from "./shadows/Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./shadows/LightSpace.sol";
-import {COVERED, LAST_SHADOW, MISSED, RECEIVER_SIZE, ROW_MASK, Receiver, Receivers, TOP_AT} from "./shadows/Receivers.sol";
+import {CHAINS, COVERED, LAST_EDGE, MISSED, RECEIVER_SIZE, Receiver, Receivers} from "./shadows/Receivers.sol";
 import {Indices} from "./pipeline/Indices.sol";
 import {Triangles} from "./pipeline/Triangles.sol";
 import {GROUND, MAX_FADE, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "./pipeline/Effects.sol";
@@ -32,8 +32,8 @@ contract Shadows is SceneErrors {
     /// @param casters The faces that cast shadows: see Faces.
     /// @param sets See Faces; of `words` words each.
     /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
-    /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered.
+    /// @param planes Where the functions of what casts shadows are written.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered; `chains`: see Receiver.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
@@ -46,8 +46,9 @@ contract Shadows is SceneErrors {
         uint256 sets;
         uint256 words;
         uint256 boxes;
-        uint256 found;
+        uint256 planes;
         uint256 heads;
+        uint256 chains;
         uint256 width;
         uint256 height;
         int256[3] eye;
@@ -202,11 +203,11 @@ contract Shadows is SceneErrors {
             assembly ("memory-safe") {
                 calldatacopy(end, calldatasize(), size)
             }
-            state.found = end + size;
-            state.heads = state.found + 32 * count;
-            setFreeMemory(state.heads + 32 * scene.canvas.height);
-            state.boxes = freeMemory();
-            setFreeMemory(state.boxes + 0x40 * state.frame.sides);
+            state.planes = end + size;
+            state.boxes = state.planes + PLANES_SIZE * count;
+            state.heads = state.boxes + 0x40 * state.frame.sides;
+            state.chains = state.heads + 32 * state.height;
+            setFreeMemory(state.chains + 32 * CHAINS);
             for (uint256 i; i != count; ++i) {
                 uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, load(load(state.casters + CASTER_SIZE * i)));
                 for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) Faces.insert(load(p), words, i, load(p + 0x20));
@@ -265,6 +266,7 @@ contract Shadows is SceneErrors {
             Receiver memory receiver;
             receiver.planes = freeMemory();
             setFreeMemory(receiver.planes + RECEIVER_SIZE);
+            receiver.chains = state.chains;
             uint256 source = mesh.faces;
             bool isFlat = object.material.shading == FLAT;
             bool isCulled = object.flags & CULL_BACKFACES != 0;
@@ -342,7 +344,7 @@ contract Shadows is SceneErrors {
         }
     }
 
-    /// @return The entry of a face: LIT, DARK, or the address of a chain of lists: that of the next or 0, the end of this one, functions.
+    /// @return The entry of a face: LIT, DARK, or the address of a list: see Receivers.finish.
     function shadeFace(
         State memory state,
         Receiver memory receiver,
@@ -352,7 +354,6 @@ contract Shadows is SceneErrors {
         unchecked {
             uint256 corners = load(face);
             bool isSet;
-            uint256 count;
             uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, state.words, state.frame, corners);
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
@@ -367,67 +368,19 @@ contract Shadows is SceneErrors {
                     uint256 caster;
                     (caster, bits) = Receivers.next(receiver, bits, state.casters + 8 * CASTER_SIZE * offset);
                     if (caster == 0) break;
-                    uint256 found = shadowOf(state, receiver, load(caster), source);
-                    if (found == DARK) return DARK;
-                    if (found != LIT) store(state.found + 32 * count++, found);
-                }
-            }
-            return count == 0 ? LIT : ordered(state, count);
-        }
-    }
-
-    /// @return What one face casts on another: LIT for nothing, DARK for all of it, or the address of a list.
-    function shadowOf(State memory state, Receiver memory receiver, uint256 caster, uint256 source) private pure returns (uint256) {
-        unchecked {
-            uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
-            if (shade == MISSED) return LIT;
-            if (shade == COVERED) return DARK;
-            if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
-            uint256 list = freeMemory();
-            uint256 end;
-            (shade, end) = Receivers.write(receiver, state.width, state.height, list + 0x40);
-            if (shade == MISSED) return LIT;
-            if (shade == COVERED) return DARK;
-            setFreeMemory(end);
-            store(list + 0x20, end);
-            return list;
-        }
-    }
-
-    /// @dev Chains the lists that were found, ordered by their first rows.
-    /// @return first The address of the first.
-    function ordered(State memory state, uint256 count) private pure returns (uint256 first) {
-        unchecked {
-            uint256 found = state.found;
-            uint256 heads = state.heads;
-            assembly ("memory-safe") {
-                // those of a row in front of one another, from the last on
-                let top := not(0)
-                for { let p := add(found, shl(5, count)) } gt(p, found) {} {
-                    p := sub(p, 0x20)
-                    let list := mload(p)
-                    let head := add(heads, shl(5, and(shr(TOP_AT, mload(add(list, 0x40))), ROW_MASK)))
-                    mstore(list, mload(head))
-                    mstore(head, list)
-                    if lt(head, top) { top := head }
-                }
-                heads := top
-                let last
-                for {} count { heads := add(heads, 0x20) } {
-                    let list := mload(heads)
-                    if list {
-                        mstore(heads, 0)
-                        switch last
-                        case 0 { first := list }
-                        default { mstore(last, list) }
-                        for {} list { list := mload(list) } {
-                            last := list
-                            count := sub(count, 1)
-                        }
+                    uint256 plane = state.planes + PLANES_SIZE / CASTER_SIZE * (caster - state.casters);
+                    caster = load(caster);
+                    uint256 shade = Receivers.test(receiver, caster, plane, state.frame.isPoint);
+                    if (shade == MISSED) continue;
+                    if (shade == COVERED) {
+                        Receivers.clear(receiver);
+                        return DARK;
                     }
+                    if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source), state.width, state.height);
+                    Receivers.add(receiver, loadSigned(caster + FACE_SIDE) > 0);
                 }
-                mstore(last, 0)
             }
+            return isSet && receiver.isPlaced ? Receivers.finish(receiver, state.heads) : LIT;
         }
     }
 
@@ -452,7 +405,7 @@ contract Shadows is SceneErrors {
                     face += FACE_RECORD_SIZE;
                     if (entry > DARK) {
                         word |= end - begin;
-                        end = copyLists(entry, end);
+                        end = copyList(entry, end);
                     } else {
                         word |= entry;
                     }
@@ -466,21 +419,15 @@ contract Shadows is SceneErrors {
         }
     }
 
-    /// @dev Copies a chain of lists.
+    /// @dev Copies a list.
     /// @return end The address after the last word.
-    function copyLists(uint256 list, uint256 target) private pure returns (uint256 end) {
+    function copyList(uint256 list, uint256 target) private pure returns (uint256 end) {
         unchecked {
-            end = target;
-            uint256 last;
-            for (; list != 0; list = load(list)) {
-                uint256 size = load(list + 0x20) - list - 0x40;
-                last = end;
-                assembly ("memory-safe") {
-                    mcopy(end, add(list, 0x40), size)
-                }
-                end += size;
+            end = target + load(list);
+            assembly ("memory-safe") {
+                mcopy(target, add(list, 0x20), mload(list))
             }
-            store(last, load(last) | LAST_SHADOW);
+            store(end - 32, load(end - 32) | LAST_EDGE);
         }
     }
 }

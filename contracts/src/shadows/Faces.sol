@@ -17,11 +17,11 @@ uint256 constant FACE_RECORD_SIZE = 0xc0;
 uint256 constant FACE_NORMAL = 0x20;
 uint256 constant FACE_SIDE = 0x80;
 uint256 constant FACE_ENTRY = 0xa0;
-/// @dev In the first word: the addresses of the vertices, that of the functions (0 if there are none yet), and the ranges of x, y, z, the
-/// least and the greatest, in bytes.
+/// @dev In the first word: the addresses of the vertices, HAS_PLANES, and the ranges of x, y, z, the least and the greatest, in bytes.
 uint256 constant FACE_B_AT = 32;
 uint256 constant FACE_C_AT = 64;
-uint256 constant FACE_PLANES_AT = 96;
+/// @dev Whether its functions are written.
+uint256 constant HAS_PLANES = 1 << 96;
 uint256 constant FACE_BOX_AT = 128;
 uint256 constant ADDRESS_MASK = 0xffffffff;
 uint256 constant BOX_MASK = 0xffffffffffffffff;

@@ -6,71 +6,89 @@ import "../pipeline/Registers.sol";
 import {
     ADDRESS_MASK,
     BEHIND,
+    CASTER_SIZE,
     FACE_B_AT,
     FACE_C_AT,
-    FACE_PLANES_AT,
-    CASTER_SIZE,
+    FACE_SIDE,
     Faces,
+    HAS_PLANES,
     LANE,
     LANE_MASK,
     LANE_ONES,
     LANE_TOP,
     LANE_TOPS,
-    PLANES_SIZE,
     PLANE_SIZE
 } from "./Faces.sol";
 
-// What one face casts on another. The functions of what casts the shadow, at the corners of the other, become functions of the place on the
-// canvas: with homogeneous corners H the function is the sum of f_i * (H_j x H_k), exactly. Divided by a power of two each takes a word:
+// What shades a face: the edges of all shadows on it. A sample is in a shadow if more of them begin than end to the left of it. Where two
+// shadows meet, one ends and the other begins: neither edge is kept, so that of most objects little more than the outline is left. Each
+// corner of what casts a shadow has a place on the canvas, the same for all faces that share it, so that there are no gaps.
 //
-//   bits 208 to 255   its change to the right, per eighth of a pixel; signed, as the others
+// An edge is a word. A place on the canvas, in eighths of a pixel, is to the right of it where its function is at least 0:
+//
+//   bits 208 to 255   its change to the right; signed, as the others
 //   bits 160 to 207   its change downwards
 //   bits  96 to 159   its value at the centre of the first pixel of the canvas
-//   bits  80 to  95   the first row in which the shadow may be
+//   bits  80 to  95   the first row of samples, four for each row of pixels, that the edge crosses
 //   bits  64 to  79   the row after the last
-//   bits  48 to  63   the column after the last in which it may be
-//   bits  32 to  47   the first one
-//   bits   0 to   7   in the first word of what casts the shadow, how many words it has; in others 0
-//   bit    8          in the same word, whether it is the last one of the list
+//   bit    8          whether it is the last one of the list
+//   bit    0          whether a shadow ends at it, or begins
 //
-// Lists are ordered by the first row.
+// Lists are ordered by the first row of pixels.
 
 uint256 constant X_AT = 208;
 uint256 constant Y_AT = 160;
 uint256 constant CONSTANT_AT = 96;
 uint256 constant TOP_AT = 80;
 uint256 constant BOTTOM_AT = 64;
-uint256 constant RIGHT_AT = 48;
-uint256 constant LEFT_AT = 32;
-uint256 constant LAST_SHADOW = 1 << 8;
+uint256 constant LAST_EDGE = 1 << 8;
 uint256 constant ROW_MASK = 0xffff;
 uint256 constant LANE_48 = 0xffffffffffff;
 
 /// @dev Bits of the distances of vertices, and of other homogeneous coordinates.
 uint256 constant DISTANCE_BITS = 38;
 uint256 constant CLIP_BITS = 60;
-/// @dev Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
-uint256 constant GRADIENT_BITS = 44;
-int256 constant BOUND = 1 << 60;
-/// @dev More than what rounding takes from a function anywhere on the canvas.
-int256 constant SLACK = 1 << 16;
-/// @dev Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
-int256 constant WIDER = 112;
-/// @dev No place in sub-pixels.
-int256 constant UNBOUNDED = 0x10000000000000000000000000000000000000000000000000;
-
+/// @dev Bits of the change of the function of an edge per eighth of a pixel.
+uint256 constant EDGE_BITS = 40;
 /// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes.
 uint256 constant NARROW_BITS = 27;
 /// @dev Bits of values in lanes without the sign; others are divided by a power of two.
 uint256 constant VALUE_BITS = 83;
-/// @dev What stands behind the functions of the face that receives shadows: its coordinates, its sides at the corners of what may shade
-/// it, and the functions of that at its own corners; lanes.
+
+/// @dev A place on the canvas: the row in the upper half of 128 bits, the column in the lower one, whole numbers with so many bits below the
+/// pixel, and POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
+uint256 constant POINT_BITS = 20;
+uint256 constant POINT_BIAS = 0x10000000000;
+uint256 constant POINT_GUARD = 22;
+uint256 constant SUBPIXEL_TO_POINT = 12;
+uint256 constant POINT_MASK = 0xffffffffffffffff;
+/// @dev The first row of samples that is not above a place: its row with this added, shifted by so much; and what the bias is then.
+uint256 constant ROW_UP = 0x9ffff;
+uint256 constant ROW_SHIFT = 18;
+uint256 constant ROW_BIAS = 0x400000;
+/// @dev From eighths of a pixel to the unit of places.
+uint256 constant EIGHTH = 17;
+
+/// @dev An edge while edges are collected: its ends, the upper first; how many more shadows begin at it than end; the next one of the same
+/// chain; the one before.
+uint256 constant EDGE_SIZE = 0x80;
+uint256 constant EDGE_COUNT = 0x20;
+uint256 constant EDGE_NEXT = 0x40;
+uint256 constant EDGE_BEFORE = 0x60;
+/// @dev The number of chains, by the remainders of ends.
+uint256 constant CHAINS = 509;
+
+/// @dev What stands behind the functions of the face that receives shadows: its coordinates; of what may shade it the corners by its sides,
+/// and how far behind it they are, lanes; 1 if none of them is, else 0; and two polygons.
 uint256 constant OWN_COORDINATES = 0x200;
 uint256 constant SIDES = 0x260;
-uint256 constant VALUES = 0x2c0;
-/// @dev 1 if all of that is in front of the face: then all that is inside its sides is behind it as well.
-uint256 constant IS_IN_FRONT = 0x340;
-uint256 constant RECEIVER_SIZE = 0x360;
+uint256 constant HEIGHTS = 0x2c0;
+uint256 constant IS_IN_FRONT = 0x2e0;
+uint256 constant POLYGON_1 = 0x300;
+uint256 constant POLYGON_2 = 0x780;
+uint256 constant RECEIVER_SIZE = 0xc00;
+/// @dev A corner of a polygon: by the sides of the face, and its distance from a boundary.
+uint256 constant POLYGON_CORNER = 0x80;
 
 /// @notice What is known of the face that receives shadows.
 /// @param planes Its functions, and what stands behind them.
@@ -78,15 +96,24 @@ uint256 constant RECEIVER_SIZE = 0x360;
 /// @param isWide Whether its functions do not fit lanes: it is much larger than what casts shadows.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
 /// @param isVisible Whether it is not seen edge-on.
-/// @param weights Their cross products, as the coefficients of functions that are 1 at one corner, but for a positive factor.
+/// @param isFlipped Whether the shadow of what is turned away from the light has its corners the other way round on the canvas.
+/// @param top, bottom The rows of samples between which it is, with ROW_BIAS; `right`: the column before which it is, as of places.
+/// @param chains CHAINS addresses of edges, 0 while there are none; `last`: that of the last edge.
+/// @param begin Where the edges begin.
 struct Receiver {
     uint256 planes;
     uint256 corners;
     bool isWide;
     bool isPlaced;
     bool isVisible;
+    bool isFlipped;
+    uint256 top;
+    uint256 bottom;
+    uint256 right;
+    uint256 chains;
+    uint256 last;
+    uint256 begin;
     int256[9] places;
-    int256[9] weights;
 }
 
 uint256 constant MISSED = 0;
@@ -100,6 +127,8 @@ library Receivers {
         unchecked {
             uint256 corners = load(face);
             (receiver.corners, receiver.isPlaced) = (corners, false);
+            (receiver.last, receiver.begin) = (0, freeMemory());
+            receiver.isFlipped = loadSigned(face + FACE_SIDE) > 0;
             uint256 planes = receiver.planes;
             Faces.writePlanes(face, isPoint, planes);
             Faces.pack(planes + OWN_COORDINATES, corners);
@@ -145,6 +174,7 @@ library Receivers {
             // not all are behind it
             if sub(and(v, LANE_TOPS), LANE_TOPS) {
                 found := 1
+                mstore(add(planes, HEIGHTS), v)
                 mstore(add(planes, IS_IN_FRONT), iszero(and(sub(v, LANE_ONES), LANE_TOPS)))
                 p := planes
                 for { let target := add(planes, SIDES) } lt(p, add(planes, BEHIND)) { target := add(target, 0x20) } {
@@ -169,6 +199,7 @@ library Receivers {
             (int256 a, int256 b, int256 c) = Faces.values(planes + BEHIND, corners);
             if (a | b | c >= 0) return false;
             store(planes + IS_IN_FRONT, a <= 0 && b <= 0 && c <= 0 ? 1 : 0);
+            store(planes + HEIGHTS, fitted(a, b, c));
             uint256 most;
             for (uint256 i; i != 9; i += 3) {
                 (a, b, c) = Faces.values(planes + PLANE_SIZE * (i / 3), corners);
@@ -190,76 +221,64 @@ library Receivers {
         }
     }
 
+    function fitted(int256 a, int256 b, int256 c) private pure returns (uint256) {
+        unchecked {
+            uint256 shift = excess(magnitude(a) | magnitude(b) | magnitude(c), VALUE_BITS);
+            return lanesOf(a >> shift, b >> shift, c >> shift);
+        }
+    }
+
     /// @notice Whether a face that `next` has found shades the one of the receiver.
     /// @param caster Its record.
-    /// @return MISSED, COVERED, or MIXED_SHADOW; then its functions are in VALUES.
-    function test(Receiver memory receiver, uint256 caster, bool isPoint) internal pure returns (uint256) {
+    /// @param plane Where its functions are, or may be written.
+    /// @return MISSED, COVERED, or MIXED_SHADOW.
+    function test(Receiver memory receiver, uint256 caster, uint256 plane, bool isPoint) internal pure returns (uint256) {
         unchecked {
             uint256 first = load(caster);
-            uint256 plane = (first >> FACE_PLANES_AT) & ADDRESS_MASK;
-            if (plane == 0) {
-                plane = freeMemory();
-                setFreeMemory(plane + PLANES_SIZE);
+            if (first & HAS_PLANES == 0) {
                 Faces.writePlanes(caster, isPoint, plane);
-                store(caster, first | (plane << FACE_PLANES_AT));
+                store(caster, first | HAS_PLANES);
             }
             uint256 own = receiver.planes;
-            uint256 all = receiver.isWide ? functionsWide(own, plane, receiver.corners) : functions(own, plane);
-            if (all == 0) return MISSED;
-            return all & LANE_TOPS == LANE_TOPS ? COVERED : MIXED_SHADOW;
-        }
-    }
-
-    /// @return all 0 if no place is inside all functions; else the highest bits of its lanes are set where all are at least 0.
-    function functions(uint256 own, uint256 plane) private pure returns (uint256 all) {
-        assembly ("memory-safe") {
-            let x := mload(add(own, OWN_COORDINATES))
-            let y := mload(add(add(own, OWN_COORDINATES), 0x20))
-            let z := mload(add(add(own, OWN_COORDINATES), 0x40))
-            all := not(0)
-            let target := add(own, VALUES)
-            mstore(add(target, 0x60), LANE_TOPS)
-            for { let end := add(target, sub(0x80, shl(5, mload(add(own, IS_IN_FRONT))))) } lt(target, end) {
-                target := add(target, 0x20)
-            } {
-                let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
-                v := add(add(v, mul(z, mload(add(plane, 0x40)))), add(mul(LANE_ONES, mload(add(plane, 0x60))), LANE_TOPS))
-                if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
-                    all := 0
-                    break
+            // what is in front of the face is in front of all that is inside its sides
+            uint256 end = plane + PLANE_SIZE * (4 - load(own + IS_IN_FRONT));
+            uint256 all = type(uint256).max;
+            if (receiver.isWide) {
+                for (; plane != end; plane += PLANE_SIZE) {
+                    (int256 a, int256 b, int256 c) = Faces.values(plane, receiver.corners);
+                    if (a <= 0 && b <= 0 && c <= 0) return MISSED;
+                    if (a | b | c < 0) all = 0;
                 }
-                mstore(target, v)
-                // the highest bit of a word is not one of a lane
-                all := and(all, or(v, shl(255, 1)))
-                plane := add(plane, PLANE_SIZE)
+            } else {
+                assembly ("memory-safe") {
+                    let x := mload(add(own, OWN_COORDINATES))
+                    let y := mload(add(add(own, OWN_COORDINATES), 0x20))
+                    let z := mload(add(add(own, OWN_COORDINATES), 0x40))
+                    for {} lt(plane, end) { plane := add(plane, PLANE_SIZE) } {
+                        let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
+                        v := add(add(v, mul(z, mload(add(plane, 0x40)))), add(mul(LANE_ONES, mload(add(plane, 0x60))), LANE_TOPS))
+                        all := and(all, v)
+                        // all are at most 0
+                        if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
+                            end := 0
+                            break
+                        }
+                    }
+                }
+                if (end == 0) return MISSED;
             }
-        }
-    }
-
-    /// @dev The same with numbers that do not fit lanes.
-    function functionsWide(uint256 own, uint256 plane, uint256 corners) private pure returns (uint256 all) {
-        unchecked {
-            all = type(uint256).max;
-            store(own + VALUES + 0x60, LANE_TOPS);
-            for (uint256 i; i != 4 - load(own + IS_IN_FRONT); ++i) {
-                (int256 a, int256 b, int256 c) = Faces.values(plane + PLANE_SIZE * i, corners);
-                if (a <= 0 && b <= 0 && c <= 0) return 0;
-                uint256 shift = excess(magnitude(a) | magnitude(b) | magnitude(c), VALUE_BITS);
-                uint256 lanes = lanesOf(a >> shift, b >> shift, c >> shift);
-                store(own + VALUES + 32 * i, lanes);
-                all &= lanes | (1 << 255);
-            }
+            return all & LANE_TOPS == LANE_TOPS ? COVERED : MIXED_SHADOW;
         }
     }
 
     /// @notice Sets the corners on the canvas. The registers have the mesh and the matrix of the object.
     /// @param numbers The three numbers of the vertices, 16 bits each.
-    function place(Receiver memory receiver, uint256 numbers) internal pure {
+    function place(Receiver memory receiver, uint256 numbers, uint256 width, uint256 height) internal pure {
         unchecked {
             receiver.isPlaced = true;
             int256[9] memory p = receiver.places;
             bool isOrthographic = load(FRAME_IS_ORTHOGRAPHIC) != 0;
-            uint256 corner = freeMemory();
+            uint256 corner = receiver.planes + POLYGON_1;
             bool isPlain = true;
             uint256 most;
             for (uint256 i; i != 9; i += 3) {
@@ -272,36 +291,43 @@ library Receivers {
                 if (w > int256(most)) most = uint256(w);
             }
             int256 bias = int256(PIXEL_BIAS << SUBPIXEL_BITS);
+            (int256 top, int256 bottom, int256 right) = (0, int256(4 * height), int256(width << POINT_BITS));
             if (isPlain) {
                 uint256 shift = isOrthographic ? Q32 : excess(most, DISTANCE_BITS);
+                int256 low = type(int256).max;
+                int256 high = type(int256).min;
+                int256 far = high;
                 for (uint256 i; i != 9; i += 3) {
                     int256 w = p[i + 2] >> shift;
-                    p[i] = (p[i] / p[i + 2] - bias) * w;
-                    p[i + 1] = (p[i + 1] / p[i + 2] - bias) * w;
-                    p[i + 2] = w;
+                    (int256 x, int256 y) = (p[i] / p[i + 2] - bias, p[i + 1] / p[i + 2] - bias);
+                    (p[i], p[i + 1], p[i + 2]) = (x * w, y * w, w);
+                    if (y < low) low = y;
+                    if (y > high) high = y;
+                    if (x > far) far = x;
                 }
+                low = (((low - 2) << SUBPIXEL_TO_POINT) + int256(ROW_UP)) >> ROW_SHIFT;
+                high = (((high + 2) << SUBPIXEL_TO_POINT) + int256(ROW_UP)) >> ROW_SHIFT;
+                far = ((far + 2) << SUBPIXEL_TO_POINT) + int256(1 << POINT_BITS);
+                if (low > top) top = low;
+                if (high < bottom) bottom = high;
+                if (far < right) right = far;
             } else {
                 // nearer than the near plane, or far beyond the canvas
                 most = 0;
                 for (uint256 i; i != 9; i += 3) {
                     p[i] -= bias * p[i + 2];
                     p[i + 1] -= bias * p[i + 2];
-                    for (uint256 k = i; k != i + 3; ++k) if (magnitude(p[k]) > most) most = magnitude(p[k]);
+                    for (uint256 k = i; k != i + 3; ++k) most |= magnitude(p[k]);
                 }
                 uint256 shift = excess(most, CLIP_BITS);
                 for (uint256 i; i != 9; ++i) p[i] >>= shift;
             }
-            int256[9] memory weights = receiver.weights;
-            cross(weights, 0, p, 3, 6);
-            cross(weights, 3, p, 6, 0);
-            cross(weights, 6, p, 0, 3);
-            int256 determinant = weights[0] * p[0] + weights[1] * p[1] + weights[2] * p[2];
+            receiver.top = uint256(top + int256(ROW_BIAS));
+            receiver.bottom = uint256(bottom + int256(ROW_BIAS));
+            receiver.right = uint256(right + int256(POINT_BIAS));
+            int256 determinant = (p[1] * p[5] - p[2] * p[4]) * p[6] + (p[2] * p[3] - p[0] * p[5]) * p[7] + (p[0] * p[4] - p[1] * p[3]) * p[8];
             receiver.isVisible = determinant != 0;
-            for (uint256 i; i != 9; ++i) {
-                int256 weight = determinant < 0 ? -weights[i] : weights[i];
-                // changes are per eighth of a pixel
-                weights[i] = i % 3 == 2 ? weight : weight << 5;
-            }
+            receiver.isFlipped = receiver.isFlipped != (determinant < 0);
         }
     }
 
@@ -328,101 +354,44 @@ library Receivers {
         }
     }
 
-    function cross(int256[9] memory target, uint256 k, int256[9] memory p, uint256 a, uint256 b) private pure {
+    /// @notice Adds the edges of the shadow of a face that `next` has found.
+    /// @param isTurned Whether it is turned to the light.
+    function add(Receiver memory receiver, bool isTurned) internal pure {
         unchecked {
-            target[k] = p[a + 1] * p[b + 2] - p[a + 2] * p[b + 1];
-            target[k + 1] = p[a + 2] * p[b] - p[a] * p[b + 2];
-            target[k + 2] = p[a] * p[b + 1] - p[a + 1] * p[b];
-        }
-    }
-
-    /// @notice Writes the functions of what casts the shadow that `test` has found.
-    /// @param begin Where to write them.
-    /// @return shade MISSED, if no part of the shadow is on the canvas, COVERED, if all of the face is in it, or MIXED_SHADOW.
-    /// @return end The address after the last word.
-    function write(Receiver memory receiver, uint256 width, uint256 height, uint256 begin)
-        internal
-        pure
-        returns (uint256 shade, uint256 end)
-    {
-        unchecked {
-            uint256 head = receiver.isVisible ? boundsOf(receiver, width, height) : 0;
-            if (head == 0) return (MISSED, begin);
-            end = begin;
-            int256[9] memory weights = receiver.weights;
-            uint256 value = receiver.planes + VALUES;
-            for (uint256 i; i != 4; ++i) {
-                uint256 lanes = load(value);
-                value += 32;
-                if (lanes & LANE_TOPS == LANE_TOPS) continue;
-                int256 x;
-                int256 y;
-                int256 constant_;
-                assembly ("memory-safe") {
-                    let a := sub(and(lanes, LANE_MASK), LANE_TOP)
-                    let b := sub(and(shr(LANE, lanes), LANE_MASK), LANE_TOP)
-                    lanes := sub(shr(LANE, shr(LANE, lanes)), LANE_TOP)
-                    x := add(mul(a, mload(weights)), add(mul(b, mload(add(weights, 0x60))), mul(lanes, mload(add(weights, 0xc0)))))
-                    y := add(mul(a, mload(add(weights, 0x20))), mul(b, mload(add(weights, 0x80))))
-                    y := add(y, mul(lanes, mload(add(weights, 0xe0))))
-                    constant_ := add(mul(a, mload(add(weights, 0x40))), mul(b, mload(add(weights, 0xa0))))
-                    constant_ := add(constant_, mul(lanes, mload(add(weights, 0x100))))
+            if (!receiver.isVisible) return;
+            bool isFlipped = receiver.isFlipped != isTurned;
+            if (load(receiver.planes + IS_IN_FRONT) != 0) {
+                uint256 a = cornerOf(receiver, 0);
+                uint256 b = cornerOf(receiver, LANE);
+                uint256 c = cornerOf(receiver, 2 * LANE);
+                if (a != 0 && b != 0 && c != 0) {
+                    if (isFlipped) {
+                        addEdge(receiver, a, c);
+                        addEdge(receiver, b, a);
+                        addEdge(receiver, c, b);
+                    } else {
+                        addEdge(receiver, c, a);
+                        addEdge(receiver, a, b);
+                        addEdge(receiver, b, c);
+                    }
+                    return;
                 }
-                uint256 shift = excess(greater(magnitude(x), magnitude(y)), GRADIENT_BITS);
-                constant_ >>= shift;
-                // neighbours overlap, so that rounding makes no cracks
-                if (i != 3) constant_ += SLACK;
-                if (constant_ <= -BOUND) return (MISSED, begin);
-                if (constant_ >= BOUND) continue;
-                assembly ("memory-safe") {
-                    let word := or(shl(X_AT, sar(shift, x)), shl(Y_AT, and(sar(shift, y), LANE_48)))
-                    mstore(end, or(word, or(shl(CONSTANT_AT, and(constant_, LANE_64)), head)))
-                }
-                end += 32;
             }
-            if (end == begin) return (COVERED, begin);
-            store(begin, load(begin) | (end - begin) >> 5);
-            return (MIXED_SHADOW, end);
+            (uint256 polygon, uint256 end) = clippedPolygon(receiver);
+            if (polygon == end) return;
+            uint256 before = pointOf(receiver, end - POLYGON_CORNER);
+            for (; polygon != end; polygon += POLYGON_CORNER) {
+                uint256 point = pointOf(receiver, polygon);
+                if (isFlipped) addEdge(receiver, point, before);
+                else addEdge(receiver, before, point);
+                before = point;
+            }
         }
     }
 
-    function greater(uint256 a, uint256 b) private pure returns (uint256) {
-        return a > b ? a : b;
-    }
-
-    /// @dev The columns and rows of the canvas in which the shadow may be, as they stand in the words; 0 if there are none.
-    function boundsOf(Receiver memory receiver, uint256 width, uint256 height) private pure returns (uint256) {
-        unchecked {
-            (int256 left, int256 top) = cornerOf(receiver, 0);
-            (int256 right, int256 bottom) = (left, top);
-            bool isBounded = left != UNBOUNDED;
-            for (uint256 lane = LANE; lane != 3 * LANE && isBounded; lane += LANE) {
-                (int256 x, int256 y) = cornerOf(receiver, lane);
-                isBounded = x != UNBOUNDED;
-                if (x < left) left = x;
-                if (x > right) right = x;
-                if (y < top) top = y;
-                if (y > bottom) bottom = y;
-            }
-            if (!isBounded) return (height << BOTTOM_AT) | (width << RIGHT_AT);
-            assembly ("memory-safe") {
-                left := sar(SUBPIXEL_BITS, sub(left, WIDER))
-                left := mul(left, sgt(left, 0))
-                top := sar(SUBPIXEL_BITS, sub(top, WIDER))
-                top := mul(top, sgt(top, 0))
-                right := add(sar(SUBPIXEL_BITS, add(right, WIDER)), 1)
-                if sgt(right, width) { right := width }
-                bottom := add(sar(SUBPIXEL_BITS, add(bottom, WIDER)), 1)
-                if sgt(bottom, height) { bottom := height }
-            }
-            if (left >= right || top >= bottom) return 0;
-            return (uint256(top) << TOP_AT) | (uint256(bottom) << BOTTOM_AT) | (uint256(right) << RIGHT_AT) | (uint256(left) << LEFT_AT);
-        }
-    }
-
-    /// @dev Where a corner of what casts the shadow does so on the canvas, in sub-pixels; UNBOUNDED if it does not.
+    /// @dev The place on the canvas of the shadow of a corner of what casts it; 0 if that is far outside or has none.
     /// @param lane Where its lane begins.
-    function cornerOf(Receiver memory receiver, uint256 lane) private pure returns (int256 x, int256 y) {
+    function cornerOf(Receiver memory receiver, uint256 lane) private pure returns (uint256 point) {
         unchecked {
             int256[9] memory places = receiver.places;
             uint256 side = receiver.planes + SIDES;
@@ -432,15 +401,220 @@ library Receivers {
                 side := sub(and(shr(lane, mload(add(side, 0x40))), LANE_MASK), LANE_TOP)
                 let w := add(mul(a, mload(add(places, 0x40))), mul(b, mload(add(places, 0xa0))))
                 w := add(w, mul(side, mload(add(places, 0x100))))
-                switch or(slt(add(add(a, b), side), 1), slt(w, 1))
-                case 0 {
-                    x := add(mul(a, mload(places)), mul(b, mload(add(places, 0x60))))
-                    x := sdiv(add(x, mul(side, mload(add(places, 0xc0)))), w)
-                    y := add(mul(a, mload(add(places, 0x20))), mul(b, mload(add(places, 0x80))))
-                    y := sdiv(add(y, mul(side, mload(add(places, 0xe0)))), w)
+                let x := add(mul(a, mload(places)), mul(b, mload(add(places, 0x60))))
+                x := add(x, mul(side, mload(add(places, 0xc0))))
+                let y := add(mul(a, mload(add(places, 0x20))), mul(b, mload(add(places, 0x80))))
+                y := add(y, mul(side, mload(add(places, 0xe0))))
+                if and(sgt(add(add(a, b), side), 0), sgt(w, 0)) {
+                    let most := shl(POINT_GUARD, w)
+                    if iszero(or(gt(add(x, most), shl(1, most)), gt(add(y, most), shl(1, most)))) {
+                        point := shl(64, add(sdiv(shl(SUBPIXEL_TO_POINT, y), w), POINT_BIAS))
+                        point := or(point, add(sdiv(shl(SUBPIXEL_TO_POINT, x), w), POINT_BIAS))
+                    }
                 }
-                default { x := UNBOUNDED }
             }
+        }
+    }
+
+    /// @dev The homogeneous place of a corner of a polygon.
+    function placeOf(Receiver memory receiver, uint256 corner) private pure returns (int256 x, int256 y, int256 w) {
+        unchecked {
+            int256[9] memory p = receiver.places;
+            (int256 a, int256 b, int256 c) = (loadSigned(corner), loadSigned(corner + 0x20), loadSigned(corner + 0x40));
+            return (a * p[0] + b * p[3] + c * p[6], a * p[1] + b * p[4] + c * p[7], a * p[2] + b * p[5] + c * p[8]);
+        }
+    }
+
+    function pointOf(Receiver memory receiver, uint256 corner) private pure returns (uint256 point) {
+        (int256 x, int256 y, int256 w) = placeOf(receiver, corner);
+        assembly ("memory-safe") {
+            point := shl(64, add(sdiv(shl(SUBPIXEL_TO_POINT, y), w), POINT_BIAS))
+            point := or(point, add(sdiv(shl(SUBPIXEL_TO_POINT, x), w), POINT_BIAS))
+        }
+    }
+
+    /// @dev What casts a shadow, without what is behind the face, and what casts none on the canvas or far around it.
+    /// @return polygon The address of its first corner; `end`: that after the last.
+    function clippedPolygon(Receiver memory receiver) private pure returns (uint256 polygon, uint256 end) {
+        unchecked {
+            polygon = receiver.planes + POLYGON_1;
+            end = polygon;
+            for (uint256 lane; lane != 3 * LANE; lane += LANE) {
+                for (uint256 i; i != 4; ++i) {
+                    uint256 lanes = load(receiver.planes + SIDES + 32 * i);
+                    storeSigned(end + 32 * i, int256((lanes >> lane) & LANE_MASK) - int256(LANE_TOP));
+                }
+                storeSigned(end + 0x60, -loadSigned(end + 0x60));
+                end += POLYGON_CORNER;
+            }
+            if (load(receiver.planes + IS_IN_FRONT) == 0) (polygon, end) = clip(receiver, polygon, end);
+            bool isPlain = true;
+            for (uint256 p = polygon; p != end; p += POLYGON_CORNER) {
+                (int256 x, int256 y, int256 w) = placeOf(receiver, p);
+                int256 sum = loadSigned(p) + loadSigned(p + 0x20) + loadSigned(p + 0x40);
+                int256 most = w << POINT_GUARD;
+                if (sum <= 0 || w <= 0 || x > most || -x > most || y > most || -y > most) isPlain = false;
+                storeSigned(p + 0x60, sum);
+            }
+            if (isPlain) return (polygon, end);
+            (polygon, end) = clip(receiver, polygon, end);
+            for (uint256 i; i != 4; ++i) {
+                for (uint256 p = polygon; p != end; p += POLYGON_CORNER) {
+                    (int256 x, int256 y, int256 w) = placeOf(receiver, p);
+                    if (i > 1) x = y;
+                    storeSigned(p + 0x60, (w << POINT_GUARD) + (i & 1 == 0 ? x : -x));
+                }
+                (polygon, end) = clip(receiver, polygon, end);
+            }
+        }
+    }
+
+    /// @dev The part of a convex polygon that is not below 0 in the distances of its corners, as the other one of the two polygons.
+    function clip(Receiver memory receiver, uint256 polygon, uint256 polygonEnd) private pure returns (uint256 begin, uint256 end) {
+        unchecked {
+            begin = receiver.planes + POLYGON_1;
+            if (polygon == begin) begin = receiver.planes + POLYGON_2;
+            end = begin;
+            uint256 a = polygonEnd - POLYGON_CORNER;
+            for (uint256 b = polygon; b != polygonEnd; b += POLYGON_CORNER) {
+                (int256 m, int256 n) = (loadSigned(a + 0x60), loadSigned(b + 0x60));
+                bool isInside = n >= 0;
+                if (m < 0 == isInside) {
+                    // the same for both faces that share the edge
+                    uint256 outer = b;
+                    if (isInside) (a, outer, m, n) = (b, a, n, m);
+                    int256 i = loadSigned(outer) * m - loadSigned(a) * n;
+                    int256 j = loadSigned(outer + 0x20) * m - loadSigned(a + 0x20) * n;
+                    int256 k = loadSigned(outer + 0x40) * m - loadSigned(a + 0x40) * n;
+                    uint256 shift = excess(magnitude(i) | magnitude(j) | magnitude(k), VALUE_BITS);
+                    storeSigned(end, i >> shift);
+                    storeSigned(end + 0x20, j >> shift);
+                    storeSigned(end + 0x40, k >> shift);
+                    end += POLYGON_CORNER;
+                }
+                if (isInside) {
+                    assembly ("memory-safe") {
+                        mcopy(end, b, 0x60)
+                    }
+                    end += POLYGON_CORNER;
+                }
+                a = b;
+            }
+        }
+    }
+
+    /// @dev Adds an edge from one place to another; the shadow is to the right of those that go up.
+    function addEdge(Receiver memory receiver, uint256 a, uint256 b) private pure {
+        unchecked {
+            (uint256 top, uint256 bottom) = (receiver.top, receiver.bottom);
+            (uint256 first, uint256 end) = (rowOf(a, top, bottom), rowOf(b, top, bottom));
+            if (first == end || ((a & POINT_MASK) > receiver.right && (b & POINT_MASK) > receiver.right)) return;
+            uint256 more = type(uint256).max;
+            if (first > end) (a, b, more) = (b, a, 1);
+            uint256 key = (a << 128) | b;
+            uint256 chain = receiver.chains + 32 * (key % CHAINS);
+            uint256 edge = load(chain);
+            while (edge != 0 && load(edge) != key) edge = load(edge + EDGE_NEXT);
+            if (edge == 0) {
+                edge = freeMemory();
+                setFreeMemory(edge + EDGE_SIZE);
+                store(edge, key);
+                store(edge + EDGE_COUNT, more);
+                store(edge + EDGE_NEXT, load(chain));
+                store(edge + EDGE_BEFORE, receiver.last);
+                store(chain, edge);
+                receiver.last = edge;
+            } else {
+                store(edge + EDGE_COUNT, load(edge + EDGE_COUNT) + more);
+            }
+        }
+    }
+
+    /// @dev The first row of samples that is not above a place, but not before `top`, nor behind `bottom`.
+    function rowOf(uint256 point, uint256 top, uint256 bottom) private pure returns (uint256 row) {
+        assembly ("memory-safe") {
+            row := shr(ROW_SHIFT, add(shr(64, point), ROW_UP))
+            if lt(row, top) { row := top }
+            if gt(row, bottom) { row := bottom }
+        }
+    }
+
+    /// @notice Forgets all edges.
+    function clear(Receiver memory receiver) internal pure {
+        unchecked {
+            for (uint256 edge = receiver.last; edge != 0; edge = load(edge + EDGE_BEFORE)) {
+                store(receiver.chains + 32 * (load(edge) % CHAINS), 0);
+            }
+            setFreeMemory(receiver.begin);
+        }
+    }
+
+    /// @notice Writes the edges that are left, ordered by the first row of pixels.
+    /// @param heads A word for each row of pixels, 0.
+    /// @return list The address of the size of the list, behind which it stands; 0 if nothing is left.
+    function finish(Receiver memory receiver, uint256 heads) internal pure returns (uint256 list) {
+        unchecked {
+            uint256 count;
+            (uint256 top, uint256 bottom) = (receiver.top, receiver.bottom);
+            uint256 first = type(uint256).max;
+            // those of a row in front of one another, from the last on
+            for (uint256 edge = receiver.last; edge != 0; edge = load(edge + EDGE_BEFORE)) {
+                uint256 key = load(edge);
+                store(receiver.chains + 32 * (key % CHAINS), 0);
+                if (load(edge + EDGE_COUNT) == 0) continue;
+                uint256 head = heads + 32 * ((rowOf(key >> 128, top, bottom) - ROW_BIAS) >> 2);
+                store(edge + EDGE_NEXT, load(head));
+                store(head, edge);
+                if (head < first) first = head;
+                ++count;
+            }
+            uint256 begin = freeMemory();
+            uint256 end = begin;
+            for (; count != 0; first += 32) {
+                uint256 edge = load(first);
+                if (edge == 0) continue;
+                store(first, 0);
+                for (; edge != 0; edge = load(edge + EDGE_NEXT)) {
+                    --count;
+                    int256 more = loadSigned(edge + EDGE_COUNT);
+                    uint256 word = wordOf(load(edge), top, bottom);
+                    if (more < 0) (word, more) = (word | 1, -more);
+                    for (; more != 0; --more) {
+                        store(end, word);
+                        end += 32;
+                    }
+                }
+            }
+            list = receiver.begin;
+            uint256 size = end - begin;
+            if (size == 0) {
+                setFreeMemory(list);
+                return 0;
+            }
+            store(begin - 32, size);
+            assembly ("memory-safe") {
+                mcopy(list, sub(begin, 0x20), add(size, 0x20))
+            }
+            setFreeMemory(list + size + 32);
+        }
+    }
+
+    /// @dev The word of an edge with these ends.
+    function wordOf(uint256 key, uint256 top, uint256 bottom) private pure returns (uint256 word) {
+        unchecked {
+            (uint256 a, uint256 b) = (key >> 128, key & type(uint128).max);
+            word = ((rowOf(a, top, bottom) - ROW_BIAS) << TOP_AT) | ((rowOf(b, top, bottom) - ROW_BIAS) << BOTTOM_AT);
+            int256 x = int256(a & POINT_MASK) - int256(POINT_BIAS);
+            int256 y = int256(a >> 64) - int256(POINT_BIAS);
+            int256 dx = int256(b & POINT_MASK) - int256(POINT_BIAS) - x;
+            int256 dy = int256(b >> 64) - int256(POINT_BIAS) - y;
+            int256 constant_ = y * dx - x * dy;
+            (x, y) = (dy << EIGHTH, -dx << EIGHTH);
+            uint256 most = magnitude(y);
+            if (uint256(x) > most) most = uint256(x);
+            uint256 shift = excess(most, EDGE_BITS);
+            (x, y, constant_) = (x >> shift, y >> shift, constant_ >> shift);
+            word |= (uint256(x) << X_AT) | ((uint256(y) & LANE_48) << Y_AT) | ((uint256(constant_) & LANE_64) << CONSTANT_AT);
         }
     }
 }

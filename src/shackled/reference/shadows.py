@@ -16,7 +16,7 @@ from .mesh import Mesh, open_mesh
 from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted
-from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
+from .shadow_table import DARK, LIT, Edge, Entry, Table
 from .structs import CULL_BACKFACES, FLAT, POINT, SMOOTH, UNLIT, WIREFRAME, Canvas, Scene
 from .vector import Vector, cross, normalize, scale, subtract, to_matrix, transposed_times
 from .view import View
@@ -37,12 +37,11 @@ WIDEST = 2 << 16
 VALUE_BITS = 83
 #: Bits of the distances of vertices, and of other homogeneous coordinates.
 DISTANCE_BITS, CLIP_BITS = 38, 60
-#: Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
-GRADIENT_BITS, BOUND = 44, 1 << 60
-#: More than what rounding takes from a function anywhere on the canvas.
-SLACK = 1 << 16
-#: Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
-WIDER = 112
+#: Places on the canvas: whole numbers with so many bits below the pixel; in sub-pixels they are below 2 to this.
+POINT_BITS, GUARD = 20, 22
+Point = tuple[int, int]
+#: Bits of the change of the function of an edge per eighth of a pixel.
+EDGE_BITS = 40
 
 
 @dataclass(frozen=True)
@@ -371,9 +370,8 @@ def fitted(rows: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
 
 
 def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
-    """Return LIT, DARK, or what shades parts of a face."""
-    shadows: list[Shadow] = []
-    homogeneous: list[Vector] = []
+    """Return LIT, DARK, or the edges of what shades parts of a face."""
+    outlines: Outlines | None = None
     for caster in casters:
         if caster is face or not may_shade(caster, face):
             continue
@@ -383,28 +381,25 @@ def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: V
         sides = [values(plane, caster.corners) for plane in face.planes[:3]]
         if any(max(side) <= 0 for side in sides):
             continue
-        lanes = [values(plane, face.corners) for plane in caster.planes]
-        if max(heights) <= 0:
-            # it is in front of the face: all that is inside its sides is behind it as well
-            lanes[3] = (0, 0, 0)
-        if any(max(lane) <= 0 for lane in lanes[:3]) or min(lanes[3]) < 0 >= max(lanes[3]):
+        # what is in front of the face is in front of all that is inside its sides
+        planes = caster.planes[:3] if max(heights) <= 0 else caster.planes
+        lanes = [values(plane, face.corners) for plane in planes]
+        if any(max(lane) <= 0 for lane in lanes):
             continue
         if all(min(lane) >= 0 for lane in lanes):
             return DARK
-        sides, lanes = fitted(sides), [each for lane in lanes for each in fitted([lane])]
-        if not homogeneous:
-            homogeneous = canvas_places(scene, face, mesh, view, registers)
-        shadow = shadow_on(homogeneous, sides, lanes, scene.canvas)
-        if shadow is not None:
-            if not shadow.functions:
-                return DARK
-            shadows.append(shadow)
-    return sorted(shadows, key=lambda each: each.top) or LIT
+        if outlines is None:
+            outlines = Outlines(scene.canvas, *canvas_places(scene, face, mesh, view, registers))
+        a, b, c = fitted(sides)
+        outlines.add(list(zip(a, b, c, strict=True)), fitted([heights])[0], face.side > 0, caster.side > 0)
+    return (outlines.edges() if outlines else []) or LIT
 
 
-def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers) -> list[Vector]:
-    """Return the corners of a face on the canvas: column and row in sub-pixels, and the distance, by all of which they
-    are multiplied.
+def canvas_places(
+    scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers
+) -> tuple[list[Vector], list[Point] | None]:
+    """Return the corners of a face on the canvas: column and row in sub-pixels, and the distance, by which both are
+    multiplied; and column and row alone, None if a corner is nearer than the near plane or far beyond the canvas.
     """
     thing = scene.objects[face.object]
     transform.set_matrix(view, thing, to_matrix(thing.rotation), registers)
@@ -416,69 +411,102 @@ def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: R
         w >= registers.near and max(x, y) < d * limit and min(x, y) >= 0
         for (x, y, w), d in zip(clip, distances, strict=True)
     ):
-        if view.orthographic:
-            return [((x >> 32) - bias, (y >> 32) - bias, 1) for x, y, _ in clip]
-        shift = max(max(distances).bit_length() - DISTANCE_BITS, 0)
-        return [
-            ((divide(x, w) - bias) * (w >> shift), (divide(y, w) - bias) * (w >> shift), w >> shift) for x, y, w in clip
-        ]
-    # nearer than the near plane, or far beyond the canvas
+        shift = 32 if view.orthographic else max(max(distances).bit_length() - DISTANCE_BITS, 0)
+        points = [(divide(x, w) - bias, divide(y, w) - bias) for (x, y, _), w in zip(clip, distances, strict=True)]
+        weights = [w >> shift for w in distances]
+        return [(x * w, y * w, w) for (x, y), w in zip(points, weights, strict=True)], points
     places = [(x - bias * d, y - bias * d, d) for (x, y, _), d in zip(clip, distances, strict=True)]
     shift = max(max(abs(k) for place in places for k in place).bit_length() - CLIP_BITS, 0)
-    return [(x >> shift, y >> shift, w >> shift) for x, y, w in places]
+    return [(x >> shift, y >> shift, w >> shift) for x, y, w in places], None
 
 
-def shadow_on(
-    places: Sequence[Vector],
-    sides: Sequence[tuple[int, int, int]],
-    lanes: Sequence[tuple[int, int, int]],
-    canvas: Canvas,
-) -> Shadow | None:
-    """Return the shadow of a face on another; None if none of it is on the canvas.
+class Outlines:
+    """The edges of all shadows on a face.
 
-    places: of the receiving face on the canvas, homogeneous. sides: its sides, at the corners of what casts the shadow.
-    lanes: the functions of that at the corners of the receiving face.
+    A sample is in a shadow if more of them begin than end to the left of it. Where two shadows meet, one ends and
+    the other begins: neither edge is kept.
     """
-    weights = [product(places[(k + 1) % 3], places[(k + 2) % 3]) for k in range(3)]
-    determinant = inner(weights[0], places[0])
-    if determinant == 0:
-        return None
-    top, bottom = bounds_of(places, sides, 1, canvas.height)
-    left, right = bounds_of(places, sides, 0, canvas.width)
-    if top >= bottom or left >= right:
-        return None
-    functions = []
-    for number, lane in enumerate(lanes):
-        if min(lane) >= 0:
-            continue
-        x, y, constant = (
-            sum(value * weight[axis] for value, weight in zip(lane, weights, strict=True)) for axis in range(3)
-        )
-        if determinant < 0:
-            x, y, constant = -x, -y, -constant
-        x, y = x << 5, y << 5
-        shift = max(max(abs(x), abs(y)).bit_length() - GRADIENT_BITS, 0)
-        x, y, constant = x >> shift, y >> shift, constant >> shift
-        if number < 3:
-            # neighbours overlap, so that rounding makes no cracks
-            constant += SLACK
-        if constant <= -BOUND:
-            return None
-        if constant < BOUND:
-            functions.append(Function(x, y, constant))
-    return Shadow(top, bottom, left, right, tuple(functions))
+
+    def __init__(self, canvas: Canvas, places: list[Vector], points: list[Point] | None) -> None:
+        """Take the corners of the face: see canvas_places."""
+        self.places = places
+        self.determinant = inner(product(places[0], places[1]), places[2])
+        self.top, self.bottom, self.right = 0, 4 * canvas.height, canvas.width << POINT_BITS
+        if points is not None:
+            low, high = (f(y for _, y in points) for f in (min, max))
+            self.top = max(first_row((low - 2) << 12), 0)
+            self.bottom = min(first_row((high + 2) << 12), self.bottom)
+            self.right = min(self.right, (max(x for x, _ in points) + 2 << 12) + (1 << POINT_BITS))
+        #: By the places of both ends, the upper first: how many more shadows begin at an edge than end.
+        self.counts: dict[tuple[Point, Point], int] = {}
+
+    def add(self, corners: list[Vector], heights: tuple[int, int, int], face_is_turned: bool, is_turned: bool) -> None:
+        """Add the shadow of a face.
+
+        corners: of what casts it, by their sides of the face that receives it. heights: above 0 behind that.
+        """
+        if self.determinant == 0:
+            return
+        if max(heights) > 0:
+            corners = clipped(corners, [-height for height in heights])
+        if not all(map(self._is_plain, corners)):
+            corners = clipped(corners, [sum(corner) for corner in corners])
+            for axis in (0, 1):
+                for sign in (1, -1):
+                    places = [self._place(corner) for corner in corners]
+                    corners = clipped(corners, [(place[2] << GUARD) + sign * place[axis] for place in places])
+        points = [self._point(corner) for corner in corners]
+        is_flipped = face_is_turned ^ is_turned ^ (self.determinant < 0)
+        for k, b in enumerate(points):
+            self._add_edge(*((b, points[k - 1]) if is_flipped else (points[k - 1], b)))
+
+    def _add_edge(self, a: Point, b: Point) -> None:
+        first, end = sorted(min(max(first_row(y), self.top), self.bottom) for _, y in (a, b))
+        if first == end or min(a[0], b[0]) > self.right:
+            return
+        is_down = a[1] < b[1]
+        key = (a, b) if is_down else (b, a)
+        self.counts[key] = self.counts.get(key, 0) + (-1 if is_down else 1)
+
+    def _place(self, sides: Vector) -> Vector:
+        x, y, w = (sum(side * place[k] for side, place in zip(sides, self.places, strict=True)) for k in range(3))
+        return x, y, w
+
+    def _is_plain(self, sides: Vector) -> bool:
+        x, y, w = self._place(sides)
+        return sum(sides) > 0 and w > 0 and max(abs(x), abs(y)) <= w << GUARD
+
+    def _point(self, sides: Vector) -> Point:
+        x, y, w = self._place(sides)
+        return (divide_signed(x << 12, w), divide_signed(y << 12, w)) if w else (0, 0)
+
+    def edges(self) -> list[Edge]:
+        """Return the edges that are left, ordered by the first row of pixels."""
+        found = []
+        for (a, b), count in self.counts.items():
+            top, bottom = (min(max(first_row(y), self.top), self.bottom) for _, y in (a, b))
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            x, y, constant = dy << 17, -dx << 17, a[1] * dx - a[0] * dy
+            shift = max(max(x, abs(y)).bit_length() - EDGE_BITS, 0)
+            edge = Edge(top, bottom, 1 if count > 0 else -1, x >> shift, y >> shift, constant >> shift)
+            found += [edge] * abs(count)
+        return sorted(found, key=lambda each: each.top >> 2)
 
 
-def bounds_of(places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], axis: int, size: int) -> tuple[int, int]:
-    """Return the columns (axis 0) or rows (1) of the canvas in which a shadow may be: the first, and the one after the
-    last.
-    """
+def first_row(y: int) -> int:
+    """Return the first row of samples that is not above a place."""
+    return y + (5 << 17) - 1 >> 18
+
+
+def clipped(corners: list[Vector], distances: Sequence[int]) -> list[Vector]:
+    """Return the part of a convex polygon that is not below 0 in a distance."""
     found = []
-    for corner in range(3):
-        weights = [side[corner] for side in sides]
-        w = sum(weight * place[2] for weight, place in zip(weights, places, strict=True))
-        if sum(weights) <= 0 or w <= 0:
-            return 0, size
-        value = sum(weight * place[axis] for weight, place in zip(weights, places, strict=True))
-        found.append(divide_signed(value, w))
-    return max((min(found) - WIDER) >> 8, 0), min(((max(found) + WIDER) >> 8) + 1, size)
+    for k, (b, q) in enumerate(zip(corners, distances, strict=True)):
+        a, p = corners[k - 1], distances[k - 1]
+        if (p < 0) != (q < 0):
+            # the same for both faces that share the edge
+            (i, m), (o, n) = ((a, p), (b, q)) if q < 0 else ((b, q), (a, p))
+            found += fitted([(o[0] * m - i[0] * n, o[1] * m - i[1] * n, o[2] * m - i[2] * n)])
+        if q >= 0:
+            found.append(b)
+    return found
