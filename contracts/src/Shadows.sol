@@ -84,7 +84,10 @@ contract Shadows is SceneErrors {
                 LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
                 setEye(scene, view_, state);
                 readFaces(scene, state, rule);
-                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
+                Receiver memory receiver;
+                (receiver.isPoint, receiver.chains) = (state.frame.isPoint, state.chains);
+                Receivers.open(receiver);
+                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, receiver, i);
             } else {
                 readFaces(scene, state, 0);
             }
@@ -252,7 +255,10 @@ contract Shadows is SceneErrors {
     }
 
     /// @dev Sets the entries of the faces of an object.
-    function shadeObject(Scene calldata scene, View memory view_, State memory state, uint256 index) private pure {
+    function shadeObject(Scene calldata scene, View memory view_, State memory state, Receiver memory receiver, uint256 index)
+        private
+        pure
+    {
         unchecked {
             Object calldata object = scene.objects[index];
             Mesh memory mesh = openMesh(object.mesh);
@@ -263,10 +269,6 @@ contract Shadows is SceneErrors {
                     mcopy(MESH_VERTICES, mesh, 0xc0)
                 }
             }
-            Receiver memory receiver;
-            receiver.planes = freeMemory();
-            setFreeMemory(receiver.planes + RECEIVER_SIZE);
-            receiver.chains = state.chains;
             uint256 source = mesh.faces;
             bool isFlat = object.material.shading == FLAT;
             bool isCulled = object.flags & CULL_BACKFACES != 0;
@@ -362,15 +364,15 @@ contract Shadows is SceneErrors {
                 }
                 if (bits != 0 && !isSet) {
                     isSet = true;
-                    Receivers.setFace(receiver, face, state.frame.isPoint);
+                    Receivers.setFace(receiver, face);
                 }
                 while (bits != 0) {
                     uint256 caster;
                     (caster, bits) = Receivers.next(receiver, bits, state.casters + 8 * CASTER_SIZE * offset);
                     if (caster == 0) break;
-                    uint256 plane = state.planes + PLANES_SIZE / CASTER_SIZE * (caster - state.casters);
+                    uint256 plane = state.planes + PLANES_SIZE * ((caster - state.casters) / CASTER_SIZE);
                     caster = load(caster);
-                    uint256 shade = Receivers.test(receiver, caster, plane, state.frame.isPoint);
+                    uint256 shade = Receivers.test(receiver, caster, plane);
                     if (shade == MISSED) continue;
                     if (shade == COVERED) {
                         Receivers.clear(receiver);

@@ -28,11 +28,11 @@ uint256 constant BOX_MASK = 0xffffffffffffffff;
 /// @dev The highest bit of each lane of the ranges of a vertex.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
-/// @dev Four functions of x, y and z with a constant: the sides, each opposite to a corner, and what lies behind the face. All are positive
-/// in shadow.
-uint256 constant PLANE_SIZE = 0x80;
-uint256 constant PLANES_SIZE = 0x200;
-uint256 constant BEHIND = 0x180;
+/// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for a
+/// point light, else a constant; and what lies behind the face, with the factors of x, y and z and a constant.
+uint256 constant SIDE_SIZE = 0x60;
+uint256 constant BEHIND = 0x120;
+uint256 constant PLANES_SIZE = 0x1a0;
 
 /// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes as
 /// many products for three corners as for one.
@@ -201,21 +201,6 @@ library Faces {
         }
     }
 
-    /// @notice The place of the lowest bit of a word that is not zero.
-    function lowestBit(uint256 bits) internal pure returns (uint256 place) {
-        assembly ("memory-safe") {
-            bits := and(bits, sub(0, bits))
-            place := shl(7, lt(0xffffffffffffffffffffffffffffffff, bits))
-            place := or(place, shl(6, lt(0xffffffffffffffff, shr(place, bits))))
-            place := or(place, shl(5, lt(0xffffffff, shr(place, bits))))
-            place := or(place, shl(4, lt(0xffff, shr(place, bits))))
-            place := or(place, shl(3, lt(0xff, shr(place, bits))))
-            place := or(place, shl(2, lt(0xf, shr(place, bits))))
-            place := or(place, shl(1, lt(0x3, shr(place, bits))))
-            place := or(place, lt(1, shr(place, bits)))
-        }
-    }
-
     /// @notice Writes the coordinates of three corners as lanes.
     /// @param corners The first word of the record of a face.
     function pack(uint256 target, uint256 corners) internal pure {
@@ -238,8 +223,8 @@ library Faces {
             uint256 c = (corners >> FACE_C_AT) & ADDRESS_MASK;
             int256 sign = loadSigned(face + FACE_SIDE) > 0 ? int256(1) : int256(-1);
             writeSide(plane, b, c, sign, isPoint);
-            writeSide(plane + PLANE_SIZE, c, a, sign, isPoint);
-            writeSide(plane + 2 * PLANE_SIZE, a, b, sign, isPoint);
+            writeSide(plane + SIDE_SIZE, c, a, sign, isPoint);
+            writeSide(plane + 2 * SIDE_SIZE, a, b, sign, isPoint);
             assembly ("memory-safe") {
                 plane := add(plane, BEHIND)
                 sign := sub(0, sign)
@@ -263,16 +248,9 @@ library Faces {
             let qy := mload(add(q, 0x20))
             switch isPoint
             case 0 {
-                px := mul(sign, px)
-                py := mul(sign, py)
-                qx := mul(sign, qx)
-                qy := mul(sign, qy)
-                let x := sub(py, qy)
-                let y := sub(qx, px)
-                mstore(plane, x)
-                mstore(add(plane, 0x20), y)
-                mstore(add(plane, 0x40), 0)
-                mstore(add(plane, 0x60), mul(sign, sub(mul(px, qy), mul(py, qx))))
+                mstore(plane, mul(sign, sub(py, qy)))
+                mstore(add(plane, 0x20), mul(sign, sub(qx, px)))
+                mstore(add(plane, 0x40), mul(sign, sub(mul(px, qy), mul(py, qx))))
             }
             default {
                 let pz := mload(add(p, 0x40))
@@ -280,25 +258,7 @@ library Faces {
                 mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
                 mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
                 mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
-                mstore(add(plane, 0x60), 0)
             }
-        }
-    }
-
-    /// @notice A function at the corners of a face.
-    /// @param corners The first word of its record.
-    function values(uint256 plane, uint256 corners) internal pure returns (int256 a, int256 b, int256 c) {
-        assembly ("memory-safe") {
-            let x := mload(plane)
-            let y := mload(add(plane, 0x20))
-            let z := mload(add(plane, 0x40))
-            plane := mload(add(plane, 0x60))
-            let p := and(corners, ADDRESS_MASK)
-            a := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
-            p := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
-            b := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
-            p := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
-            c := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
         }
     }
 }

@@ -17,7 +17,8 @@ import {
     LANE_ONES,
     LANE_TOP,
     LANE_TOPS,
-    PLANE_SIZE
+    PLANES_SIZE,
+    SIDE_SIZE
 } from "./Faces.sol";
 
 // What shades a face: the edges of all shadows on it. A sample is in a shadow if more of them begin than end to the left of it. Where two
@@ -50,10 +51,15 @@ uint256 constant DISTANCE_BITS = 38;
 uint256 constant CLIP_BITS = 60;
 /// @dev Bits of the change of the function of an edge per eighth of a pixel.
 uint256 constant EDGE_BITS = 40;
-/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes.
+/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes. Those of a wider one are divided by a power of
+/// two: factors have WIDE_BITS then, constants CONSTANT_BITS more, without the sign.
 uint256 constant NARROW_BITS = 27;
-/// @dev Bits of values in lanes without the sign; others are divided by a power of two.
+uint256 constant WIDE_BITS = 60;
+uint256 constant CONSTANT_BITS = 22;
+/// @dev Bits of the coordinates of corners that are made where polygons are cut.
 uint256 constant VALUE_BITS = 83;
+/// @dev The place of a bit of a word is the byte that the remainder of that word tells in a table.
+uint256 constant BIT_REMAINDERS = 269;
 
 /// @dev A place on the canvas: the row in the upper half of 128 bits, the column in the lower one, whole numbers with so many bits below the
 /// pixel, and POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
@@ -79,20 +85,21 @@ uint256 constant EDGE_BEFORE = 0x60;
 uint256 constant CHAINS = 509;
 
 /// @dev What stands behind the functions of the face that receives shadows: its coordinates; of what may shade it the corners by its sides,
-/// and how far behind it they are, lanes; 1 if none of them is, else 0; and two polygons.
-uint256 constant OWN_COORDINATES = 0x200;
-uint256 constant SIDES = 0x260;
-uint256 constant HEIGHTS = 0x2c0;
-uint256 constant IS_IN_FRONT = 0x2e0;
-uint256 constant POLYGON_1 = 0x300;
-uint256 constant POLYGON_2 = 0x780;
-uint256 constant RECEIVER_SIZE = 0xc00;
+/// and how far behind it they are, lanes; 1 if none of them is, else 0; two polygons; and the table of bits.
+uint256 constant OWN_COORDINATES = 0x1a0;
+uint256 constant SIDES = 0x200;
+uint256 constant HEIGHTS = 0x260;
+uint256 constant IS_IN_FRONT = 0x280;
+uint256 constant POLYGON_1 = 0x2a0;
+uint256 constant POLYGON_2 = 0x720;
+uint256 constant BIT_TABLE = 0xba0;
+uint256 constant RECEIVER_SIZE = 0xce0;
 /// @dev A corner of a polygon: by the sides of the face, and its distance from a boundary.
 uint256 constant POLYGON_CORNER = 0x80;
 
 /// @notice What is known of the face that receives shadows.
 /// @param planes Its functions, and what stands behind them.
-/// @param corners The first word of its record.
+/// @param isPoint Whether the light is a point light.
 /// @param isWide Whether its functions do not fit lanes: it is much larger than what casts shadows.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
 /// @param isVisible Whether it is not seen edge-on.
@@ -102,7 +109,7 @@ uint256 constant POLYGON_CORNER = 0x80;
 /// @param begin Where the edges begin.
 struct Receiver {
     uint256 planes;
-    uint256 corners;
+    bool isPoint;
     bool isWide;
     bool isPlaced;
     bool isVisible;
@@ -121,16 +128,28 @@ uint256 constant COVERED = 1;
 uint256 constant MIXED_SHADOW = 2;
 
 library Receivers {
+    /// @notice Writes what is the same for all faces.
+    function open(Receiver memory receiver) internal pure {
+        unchecked {
+            receiver.planes = freeMemory();
+            setFreeMemory(receiver.planes + RECEIVER_SIZE);
+            uint256 table = receiver.planes + BIT_TABLE;
+            assembly ("memory-safe") {
+                for { let i := 0 } lt(i, 256) { i := add(i, 1) } { mstore8(add(table, mod(shl(i, 1), BIT_REMAINDERS)), i) }
+            }
+        }
+    }
+
     /// @notice Begins with a face.
     /// @param face Its record.
-    function setFace(Receiver memory receiver, uint256 face, bool isPoint) internal pure {
+    function setFace(Receiver memory receiver, uint256 face) internal pure {
         unchecked {
             uint256 corners = load(face);
-            (receiver.corners, receiver.isPlaced) = (corners, false);
+            receiver.isPlaced = false;
             (receiver.last, receiver.begin) = (0, freeMemory());
             receiver.isFlipped = loadSigned(face + FACE_SIDE) > 0;
             uint256 planes = receiver.planes;
-            Faces.writePlanes(face, isPoint, planes);
+            Faces.writePlanes(face, receiver.isPoint, planes);
             Faces.pack(planes + OWN_COORDINATES, corners);
             bool isWide;
             assembly ("memory-safe") {
@@ -143,88 +162,69 @@ library Receivers {
                 }
             }
             receiver.isWide = isWide;
+            if (isWide) {
+                fit(planes, planes + BEHIND, receiver.isPoint ? 0 : SIDE_SIZE);
+                fit(planes + BEHIND, planes + PLANES_SIZE, PLANES_SIZE - BEHIND);
+            }
+        }
+    }
+
+    /// @dev Divides functions by a power of two, so that they fit lanes.
+    /// @param size Of those that end with a constant, else 0.
+    function fit(uint256 begin, uint256 end, uint256 size) private pure {
+        unchecked {
+            uint256 most;
+            for (uint256 p = begin; p != end; p += 32) {
+                bool isConstant = size != 0 && (p + 32 - begin) % size == 0;
+                most |= magnitude(loadSigned(p)) >> (isConstant ? CONSTANT_BITS : 0);
+            }
+            uint256 shift = excess(most, WIDE_BITS);
+            for (uint256 p = begin; p != end; p += 32) storeSigned(p, loadSigned(p) >> shift);
         }
     }
 
     /// @notice The next of up to 256 faces that may shade the one of the receiver: it is in front of it, and inside its sides.
     /// @param bits Which of them may be.
     /// @param casters The address of the first.
-    /// @return caster The address of the one that was found; then its corners are in SIDES; or 0.
+    /// @return caster The address of the one that was found; then its corners are in SIDES and HEIGHTS; or 0.
     /// @return rest The bits of those behind it.
     function next(Receiver memory receiver, uint256 bits, uint256 casters) internal pure returns (uint256 caster, uint256 rest) {
-        unchecked {
-            uint256 planes = receiver.planes;
-            bool isWide = receiver.isWide;
-            for (; bits != 0; bits &= bits - 1) {
-                caster = casters + CASTER_SIZE * Faces.lowestBit(bits);
-                if (isWide ? isBeforeWide(planes, load(load(caster))) : isBefore(planes, caster)) return (caster, bits & (bits - 1));
-            }
-            return (0, 0);
-        }
-    }
-
-    function isBefore(uint256 planes, uint256 caster) private pure returns (bool found) {
+        uint256 own = receiver.planes;
+        bool isPoint = receiver.isPoint;
         assembly ("memory-safe") {
-            let x := mload(add(caster, 0x20))
-            let y := mload(add(caster, 0x40))
-            let z := mload(add(caster, 0x60))
-            let p := add(planes, BEHIND)
-            let v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
-            v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
-            // not all are behind it
-            if sub(and(v, LANE_TOPS), LANE_TOPS) {
-                found := 1
-                mstore(add(planes, HEIGHTS), v)
-                mstore(add(planes, IS_IN_FRONT), iszero(and(sub(v, LANE_ONES), LANE_TOPS)))
-                p := planes
-                for { let target := add(planes, SIDES) } lt(p, add(planes, BEHIND)) { target := add(target, 0x20) } {
-                    v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
-                    v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
-                    // all are at most 0
-                    if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
-                        found := 0
-                        break
-                    }
-                    mstore(target, v)
-                    p := add(p, PLANE_SIZE)
-                }
+            for {} bits {} {
+                let place_ := and(bits, sub(0, bits))
+                bits := xor(bits, place_)
+                place_ := and(mload(add(add(own, sub(BIT_TABLE, 31)), mod(place_, BIT_REMAINDERS))), 0xff)
+                caster := add(casters, mul(CASTER_SIZE, place_))
+                let x := mload(add(caster, 0x20))
+                let y := mload(add(caster, 0x40))
+                let z := mload(add(caster, 0x60))
+                let p := add(own, BEHIND)
+                let v := add(mul(x, mload(p)), mul(y, mload(add(p, 0x20))))
+                v := add(add(v, mul(z, mload(add(p, 0x40)))), add(mul(LANE_ONES, mload(add(p, 0x60))), LANE_TOPS))
+                // all are behind it
+                if eq(and(v, LANE_TOPS), LANE_TOPS) { continue }
+                mstore(add(own, HEIGHTS), v)
+                mstore(add(own, IS_IN_FRONT), iszero(and(sub(v, LANE_ONES), LANE_TOPS)))
+                if iszero(isPoint) { z := LANE_ONES }
+                v := add(add(mul(x, mload(own)), mul(y, mload(add(own, 0x20)))), add(mul(z, mload(add(own, 0x40))), LANE_TOPS))
+                // all are at most 0
+                if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) { continue }
+                mstore(add(own, SIDES), v)
+                v := add(mul(x, mload(add(own, 0x60))), mul(y, mload(add(own, 0x80))))
+                v := add(v, add(mul(z, mload(add(own, 0xa0))), LANE_TOPS))
+                if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) { continue }
+                mstore(add(add(own, SIDES), 0x20), v)
+                v := add(mul(x, mload(add(own, 0xc0))), mul(y, mload(add(own, 0xe0))))
+                v := add(v, add(mul(z, mload(add(own, 0x100))), LANE_TOPS))
+                if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) { continue }
+                mstore(add(add(own, SIDES), 0x40), v)
+                rest := 1
+                break
             }
-        }
-    }
-
-    /// @dev The same with numbers that do not fit lanes.
-    function isBeforeWide(uint256 planes, uint256 corners) private pure returns (bool) {
-        unchecked {
-            int256[9] memory all;
-            (int256 a, int256 b, int256 c) = Faces.values(planes + BEHIND, corners);
-            if (a | b | c >= 0) return false;
-            store(planes + IS_IN_FRONT, a <= 0 && b <= 0 && c <= 0 ? 1 : 0);
-            store(planes + HEIGHTS, fitted(a, b, c));
-            uint256 most;
-            for (uint256 i; i != 9; i += 3) {
-                (a, b, c) = Faces.values(planes + PLANE_SIZE * (i / 3), corners);
-                if (a <= 0 && b <= 0 && c <= 0) return false;
-                (all[i], all[i + 1], all[i + 2]) = (a, b, c);
-                most |= magnitude(a) | magnitude(b) | magnitude(c);
-            }
-            uint256 shift = excess(most, VALUE_BITS);
-            for (uint256 i; i != 3; ++i) {
-                store(planes + SIDES + 32 * i, lanesOf(all[3 * i] >> shift, all[3 * i + 1] >> shift, all[3 * i + 2] >> shift));
-            }
-            return true;
-        }
-    }
-
-    function lanesOf(int256 a, int256 b, int256 c) private pure returns (uint256) {
-        unchecked {
-            return uint256(a + (b << LANE) + (c << (2 * LANE))) + LANE_TOPS;
-        }
-    }
-
-    function fitted(int256 a, int256 b, int256 c) private pure returns (uint256) {
-        unchecked {
-            uint256 shift = excess(magnitude(a) | magnitude(b) | magnitude(c), VALUE_BITS);
-            return lanesOf(a >> shift, b >> shift, c >> shift);
+            caster := mul(caster, rest)
+            rest := bits
         }
     }
 
@@ -232,42 +232,42 @@ library Receivers {
     /// @param caster Its record.
     /// @param plane Where its functions are, or may be written.
     /// @return MISSED, COVERED, or MIXED_SHADOW.
-    function test(Receiver memory receiver, uint256 caster, uint256 plane, bool isPoint) internal pure returns (uint256) {
+    function test(Receiver memory receiver, uint256 caster, uint256 plane) internal pure returns (uint256) {
         unchecked {
+            if (receiver.isWide) return MIXED_SHADOW;
+            bool isPoint = receiver.isPoint;
             uint256 first = load(caster);
             if (first & HAS_PLANES == 0) {
                 Faces.writePlanes(caster, isPoint, plane);
                 store(caster, first | HAS_PLANES);
             }
             uint256 own = receiver.planes;
-            // what is in front of the face is in front of all that is inside its sides
-            uint256 end = plane + PLANE_SIZE * (4 - load(own + IS_IN_FRONT));
             uint256 all = type(uint256).max;
-            if (receiver.isWide) {
-                for (; plane != end; plane += PLANE_SIZE) {
-                    (int256 a, int256 b, int256 c) = Faces.values(plane, receiver.corners);
-                    if (a <= 0 && b <= 0 && c <= 0) return MISSED;
-                    if (a | b | c < 0) all = 0;
+            bool isMissed;
+            assembly ("memory-safe") {
+                let x := mload(add(own, OWN_COORDINATES))
+                let y := mload(add(add(own, OWN_COORDINATES), 0x20))
+                let z := mload(add(add(own, OWN_COORDINATES), 0x40))
+                // what is in front of the face is in front of all that is inside its sides
+                if iszero(mload(add(own, IS_IN_FRONT))) {
+                    own := add(plane, BEHIND)
+                    all := add(mul(x, mload(own)), mul(y, mload(add(own, 0x20))))
+                    all := add(all, add(mul(z, mload(add(own, 0x40))), add(mul(LANE_ONES, mload(add(own, 0x60))), LANE_TOPS)))
+                    isMissed := iszero(and(sub(all, LANE_ONES), LANE_TOPS))
                 }
-            } else {
-                assembly ("memory-safe") {
-                    let x := mload(add(own, OWN_COORDINATES))
-                    let y := mload(add(add(own, OWN_COORDINATES), 0x20))
-                    let z := mload(add(add(own, OWN_COORDINATES), 0x40))
-                    for {} lt(plane, end) { plane := add(plane, PLANE_SIZE) } {
-                        let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
-                        v := add(add(v, mul(z, mload(add(plane, 0x40)))), add(mul(LANE_ONES, mload(add(plane, 0x60))), LANE_TOPS))
-                        all := and(all, v)
-                        // all are at most 0
-                        if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
-                            end := 0
-                            break
-                        }
+                if iszero(isPoint) { z := LANE_ONES }
+                for { own := add(plane, BEHIND) } lt(plane, own) { plane := add(plane, SIDE_SIZE) } {
+                    let v := add(mul(x, mload(plane)), mul(y, mload(add(plane, 0x20))))
+                    v := add(v, add(mul(z, mload(add(plane, 0x40))), LANE_TOPS))
+                    all := and(all, v)
+                    // all are at most 0
+                    if iszero(and(sub(v, LANE_ONES), LANE_TOPS)) {
+                        isMissed := 1
+                        break
                     }
                 }
-                if (end == 0) return MISSED;
             }
-            return all & LANE_TOPS == LANE_TOPS ? COVERED : MIXED_SHADOW;
+            return isMissed ? MISSED : all & LANE_TOPS == LANE_TOPS ? COVERED : MIXED_SHADOW;
         }
     }
 

@@ -33,7 +33,10 @@ Box = tuple[int, int, int, int, int, int]
 EVERYWHERE = (0, BUCKETS - 1) * 3
 #: A point light with a greater slope across what casts shadows is among that.
 WIDEST = 2 << 16
-#: Bits of the values of functions at corners of faces, without the sign.
+#: The functions of a face with coordinates of this magnitude, or a greater one, have factors of fewer bits.
+NARROW, WIDE_BITS = 1 << 26, 60
+Plane = tuple[int, int, int, int]
+#: Bits of the coordinates of corners that are made where polygons are cut.
 VALUE_BITS = 83
 #: Bits of the distances of vertices, and of other homogeneous coordinates.
 DISTANCE_BITS, CLIP_BITS = 38, 60
@@ -142,7 +145,7 @@ class Face:
     boxes: list[Box | None]
     normal: Vector
     side: int
-    planes: list[tuple[int, int, int, int]] = field(default_factory=list)
+    planes: list[Plane] = field(default_factory=list)
 
 
 def check_shadows(scene: Scene, records: Records) -> tuple[int, int] | None:
@@ -279,12 +282,12 @@ def face_of(frame: Frame, index: int, number: int, corners: Sequence[Vector]) ->
 
 def planes_of(
     corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool
-) -> list[tuple[int, int, int, int]]:
+) -> list[Plane]:
     """Return the sides, each opposite to a corner, and what lies behind: x, y, z and a constant of each.
 
     All are positive in the shadow.
     """
-    planes = []
+    planes: list[Plane] = []
     sign = 1 if side > 0 else -1
     for k in range(3):
         p, q = corners[(k + 1) % 3], corners[(k + 2) % 3]
@@ -357,41 +360,43 @@ def overlaps(caster: Box, face: Box) -> bool:
     return right >= x and left <= x_end and high >= y and low <= y_end and near >= z
 
 
-def values(plane: tuple[int, int, int, int], corners: Iterable[Vector]) -> tuple[int, int, int]:
+def values(plane: Plane, corners: Iterable[Vector]) -> tuple[int, int, int]:
     """Return a function at the corners of a face."""
     a, b, c = (inner(plane[:3], place) + plane[3] for place in corners)
     return a, b, c
 
 
-def fitted(rows: list[tuple[int, int, int]]) -> list[tuple[int, int, int]]:
-    """Return values divided by a power of two, 1 in most cases, so that all have VALUE_BITS bits."""
-    shift = max(max(abs(each) for row in rows for each in row).bit_length() - VALUE_BITS, 0)
-    return [(a >> shift, b >> shift, c >> shift) for a, b, c in rows]
+def shrunk(planes: Sequence[Plane]) -> list[Plane]:
+    """Return functions divided by a power of two, so that factors have WIDE_BITS bits, and constants 22 more."""
+    shift = max(max(max(abs(x), abs(y), abs(z), abs(w) >> 22).bit_length() for x, y, z, w in planes) - WIDE_BITS, 0)
+    return [(x >> shift, y >> shift, z >> shift, w >> shift) for x, y, z, w in planes]
 
 
 def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
     """Return LIT, DARK, or the edges of what shades parts of a face."""
     outlines: Outlines | None = None
+    is_wide = any(not -NARROW <= value < NARROW for corner in face.corners for value in corner)
+    own = shrunk(face.planes[:3]) + shrunk(face.planes[3:]) if is_wide else face.planes
     for caster in casters:
         if caster is face or not may_shade(caster, face):
             continue
-        heights = values(face.planes[3], caster.corners)
+        heights = values(own[3], caster.corners)
         if min(heights) >= 0:
             continue
-        sides = [values(plane, caster.corners) for plane in face.planes[:3]]
+        a, b, c = sides = [values(plane, caster.corners) for plane in own[:3]]
         if any(max(side) <= 0 for side in sides):
             continue
-        # what is in front of the face is in front of all that is inside its sides
-        planes = caster.planes[:3] if max(heights) <= 0 else caster.planes
-        lanes = [values(plane, face.corners) for plane in planes]
-        if any(max(lane) <= 0 for lane in lanes):
-            continue
-        if all(min(lane) >= 0 for lane in lanes):
-            return DARK
+        if not is_wide:
+            # what is in front of the face is in front of all that is inside its sides
+            planes = caster.planes[:3] if max(heights) <= 0 else caster.planes
+            lanes = [values(plane, face.corners) for plane in planes]
+            if any(max(lane) <= 0 for lane in lanes):
+                continue
+            if all(min(lane) >= 0 for lane in lanes):
+                return DARK
         if outlines is None:
             outlines = Outlines(scene.canvas, *canvas_places(scene, face, mesh, view, registers))
-        a, b, c = fitted(sides)
-        outlines.add(list(zip(a, b, c, strict=True)), fitted([heights])[0], face.side > 0, caster.side > 0)
+        outlines.add(list(zip(a, b, c, strict=True)), heights, face.side > 0, caster.side > 0)
     return (outlines.edges() if outlines else []) or LIT
 
 
@@ -506,7 +511,9 @@ def clipped(corners: list[Vector], distances: Sequence[int]) -> list[Vector]:
         if (p < 0) != (q < 0):
             # the same for both faces that share the edge
             (i, m), (o, n) = ((a, p), (b, q)) if q < 0 else ((b, q), (a, p))
-            found += fitted([(o[0] * m - i[0] * n, o[1] * m - i[1] * n, o[2] * m - i[2] * n)])
+            x, y, z = (outer * m - inside * n for outer, inside in zip(o, i, strict=True))
+            shift = max(max(abs(x), abs(y), abs(z)).bit_length() - VALUE_BITS, 0)
+            found.append((x >> shift, y >> shift, z >> shift))
         if q >= 0:
             found.append(b)
     return found
