@@ -379,7 +379,7 @@ contract Shadows is SceneErrors {
                         return DARK;
                     }
                     if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source), state.width, state.height);
-                    Receivers.add(receiver, loadSigned(caster + FACE_SIDE) > 0);
+                    Receivers.add(receiver, caster);
                 }
             }
             return isSet && receiver.isPlaced ? Receivers.finish(receiver, state.heads) : LIT;

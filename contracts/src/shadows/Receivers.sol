@@ -68,6 +68,9 @@ uint256 constant POINT_BIAS = 0x10000000000;
 uint256 constant POINT_GUARD = 22;
 uint256 constant SUBPIXEL_TO_POINT = 12;
 uint256 constant POINT_MASK = 0xffffffffffffffff;
+/// @dev Where a vertex keeps such a place, or 0, in the upper bits, in place of its ranges; the address of the face is below with this bit.
+uint256 constant PLACE_POINT = 0x60;
+uint256 constant POINT_TAG = 1 << 63;
 /// @dev The first row of samples that is not above a place: its row with this added, shifted by so much; and what the bias is then.
 uint256 constant ROW_UP = 0x9ffff;
 uint256 constant ROW_SHIFT = 18;
@@ -102,11 +105,12 @@ uint256 constant POLYGON_CORNER = 0x80;
 /// @param isPoint Whether the light is a point light.
 /// @param isWide Whether its functions do not fit lanes: it is much larger than what casts shadows.
 /// @param places Its corners on the canvas, homogeneous: column and row in sub-pixels, and the distance.
-/// @param isVisible Whether it is not seen edge-on.
+/// @param isVisible Whether it is on the canvas, and not seen edge-on.
 /// @param isFlipped Whether the shadow of what is turned away from the light has its corners the other way round on the canvas.
 /// @param top, bottom The rows of samples between which it is, with ROW_BIAS; `right`: the column before which it is, as of places.
 /// @param chains CHAINS addresses of edges, 0 while there are none; `last`: that of the last edge.
 /// @param begin Where the edges begin.
+/// @param tag What stands beside the place on the canvas that a corner of what casts shadows has kept for this face.
 struct Receiver {
     uint256 planes;
     bool isPoint;
@@ -120,6 +124,7 @@ struct Receiver {
     uint256 chains;
     uint256 last;
     uint256 begin;
+    uint256 tag;
     int256[9] places;
 }
 
@@ -148,6 +153,7 @@ library Receivers {
             receiver.isPlaced = false;
             (receiver.last, receiver.begin) = (0, freeMemory());
             receiver.isFlipped = loadSigned(face + FACE_SIDE) > 0;
+            receiver.tag = face | POINT_TAG;
             uint256 planes = receiver.planes;
             Faces.writePlanes(face, receiver.isPoint, planes);
             Faces.pack(planes + OWN_COORDINATES, corners);
@@ -326,7 +332,7 @@ library Receivers {
             receiver.bottom = uint256(bottom + int256(ROW_BIAS));
             receiver.right = uint256(right + int256(POINT_BIAS));
             int256 determinant = (p[1] * p[5] - p[2] * p[4]) * p[6] + (p[2] * p[3] - p[0] * p[5]) * p[7] + (p[0] * p[4] - p[1] * p[3]) * p[8];
-            receiver.isVisible = determinant != 0;
+            receiver.isVisible = determinant != 0 && top < bottom;
             receiver.isFlipped = receiver.isFlipped != (determinant < 0);
         }
     }
@@ -355,35 +361,43 @@ library Receivers {
     }
 
     /// @notice Adds the edges of the shadow of a face that `next` has found.
-    /// @param isTurned Whether it is turned to the light.
-    function add(Receiver memory receiver, bool isTurned) internal pure {
+    /// @param caster Its record.
+    function add(Receiver memory receiver, uint256 caster) internal pure {
         unchecked {
             if (!receiver.isVisible) return;
-            bool isFlipped = receiver.isFlipped != isTurned;
-            if (load(receiver.planes + IS_IN_FRONT) != 0) {
-                uint256 a = cornerOf(receiver, 0);
-                uint256 b = cornerOf(receiver, LANE);
-                uint256 c = cornerOf(receiver, 2 * LANE);
-                if (a != 0 && b != 0 && c != 0) {
-                    if (isFlipped) {
-                        addEdge(receiver, a, c);
-                        addEdge(receiver, b, a);
-                        addEdge(receiver, c, b);
-                    } else {
-                        addEdge(receiver, c, a);
-                        addEdge(receiver, a, b);
-                        addEdge(receiver, b, c);
-                    }
-                    return;
+            uint256 begin = receiver.planes + POLYGON_1;
+            uint256 end = begin;
+            bool isPlain = load(receiver.planes + IS_IN_FRONT) != 0;
+            uint256 corners = load(caster);
+            for (uint256 lane; isPlain && lane != 3 * LANE; lane += LANE) {
+                uint256 kept = (corners & ADDRESS_MASK) + PLACE_POINT;
+                uint256 point = load(kept);
+                if (point & POINT_MASK != receiver.tag) {
+                    point = (cornerOf(receiver, lane) << 64) | receiver.tag;
+                    store(kept, point);
+                }
+                point >>= 64;
+                isPlain = point != 0;
+                store(end, point);
+                end += 32;
+                corners >>= FACE_B_AT;
+            }
+            if (!isPlain) {
+                uint256 polygonEnd;
+                (begin, polygonEnd) = clippedPolygon(receiver);
+                end = begin;
+                for (uint256 p = begin; p != polygonEnd; p += POLYGON_CORNER) {
+                    store(end, pointOf(receiver, p));
+                    end += 32;
                 }
             }
-            (uint256 polygon, uint256 end) = clippedPolygon(receiver);
-            if (polygon == end) return;
-            uint256 before = pointOf(receiver, end - POLYGON_CORNER);
-            for (; polygon != end; polygon += POLYGON_CORNER) {
-                uint256 point = pointOf(receiver, polygon);
-                if (isFlipped) addEdge(receiver, point, before);
-                else addEdge(receiver, before, point);
+            if (begin == end) return;
+            bool isFlipped = receiver.isFlipped != (loadSigned(caster + FACE_SIDE) > 0);
+            uint256 before = load(end - 32);
+            for (; begin != end; begin += 32) {
+                uint256 point = load(begin);
+                (uint256 a, uint256 b) = isFlipped ? (point, before) : (before, point);
+                addEdge(receiver, a, b);
                 before = point;
             }
         }
@@ -505,29 +519,52 @@ library Receivers {
 
     /// @dev Adds an edge from one place to another; the shadow is to the right of those that go up.
     function addEdge(Receiver memory receiver, uint256 a, uint256 b) private pure {
-        unchecked {
-            (uint256 top, uint256 bottom) = (receiver.top, receiver.bottom);
-            (uint256 first, uint256 end) = (rowOf(a, top, bottom), rowOf(b, top, bottom));
-            if (first == end || ((a & POINT_MASK) > receiver.right && (b & POINT_MASK) > receiver.right)) return;
-            uint256 more = type(uint256).max;
-            if (first > end) (a, b, more) = (b, a, 1);
-            uint256 key = (a << 128) | b;
-            uint256 chain = receiver.chains + 32 * (key % CHAINS);
-            uint256 edge = load(chain);
-            while (edge != 0 && load(edge) != key) edge = load(edge + EDGE_NEXT);
-            if (edge == 0) {
-                edge = freeMemory();
-                setFreeMemory(edge + EDGE_SIZE);
-                store(edge, key);
-                store(edge + EDGE_COUNT, more);
-                store(edge + EDGE_NEXT, load(chain));
-                store(edge + EDGE_BEFORE, receiver.last);
-                store(chain, edge);
-                receiver.last = edge;
-            } else {
-                store(edge + EDGE_COUNT, load(edge + EDGE_COUNT) + more);
+        (uint256 top, uint256 bottom, uint256 right) = (receiver.top, receiver.bottom, receiver.right);
+        uint256 chains = receiver.chains;
+        uint256 last = receiver.last;
+        assembly ("memory-safe") {
+            let first := shr(ROW_SHIFT, add(shr(64, a), ROW_UP))
+            let end := shr(ROW_SHIFT, add(shr(64, b), ROW_UP))
+            let more := sub(0, lt(first, end))
+            if iszero(more) {
+                let other := a
+                a := b
+                b := other
+                other := first
+                first := end
+                end := other
+                more := 1
+            }
+            // it crosses a row of the face, and not all of it is to the right of that
+            if and(
+                and(lt(first, end), and(lt(first, bottom), gt(end, top))),
+                iszero(and(gt(and(a, POINT_MASK), right), gt(and(b, POINT_MASK), right)))
+            ) {
+                a := or(shl(128, a), b)
+                chains := add(chains, shl(5, mod(a, CHAINS)))
+                first := mload(chains)
+                end := first
+                for {} end { end := mload(add(end, EDGE_NEXT)) } {
+                    if eq(mload(end), a) { break }
+                }
+                switch end
+                case 0 {
+                    end := mload(0x40)
+                    mstore(0x40, add(end, EDGE_SIZE))
+                    mstore(end, a)
+                    mstore(add(end, EDGE_COUNT), more)
+                    mstore(add(end, EDGE_NEXT), first)
+                    mstore(add(end, EDGE_BEFORE), last)
+                    mstore(chains, end)
+                    last := end
+                }
+                default {
+                    end := add(end, EDGE_COUNT)
+                    mstore(end, add(mload(end), more))
+                }
             }
         }
+        receiver.last = last;
     }
 
     /// @dev The first row of samples that is not above a place, but not before `top`, nor behind `bottom`.
