@@ -58,6 +58,8 @@ ANTIALIASED = 0.3
 EFFECTS, EACH_EFFECT = 0.25, 0.5
 #: How often a scene has textures.
 TEXTURED = 0.2
+#: How often a light of a scene casts shadows, and how often there is a ground then.
+SHADOWED, GROUNDED = 0.08, 0.5
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -72,7 +74,8 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     # from numbers of its own, so that the scenes of the seeds stay what they are
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
     scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
-    return Case(_textured(np.random.default_rng([seed, 8]), scene), tile)
+    scene = _textured(np.random.default_rng([seed, 8]), scene)
+    return Case(_shadowed(np.random.default_rng([seed, 16]), scene), tile)
 
 
 def _effects(rng: Rng, scene: Scene) -> dict[str, Any]:
@@ -122,6 +125,33 @@ def _with_texture(rng: Rng, o: Object) -> Object:
     return evolve(o, mesh=evolve(o.mesh, uvs=uvs), material=evolve(o.material, texture=texture))
 
 
+def _shadowed(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with a light that casts shadows, which may be on a ground."""
+    if rng.random() >= SHADOWED or not scene.lights:
+        return scene
+    which = int(rng.integers(len(scene.lights)))
+    lights = [evolve(light, shadow=number == which) for number, light in enumerate(scene.lights)]
+    objects = list(scene.objects)
+    if objects and rng.random() < GROUNDED:
+        objects.append(_ground(rng, objects[rng.integers(len(objects))]))
+    return evolve(scene, lights=lights, objects=objects)
+
+
+def _ground(rng: Rng, o: Object) -> Object:
+    """A square that fades, below an object or through it."""
+    size = o.scale * float(np.abs(o.mesh.positions).max())
+    radius = min(max(size * 2.0 ** rng.uniform(0, 6), 2.0**-10), 2.0**22)
+    corners = np.array([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]) * 1000
+    return Object(
+        Mesh(corners, [(0, 1, 2), (0, 2, 3)], rng.integers(0, 256, (4, 3))),
+        position=_inside(o.position - np.array([0, size * rng.uniform(0, 1.5), 0])),
+        scale=float(_q32(min(radius / 1000, 2.0**12))),
+        material=Material("flat", ambient=0.5, diffuse=0.5, specular=0.0),
+        cull=False,
+        fade=tuple(_q32(radius * np.array([rng.uniform(0, 0.9), 1]))),
+    )
+
+
 def _scene(rng: Rng, kind: Kind) -> Scene:
     width, height = _canvas(rng)
     objects = [_object(rng, kind) for _ in range(rng.choice([0, 1, 2, 3], p=[0.02, 0.68, 0.2, 0.1]))]
@@ -138,9 +168,12 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
 
 
 def plain(scene: Scene) -> Scene:
-    """The scene without anti-aliasing, effects and textures."""
-    objects = [evolve(o, material=evolve(o.material, texture=None)) for o in scene.objects]
-    return evolve(scene, objects=objects, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
+    """The scene without anti-aliasing, effects, textures, shadows and grounds."""
+    objects = [evolve(o, material=evolve(o.material, texture=None)) for o in scene.objects if o.fade is None]
+    lights = [evolve(light, shadow=False) for light in scene.lights]
+    return evolve(
+        scene, objects=objects, lights=lights, antialias=False, hemisphere=None, rim=None, fog=None, tone=None
+    )
 
 
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.
