@@ -28,16 +28,15 @@ uint256 constant BOX_MASK = 0xffffffffffffffff;
 /// @dev The highest bit of each lane of the ranges of a vertex.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
-/// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for a
-/// point light, else a constant; and what lies behind the face, with the factors of x, y and z and a constant.
+/// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for
+/// a point light, else a constant; and what lies behind the face, with the factors of x, y and z and a constant.
 uint256 constant SIDE_SIZE = 0x60;
 uint256 constant BEHIND = 0x120;
 uint256 constant PLANES_SIZE = 0x1a0;
 
-/// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes as
-/// many products for three corners as for one.
+/// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes
+/// as many products for three corners as for one.
 uint256 constant CASTER_SIZE = 0x80;
-uint256 constant CASTER_BITS = 7;
 uint256 constant LANE = 85;
 /// @dev The highest bit of a lane is added to its value, so that it is set where that is at least 0.
 uint256 constant LANE_ONES = 0x4000000000000000000002000000000000000000001;

@@ -51,8 +51,8 @@ uint256 constant DISTANCE_BITS = 38;
 uint256 constant CLIP_BITS = 60;
 /// @dev Bits of the change of the function of an edge per eighth of a pixel.
 uint256 constant EDGE_BITS = 40;
-/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes. Those of a wider one are divided by a power of
-/// two: factors have WIDE_BITS then, constants CONSTANT_BITS more, without the sign.
+/// @dev Coordinates of a face have so many bits, with the sign, that all functions fit lanes. The functions of a wider one are divided by a
+/// power of two: factors have WIDE_BITS then, constants CONSTANT_BITS more, without the sign.
 uint256 constant NARROW_BITS = 27;
 uint256 constant WIDE_BITS = 60;
 uint256 constant CONSTANT_BITS = 22;
@@ -61,8 +61,8 @@ uint256 constant VALUE_BITS = 83;
 /// @dev The place of a bit of a word is the byte that the remainder of that word tells in a table.
 uint256 constant BIT_REMAINDERS = 269;
 
-/// @dev A place on the canvas: the row in the upper half of 128 bits, the column in the lower one, whole numbers with so many bits below the
-/// pixel, and POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
+/// @dev A place on the canvas: the row in the upper half of 128 bits, the column in the lower one, whole numbers with so many bits below
+/// the pixel, and POINT_BIAS. In sub-pixels they are below 2^POINT_GUARD.
 uint256 constant POINT_BITS = 20;
 uint256 constant POINT_BIAS = 0x10000000000;
 uint256 constant POINT_GUARD = 22;
@@ -150,7 +150,6 @@ library Receivers {
     function setFace(Receiver memory receiver, uint256 face) internal pure {
         unchecked {
             uint256 corners = load(face);
-            receiver.isPlaced = false;
             (receiver.last, receiver.begin) = (0, freeMemory());
             receiver.isFlipped = loadSigned(face + FACE_SIDE) > 0;
             receiver.tag = face | POINT_TAG;
@@ -283,30 +282,52 @@ library Receivers {
         unchecked {
             receiver.isPlaced = true;
             int256[9] memory p = receiver.places;
+            uint256 begin;
+            assembly ("memory-safe") {
+                begin := p
+            }
+            uint256 placesEnd = begin + 0x120;
             bool isOrthographic = load(FRAME_IS_ORTHOGRAPHIC) != 0;
             uint256 corner = receiver.planes + POLYGON_1;
             bool isPlain = true;
             uint256 most;
-            for (uint256 i; i != 9; i += 3) {
-                VertexShader.clipCoordinates((numbers >> (FACE_FIRST_AT - 16 * (i / 3))) & FACE_INDEX_MASK, corner);
+            for (uint256 q = begin; q != placesEnd; q += 0x60) {
+                VertexShader.clipCoordinates((numbers >> FACE_FIRST_AT) & FACE_INDEX_MASK, corner);
+                numbers <<= 16;
                 (int256 x, int256 y, int256 w) = (loadSigned(corner), loadSigned(corner + CORNER_Y), loadSigned(corner + CORNER_W));
                 if (w < loadSigned(NEAR)) isPlain = false;
                 if (isOrthographic) w = int256(ONE_32);
                 if (x < 0 || y < 0 || x >= w << GUARD_BITS || y >= w << GUARD_BITS) isPlain = false;
-                (p[i], p[i + 1], p[i + 2]) = (x, y, w);
+                storeSigned(q, x);
+                storeSigned(q + 0x20, y);
+                storeSigned(q + 0x40, w);
                 if (w > int256(most)) most = uint256(w);
             }
             int256 bias = int256(PIXEL_BIAS << SUBPIXEL_BITS);
             (int256 top, int256 bottom, int256 right) = (0, int256(4 * height), int256(width << POINT_BITS));
+            if (!isPlain) {
+                // nearer than the near plane, or far beyond the canvas
+                most = 0;
+                for (uint256 q = begin; q != placesEnd; q += 0x60) {
+                    int256 w = loadSigned(q + 0x40);
+                    storeSigned(q, loadSigned(q) - bias * w);
+                    storeSigned(q + 0x20, loadSigned(q + 0x20) - bias * w);
+                    most |= magnitude(loadSigned(q)) | magnitude(loadSigned(q + 0x20)) | magnitude(w);
+                }
+            }
+            uint256 shift = excess(most, isPlain ? DISTANCE_BITS : CLIP_BITS);
             if (isPlain) {
-                uint256 shift = isOrthographic ? Q32 : excess(most, DISTANCE_BITS);
+                if (isOrthographic) shift = Q32;
                 int256 low = type(int256).max;
                 int256 high = type(int256).min;
                 int256 far = high;
-                for (uint256 i; i != 9; i += 3) {
-                    int256 w = p[i + 2] >> shift;
-                    (int256 x, int256 y) = (p[i] / p[i + 2] - bias, p[i + 1] / p[i + 2] - bias);
-                    (p[i], p[i + 1], p[i + 2]) = (x * w, y * w, w);
+                for (uint256 q = begin; q != placesEnd; q += 0x60) {
+                    int256 w = loadSigned(q + 0x40);
+                    (int256 x, int256 y) = (loadSigned(q) / w - bias, loadSigned(q + 0x20) / w - bias);
+                    w >>= shift;
+                    storeSigned(q, x * w);
+                    storeSigned(q + 0x20, y * w);
+                    storeSigned(q + 0x40, w);
                     if (y < low) low = y;
                     if (y > high) high = y;
                     if (x > far) far = x;
@@ -318,20 +339,13 @@ library Receivers {
                 if (high < bottom) bottom = high;
                 if (far < right) right = far;
             } else {
-                // nearer than the near plane, or far beyond the canvas
-                most = 0;
-                for (uint256 i; i != 9; i += 3) {
-                    p[i] -= bias * p[i + 2];
-                    p[i + 1] -= bias * p[i + 2];
-                    for (uint256 k = i; k != i + 3; ++k) most |= magnitude(p[k]);
-                }
-                uint256 shift = excess(most, CLIP_BITS);
-                for (uint256 i; i != 9; ++i) p[i] >>= shift;
+                for (uint256 q = begin; q != placesEnd; q += 32) storeSigned(q, loadSigned(q) >> shift);
             }
             receiver.top = uint256(top + int256(ROW_BIAS));
             receiver.bottom = uint256(bottom + int256(ROW_BIAS));
             receiver.right = uint256(right + int256(POINT_BIAS));
-            int256 determinant = (p[1] * p[5] - p[2] * p[4]) * p[6] + (p[2] * p[3] - p[0] * p[5]) * p[7] + (p[0] * p[4] - p[1] * p[3]) * p[8];
+            int256 determinant = (p[1] * p[5] - p[2] * p[4]) * p[6] + (p[2] * p[3] - p[0] * p[5]) * p[7];
+            determinant += (p[0] * p[4] - p[1] * p[3]) * p[8];
             receiver.isVisible = determinant != 0 && top < bottom;
             receiver.isFlipped = receiver.isFlipped != (determinant < 0);
         }
@@ -341,15 +355,11 @@ library Receivers {
     function excess(uint256 value, uint256 bits) private pure returns (uint256 shift) {
         assembly ("memory-safe") {
             value := shr(bits, value)
-            if value {
-                shift := shl(7, lt(0xffffffffffffffffffffffffffffffff, value))
-                shift := or(shift, shl(6, lt(0xffffffffffffffff, shr(shift, value))))
-                shift := or(shift, shl(5, lt(0xffffffff, shr(shift, value))))
-                shift := or(shift, shl(4, lt(0xffff, shr(shift, value))))
-                shift := or(shift, shl(3, lt(0xff, shr(shift, value))))
-                shift := or(shift, shl(2, lt(0xf, shr(shift, value))))
-                shift := or(shift, shl(1, lt(0x3, shr(shift, value))))
-                shift := add(or(shift, lt(1, shr(shift, value))), 1)
+            shift := gt(value, 0)
+            for { let step := mul(128, shift) } step { step := shr(1, step) } {
+                let part := mul(step, gt(shr(step, value), 0))
+                value := shr(part, value)
+                shift := add(shift, part)
             }
         }
     }
@@ -639,19 +649,32 @@ library Receivers {
     /// @dev The word of an edge with these ends.
     function wordOf(uint256 key, uint256 top, uint256 bottom) private pure returns (uint256 word) {
         unchecked {
-            (uint256 a, uint256 b) = (key >> 128, key & type(uint128).max);
-            word = ((rowOf(a, top, bottom) - ROW_BIAS) << TOP_AT) | ((rowOf(b, top, bottom) - ROW_BIAS) << BOTTOM_AT);
-            int256 x = int256(a & POINT_MASK) - int256(POINT_BIAS);
-            int256 y = int256(a >> 64) - int256(POINT_BIAS);
-            int256 dx = int256(b & POINT_MASK) - int256(POINT_BIAS) - x;
-            int256 dy = int256(b >> 64) - int256(POINT_BIAS) - y;
-            int256 constant_ = y * dx - x * dy;
-            (x, y) = (dy << EIGHTH, -dx << EIGHTH);
-            uint256 most = magnitude(y);
-            if (uint256(x) > most) most = uint256(x);
-            uint256 shift = excess(most, EDGE_BITS);
-            (x, y, constant_) = (x >> shift, y >> shift, constant_ >> shift);
-            word |= (uint256(x) << X_AT) | ((uint256(y) & LANE_48) << Y_AT) | ((uint256(constant_) & LANE_64) << CONSTANT_AT);
+            word = ((rowOf(key >> 128, top, bottom) - ROW_BIAS) << TOP_AT)
+                | ((rowOf(key & type(uint128).max, top, bottom) - ROW_BIAS) << BOTTOM_AT);
+        }
+        assembly ("memory-safe") {
+            let x := sub(and(shr(128, key), POINT_MASK), POINT_BIAS)
+            let y := sub(shr(192, key), POINT_BIAS)
+            let dx := sub(sub(and(key, POINT_MASK), POINT_BIAS), x)
+            let dy := sub(sub(and(shr(64, key), POINT_MASK), POINT_BIAS), y)
+            let value := sub(mul(y, dx), mul(x, dy))
+            y := shl(EIGHTH, sub(0, dx))
+            x := shl(EIGHTH, dy)
+            // the bits of the greater one above EDGE_BITS, at most 16, are left out
+            dx := sar(255, y)
+            dx := sub(xor(y, dx), dx)
+            if gt(x, dx) { dx := x }
+            dx := shr(EDGE_BITS, dx)
+            if dx {
+                dy := shl(3, lt(0xff, dx))
+                dy := or(dy, shl(2, lt(0xf, shr(dy, dx))))
+                dy := or(dy, shl(1, lt(0x3, shr(dy, dx))))
+                dy := add(or(dy, lt(1, shr(dy, dx))), 1)
+                x := sar(dy, x)
+                y := sar(dy, y)
+                value := sar(dy, value)
+            }
+            word := or(or(word, shl(X_AT, x)), or(shl(Y_AT, and(y, LANE_48)), shl(CONSTANT_AT, and(value, LANE_64))))
         }
     }
 }

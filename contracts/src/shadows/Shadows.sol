@@ -32,7 +32,8 @@ library Shadows {
     /// @param sets See Faces; of `words` words each.
     /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
     /// @param planes Where the functions of what casts shadows are written.
-    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered; `chains`: see Receiver.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered.
+    /// @param chains See Receiver.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
@@ -177,7 +178,8 @@ library Shadows {
             state.chains = state.heads + 32 * state.height;
             setFreeMemory(state.chains + 32 * CHAINS);
             for (uint256 i; i != count; ++i) {
-                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, load(load(state.casters + CASTER_SIZE * i)));
+                uint256 corners = load(load(state.casters + CASTER_SIZE * i));
+                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, corners);
                 for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) Faces.insert(load(p), words, i, load(p + 0x20));
             }
             for (uint256 i; i != state.frame.sides; ++i) Faces.complete(state.sets + i * (size / state.frame.sides), words);
@@ -321,6 +323,7 @@ library Shadows {
         unchecked {
             uint256 corners = load(face);
             bool isSet;
+            receiver.isPlaced = false;
             uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, state.words, state.frame, corners);
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
@@ -347,7 +350,7 @@ library Shadows {
                     Receivers.add(receiver, caster);
                 }
             }
-            return isSet && receiver.isPlaced ? Receivers.finish(receiver, state.heads) : LIT;
+            return receiver.isPlaced ? Receivers.finish(receiver, state.heads) : LIT;
         }
     }
 
