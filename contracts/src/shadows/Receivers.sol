@@ -401,7 +401,6 @@ library Receivers {
                     end += 32;
                 }
             }
-            if (begin == end) return;
             bool isFlipped = receiver.isFlipped != (loadSigned(caster + FACE_SIDE) > 0);
             uint256 before = load(end - 32);
             for (; begin != end; begin += 32) {
