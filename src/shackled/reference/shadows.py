@@ -261,9 +261,7 @@ def face_of(frame: Frame, index: int, number: int, corners: Sequence[Vector]) ->
     return Face(index, number, (a, b, c), frame.boxes(corners), normal, side, planes)
 
 
-def planes_of(
-    corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool
-) -> list[Plane]:
+def planes_of(corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool) -> list[Plane]:
     """Return the sides, each opposite to a corner, and what lies behind: x, y, z and a constant of each.
 
     All are positive in the shadow.
