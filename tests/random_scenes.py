@@ -60,6 +60,8 @@ EFFECTS, EACH_EFFECT = 0.25, 0.5
 TEXTURED = 0.2
 #: How often a scene has objects whose vertices have opacities.
 SEEN_THROUGH = 0.12
+#: How often a light of a scene casts shadows, and how often there is a ground then.
+SHADOWED, GROUNDED = 0.08, 0.5
 
 
 def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
@@ -75,6 +77,7 @@ def random_case(seed: int, kinds: tuple[Kind, ...] = KINDS) -> Case:
     antialias = bool(np.random.default_rng([seed, 3]).random() < ANTIALIASED)
     scene = evolve(scene, antialias=antialias, **_effects(np.random.default_rng([seed, 4]), scene))
     scene = _textured(np.random.default_rng([seed, 8]), scene)
+    scene = _shadowed(np.random.default_rng([seed, 16]), scene)
     return Case(_seen_through(np.random.default_rng([seed, 9]), scene), tile)
 
 
@@ -142,6 +145,33 @@ def _with_opacities(rng: Rng, o: Object) -> Object:
     return evolve(o, mesh=evolve(o.mesh, opacities=opacities))
 
 
+def _shadowed(rng: Rng, scene: Scene) -> Scene:
+    """The scene, sometimes with a light that casts shadows, which may be on a ground."""
+    if rng.random() >= SHADOWED or not scene.lights:
+        return scene
+    which = int(rng.integers(len(scene.lights)))
+    lights = [evolve(light, shadow=number == which) for number, light in enumerate(scene.lights)]
+    objects = list(scene.objects)
+    if objects and rng.random() < GROUNDED:
+        objects.append(_ground(rng, objects[rng.integers(len(objects))]))
+    return evolve(scene, lights=lights, objects=objects)
+
+
+def _ground(rng: Rng, o: Object) -> Object:
+    """A square that fades, below an object or through it."""
+    size = o.scale * float(np.abs(o.mesh.positions).max())
+    radius = min(max(size * 2.0 ** rng.uniform(0, 6), 2.0**-10), 2.0**22)
+    corners = np.array([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)]) * 1000
+    return Object(
+        Mesh(corners, [(0, 1, 2), (0, 2, 3)], rng.integers(0, 256, (4, 3))),
+        position=_inside(o.position - np.array([0, size * rng.uniform(0, 1.5), 0])),
+        scale=float(_q32(min(radius / 1000, 2.0**12))),
+        material=Material("flat", ambient=0.5, diffuse=0.5, specular=0.0),
+        cull=False,
+        fade=tuple(_q32(radius * np.array([rng.uniform(0, 0.9), 1]))),
+    )
+
+
 def _scene(rng: Rng, kind: Kind) -> Scene:
     width, height = _canvas(rng)
     objects = [_object(rng, kind) for _ in range(rng.choice([0, 1, 2, 3], p=[0.02, 0.68, 0.2, 0.1]))]
@@ -158,11 +188,16 @@ def _scene(rng: Rng, kind: Kind) -> Scene:
 
 
 def plain(scene: Scene) -> Scene:
-    """The scene without anti-aliasing, effects, textures and opacities of vertices."""
+    """The scene without anti-aliasing, effects, textures, opacities of vertices, shadows and grounds."""
     objects = [
-        evolve(o, mesh=evolve(o.mesh, opacities=None), material=evolve(o.material, texture=None)) for o in scene.objects
+        evolve(o, mesh=evolve(o.mesh, opacities=None), material=evolve(o.material, texture=None))
+        for o in scene.objects
+        if o.fade is None
     ]
-    return evolve(scene, objects=objects, antialias=False, hemisphere=None, rim=None, fog=None, tone=None)
+    lights = [evolve(light, shadow=False) for light in scene.lights]
+    return evolve(
+        scene, objects=objects, lights=lights, antialias=False, hemisphere=None, rim=None, fog=None, tone=None
+    )
 
 
 #: Weights of the corners of a triangle: its middle, and places near corners and edges.

@@ -22,35 +22,52 @@ contract Effects is SceneErrors {
             reserveRegisters(REGISTERS, REGISTERS_END);
             View memory view_ = lookAt(scene.camera, scene.canvas.width, scene.canvas.height);
             Ambient memory ambient = EffectUniforms.setFrame(view_, scene);
+            store(EFFECTS, freeMemory());
+            setFreeMemory(freeMemory() + EFFECT_FRAME_SIZE);
+            writeObjects(scene, view_, ambient);
+            if (load(SHADOW_LIGHT) != 0) writeShadows(scene, view_);
+            uint256 begin = load(EFFECTS);
+            uint256 end = freeMemory();
+            assembly ("memory-safe") {
+                mcopy(begin, EFFECT_FRAME_BEGIN, EFFECT_FRAME_SIZE)
+                return(begin, sub(end, begin))
+            }
+        }
+    }
+
+    /// @dev Writes the registers of all objects.
+    function writeObjects(Scene calldata scene, View memory view_, Ambient memory ambient) private pure {
+        unchecked {
+            uint256 target = freeMemory();
+            uint256 end = target + scene.objects.length * EFFECT_OBJECT_SIZE;
             // the scene is the only argument, and stands behind the registers of the frame in the engine's calldata
             uint256 moved;
             assembly ("memory-safe") {
                 moved := sub(add(4, FRAME_SIZE), scene)
             }
-            uint256 begin = freeMemory();
-            uint256 end = begin + EFFECT_FRAME_SIZE;
+            setFreeMemory(end);
             for (uint256 i; i != scene.objects.length; ++i) {
-                setFreeMemory(end + EFFECT_OBJECT_SIZE);
                 EffectUniforms.setObject(view_, scene, ambient, i, moved);
                 assembly ("memory-safe") {
-                    mcopy(end, EFFECT_OBJECT_BEGIN, EFFECT_OBJECT_SIZE)
+                    mcopy(target, EFFECT_OBJECT_BEGIN, EFFECT_OBJECT_SIZE)
                 }
-                end += EFFECT_OBJECT_SIZE;
+                target += EFFECT_OBJECT_SIZE;
             }
+            // what was allocated is not needed any more
             setFreeMemory(end);
-            uint256 size;
-            if (load(SHADOW_LIGHT) != 0) {
-                store(SHADOWS, end - begin);
-                uint256 shadows;
-                (shadows, size) = Shadows.cast(scene, view_);
-                assembly ("memory-safe") {
-                    mcopy(end, shadows, size)
-                }
-            }
+        }
+    }
+
+    /// @dev Writes the shadows.
+    function writeShadows(Scene calldata scene, View memory view_) private pure {
+        unchecked {
+            store(SHADOWS, freeMemory() - load(EFFECTS));
+            (uint256 begin, uint256 size) = Shadows.cast(scene, view_);
+            uint256 target = load(EFFECTS) + load(SHADOWS);
             assembly ("memory-safe") {
-                mcopy(begin, EFFECT_FRAME_BEGIN, EFFECT_FRAME_SIZE)
-                return(begin, sub(add(end, size), begin))
+                mcopy(target, begin, size)
             }
+            setFreeMemory(target + size);
         }
     }
 }

@@ -20,6 +20,7 @@ from shackled.artifacts import artifact
 from shackled.chain import VARIABLE
 from shackled.cli.app import run
 from shackled.deploy import deployments
+from shackled.ethereum import PROXY
 
 pytestmark = needs_anvil
 
@@ -117,6 +118,25 @@ def test_json(node: Anvil, book: Path, deploy: Command) -> None:
     told = json.loads(deploy(*arguments).out)
     assert (told["gas"], told["transactions"]) == (0, [])
     assert not any(each["deployed_now"] for each in told["contracts"])
+
+
+def test_a_wallet_sends_the_transactions(node: Anvil, folder: Path, deploy: Command) -> None:
+    told = deploy("--rpc", node.url, "--contracts", "PngEncoder", "--calldata", "calls.json")
+    assert told.code == 0
+    assert "nothing was sent: calls.json has 1 transaction" in told.err
+    (call,) = json.loads((folder / "calls.json").read_text("utf-8"))["calls"]
+    assert call.pop("name") == "deploy PngEncoder"
+    sender = node.rpc("eth_accounts")[1]
+    node.rpc("eth_sendTransaction", call | {"from": sender})
+    assert "all contracts are deployed already" in deploy("--rpc", node.url, "--contracts", "PngEncoder").out
+
+
+def test_a_wallet_cannot_deploy_the_proxy(node: Anvil, folder: Path, deploy: Command) -> None:
+    node.rpc("anvil_setCode", "0x" + PROXY.hex(), "0x")
+    told = deploy("--rpc", node.url, "--calldata", "calls.json")
+    assert told.code != 0
+    assert "no deterministic-deployment proxy" in told.err
+    assert not (folder / "calls.json").exists()
 
 
 def test_what_artists_need_can_be_named(node: Anvil, deploy: Command) -> None:

@@ -36,6 +36,23 @@ def pixels(picture: bytes) -> np.ndarray:
     return np.asarray(PillowImage.open(io.BytesIO(picture)).convert("RGB"))
 
 
+def test_a_wallet_sends_the_transactions(node: Node, tmp_path: Path, shackled: Shackled) -> None:
+    """What --calldata writes stores the object, sent by an account that the command never sees."""
+    path = tmp_path / "calls.json"
+    said = shackled("mint", "icons/die", "--calldata", path)
+    assert "nothing was sent" in said.err
+    document = json.loads(path.read_text())
+    assert int(document["chainId"], 16) == node.web3.eth.chain_id
+    assert [each["name"] for each in document["calls"]][:1] == ["store part 1 of icons/die"]
+    for each in document["calls"]:
+        call = {key: each[key] for key in ("to", "value", "data", "gas")}
+        digest = node.rpc("eth_sendTransaction", {"from": node.web3.eth.accounts[BOB], **call})
+        assert node.web3.eth.wait_for_transaction_receipt(digest)["status"] == 1
+    minted = json.loads(shackled("mint", "icons/die", "--json").out)
+    assert minted["gas"] == 0
+    assert minted["pointer"] in said.out
+
+
 def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Shackled) -> None:
     picture = tmp_path / "bell.png"
     said = shackled("mint", "icons/bell", "-o", picture, "--json", "--yes", user=ALICE)

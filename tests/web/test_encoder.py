@@ -125,7 +125,8 @@ def test_decoded_scenes(tmp_path: Path) -> None:
     calls = Calls()
     for seed in range(DOCUMENTS):
         scene = changed(random_case(seed).scene, np.random.default_rng([seed, 2]))
-        scene = decode(render_call(evolve(scene, lights=[*scene.lights[:3], Light.point((1e30, 2e30, 3e30))])))
+        lights = [*scene.lights[:3], Light.point((1e30, 2e30, 3e30))]
+        scene = decode(render_call(evolve(scene, lights=lights)))
         calls.add(f"seed {seed}", encode_scene_file(scene).decode(), scene)
     assert calls.differences(tmp_path) == []
 

@@ -10,7 +10,7 @@ import "./Words.sol";
 
 /// @dev Where registers begin: what the compiler keeps in memory must end before.
 uint256 constant REGISTERS = 0x800;
-uint256 constant REGISTERS_END = 0x40c0;
+uint256 constant REGISTERS_END = 0x3fc0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- frame
 // The uniforms of the frame, which the Renderer fills. Pixel columns and rows are counted from -PIXEL_BIAS, so that everything inside the
@@ -303,187 +303,185 @@ uint256 constant SHADOW_ROW = 0x3140;
 uint256 constant IS_UNIFORM = 0x3160;
 uint256 constant UNIFORM_SHARE = 0x3180;
 uint256 constant UNIFORM_COLOR = 0x31a0;
-/// @dev The functions of a shadow in the row, and their changes from pixel to pixel.
-uint256 constant SHADOW_FUNCTIONS = 0x31c0;
 
 // ------------------------------------------------------------------------------------------------------- triangle of a scene with effects
 
 /// @dev How much the normal of a flat face points up, Q24, -1..1.
-uint256 constant FACE_UP = 0x32c0;
+uint256 constant FACE_UP = 0x31c0;
 
 // ------------------------------------------------------------------------------------------------------------------------------- fragment
 
 /// @dev The place of the fragment beside the line of sight of an orthographic camera, Q16.
-uint256 constant FRAGMENT_PLACE_X = 0x32e0;
-uint256 constant FRAGMENT_PLACE_Y = 0x3300;
+uint256 constant FRAGMENT_PLACE_X = 0x31e0;
+uint256 constant FRAGMENT_PLACE_Y = 0x3200;
 /// @dev Its normal, Q24, and the product of that with the ray.
-uint256 constant FRAGMENT_NORMAL_X = 0x3320;
-uint256 constant FRAGMENT_NORMAL_Y = 0x3340;
-uint256 constant FRAGMENT_NORMAL_Z = 0x3360;
-uint256 constant FRAGMENT_NORMAL_RAY = 0x3380;
+uint256 constant FRAGMENT_NORMAL_X = 0x3220;
+uint256 constant FRAGMENT_NORMAL_Y = 0x3240;
+uint256 constant FRAGMENT_NORMAL_Z = 0x3260;
+uint256 constant FRAGMENT_NORMAL_RAY = 0x3280;
 /// @dev Half the magnitude of the last square of a normal; of that of a face, a multiple of 3.
-uint256 constant NORMAL_HINT = 0x33a0;
-uint256 constant FACE_HINT = 0x33c0;
+uint256 constant NORMAL_HINT = 0x32a0;
+uint256 constant FACE_HINT = 0x32c0;
 /// @dev What of a light's strength reaches it through its cone, Q16.
-uint256 constant FRAGMENT_CONE = 0x33e0;
+uint256 constant FRAGMENT_CONE = 0x32e0;
 /// @dev The light that modulates its colour, lanes of Q40.
-uint256 constant FRAGMENT_LIGHT = 0x3400;
+uint256 constant FRAGMENT_LIGHT = 0x3300;
 /// @dev The length of its ray, Q24, where there is a rim.
-uint256 constant FRAGMENT_RAY_LENGTH = 0x3420;
+uint256 constant FRAGMENT_RAY_LENGTH = 0x3320;
 /// @dev If colours are times their depths, the nearest depth of the triangle, with 8 more bits than in a vertex; else 0.
-uint256 constant PATCH_WEIGHT = 0x3440;
+uint256 constant PATCH_WEIGHT = 0x3340;
 /// @dev The first column of the cell that is drawn, and the one after its last.
-uint256 constant PATCH_BEGIN = 0x3460;
-uint256 constant PATCH_END = 0x3480;
+uint256 constant PATCH_BEGIN = 0x3360;
+uint256 constant PATCH_END = 0x3380;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- edges
 
 /// @dev Not zero if a vertex of the object lies outside the guard band or nearer than the near plane.
-uint256 constant HAS_CLIPPED = 0x34a0;
+uint256 constant HAS_CLIPPED = 0x33a0;
 /// @dev DEPTH_STRIDE in both lanes of edges: see Rasterizer.
-uint256 constant STRIDE_LANES = 0x34c0;
+uint256 constant STRIDE_LANES = 0x33c0;
 /// @dev The change of the accumulator per byte of depths, an eighth of DX; and what START changes per row if it is told by addresses.
-uint256 constant DX_8 = 0x34e0;
-uint256 constant ROW_STEP = 0x3500;
+uint256 constant DX_8 = 0x33e0;
+uint256 constant ROW_STEP = 0x3400;
 /// @dev The lower part of a triangle, where the edge from the second to the third vertex takes the place of the one that has ended: the
 /// number of its rows, its edges = the edges of the upper part & LOWER_KEPT | LOWER_EDGE, their changes per row.
-uint256 constant LOWER_ROWS = 0x3520;
-uint256 constant LOWER_KEPT = 0x3540;
-uint256 constant LOWER_EDGE = 0x3560;
-uint256 constant LOWER_SLOPES = 0x3580;
+uint256 constant LOWER_ROWS = 0x3420;
+uint256 constant LOWER_KEPT = 0x3440;
+uint256 constant LOWER_EDGE = 0x3460;
+uint256 constant LOWER_SLOPES = 0x3480;
 /// @dev Depths of a triangle that is IS_DEEP: what START, DX and DY get besides.
-uint256 constant DEEP_START = 0x35a0;
-uint256 constant DEEP_DX = 0x35c0;
-uint256 constant DEEP_DY = 0x35e0;
+uint256 constant DEEP_START = 0x34a0;
+uint256 constant DEEP_DX = 0x34c0;
+uint256 constant DEEP_DY = 0x34e0;
 /// @dev Where the next triangle is listed; 0 if faces are drawn at once.
-uint256 constant LIST = 0x3600;
+uint256 constant LIST = 0x3500;
 /// @dev How many faces of the object were drawn or listed.
-uint256 constant DRAWN = 0x3620;
+uint256 constant DRAWN = 0x3520;
 /// @dev Faces of which twice the area, Q192, is not above this are not drawn: they face away.
-uint256 constant LEAST_AREA = 0x3640;
+uint256 constant LEAST_AREA = 0x3540;
 /// @dev What edges change per row.
-uint256 constant SLOPES = 0x3660;
+uint256 constant SLOPES = 0x3560;
 /// @dev The end of the faces in calldata.
-uint256 constant FACES_END = 0x3680;
+uint256 constant FACES_END = 0x3580;
 
 // -------------------------------------------------------------------------------------------------------------------- quadratic functions
 
 /// @dev Coefficients of values that are quadratic over a triangle, signed lanes of 85 bits: see Quadratic.
-uint256 constant QUADRATIC_1 = 0x36a0;
-uint256 constant QUADRATIC_S = 0x36c0;
-uint256 constant QUADRATIC_T = 0x36e0;
-uint256 constant QUADRATIC_SS = 0x3700;
-uint256 constant QUADRATIC_ST = 0x3720;
-uint256 constant QUADRATIC_TT = 0x3740;
+uint256 constant QUADRATIC_1 = 0x35a0;
+uint256 constant QUADRATIC_S = 0x35c0;
+uint256 constant QUADRATIC_T = 0x35e0;
+uint256 constant QUADRATIC_SS = 0x3600;
+uint256 constant QUADRATIC_ST = 0x3620;
+uint256 constant QUADRATIC_TT = 0x3640;
 /// @dev The values at column 0 of the first row, and their first and second differences to the next column and row.
-uint256 constant QUADRATIC_START = 0x3760;
-uint256 constant QUADRATIC_DX = 0x3780;
-uint256 constant QUADRATIC_DY = 0x37a0;
-uint256 constant QUADRATIC_DXX = 0x37c0;
-uint256 constant QUADRATIC_DXY = 0x37e0;
-uint256 constant QUADRATIC_DYY = 0x3800;
+uint256 constant QUADRATIC_START = 0x3660;
+uint256 constant QUADRATIC_DX = 0x3680;
+uint256 constant QUADRATIC_DY = 0x36a0;
+uint256 constant QUADRATIC_DXX = 0x36c0;
+uint256 constant QUADRATIC_DXY = 0x36e0;
+uint256 constant QUADRATIC_DYY = 0x3700;
 /// @dev Changes over a word of eight colours: the quadratic part of each channel.
-uint256 constant BEND_BLUE = 0x3820;
-uint256 constant BEND_GREEN = 0x3840;
-uint256 constant BEND_RED = 0x3860;
+uint256 constant BEND_BLUE = 0x3720;
+uint256 constant BEND_GREEN = 0x3740;
+uint256 constant BEND_RED = 0x3760;
 
 // ----------------------------------------------------------------------------------------------------------------------- smooth triangles
 
 /// @dev Normals at the vertices, times their weights, Q30; behind each the same with its lanes the other way round.
-uint256 constant NORMAL_0 = 0x3880;
-uint256 constant NORMAL_1 = 0x38c0;
-uint256 constant NORMAL_2 = 0x3900;
+uint256 constant NORMAL_0 = 0x3780;
+uint256 constant NORMAL_1 = 0x37c0;
+uint256 constant NORMAL_2 = 0x3800;
 /// @dev The largest of the squares of the changes of the half vector from vertex to vertex, Q40.
-uint256 constant HALF_CHANGE = 0x3940;
+uint256 constant HALF_CHANGE = 0x3840;
 /// @dev Half the magnitudes of the last squares of a ray, and of a half vector.
-uint256 constant RAY_HINT = 0x3960;
-uint256 constant HALF_HINT = 0x3980;
+uint256 constant RAY_HINT = 0x3860;
+uint256 constant HALF_HINT = 0x3880;
 /// @dev The record of a vertex in the middle of an edge.
-uint256 constant MIDDLE = 0x39a0;
+uint256 constant MIDDLE = 0x38a0;
 /// @dev 1 if a depth of its vertices is less than 7/8 of the greatest, 2 if less than 3/4; else 0.
-uint256 constant DEPTHS_DIFFER = 0x3aa0;
+uint256 constant DEPTHS_DIFFER = 0x39a0;
 /// @dev Half of QUADRATIC_DXX, by which QUADRATIC_DX is less while rows are drawn.
-uint256 constant QUADRATIC_HALF_DXX = 0x3ac0;
+uint256 constant QUADRATIC_HALF_DXX = 0x39c0;
 /// @dev The greatest depth of its vertices, Q24 of what is above bit 192 of an accumulator.
-uint256 constant NEAREST = 0x3ae0;
+uint256 constant NEAREST = 0x39e0;
 
 // -------------------------------------------------------------------------------------------------------------------------------- samples
 // Of the engines that take four samples of each pixel: see Samples and SampleRasterizer.
 
 /// @dev The columns and rows that have samples in memory: the first, and the one after the last.
-uint256 constant SAMPLE_BEGIN = 0x3b00;
-uint256 constant SAMPLE_END = 0x3b20;
-uint256 constant SAMPLE_TOP = 0x3b40;
-uint256 constant SAMPLE_BOTTOM = 0x3b60;
+uint256 constant SAMPLE_BEGIN = 0x3a00;
+uint256 constant SAMPLE_END = 0x3a20;
+uint256 constant SAMPLE_TOP = 0x3a40;
+uint256 constant SAMPLE_BOTTOM = 0x3a60;
 /// @dev Bytes of a row of samples; the address that those of row 0, column 0 would have, which may be below 0. Rows go down in memory, as
 /// they do in a bitmap.
-uint256 constant SAMPLE_STRIDE = 0x3b80;
-uint256 constant SAMPLE_ORIGIN = 0x3ba0;
+uint256 constant SAMPLE_STRIDE = 0x3a80;
+uint256 constant SAMPLE_ORIGIN = 0x3aa0;
 /// @dev The address that the colour of row 0, column 0 would have; rows of TILE_WIDTH pixels go down.
-uint256 constant SAMPLE_IMAGE = 0x3bc0;
+uint256 constant SAMPLE_IMAGE = 0x3ac0;
 /// @dev A pixel of the row that is drawn, with its samples at p, has its colour at ROW_IMAGE + 3 * (p / 32); what that is less in the next
 /// row.
-uint256 constant ROW_IMAGE = 0x3be0;
-uint256 constant ROW_IMAGE_STEP = 0x3c00;
+uint256 constant ROW_IMAGE = 0x3ae0;
+uint256 constant ROW_IMAGE_STEP = 0x3b00;
 /// @dev The list of the pixels whose samples may differ: the address of the samples, and of the colour.
-uint256 constant MIXED = 0x3c20;
-uint256 constant MIXED_END = 0x3c40;
+uint256 constant MIXED = 0x3b20;
+uint256 constant MIXED_END = 0x3b40;
 /// @dev The row for which START is told; an eighth of DY.
-uint256 constant START_ROW = 0x3c60;
-uint256 constant DY_8 = 0x3c80;
+uint256 constant START_ROW = 0x3b60;
+uint256 constant DY_8 = 0x3b80;
 /// @dev What the depths of the samples are above SAMPLE_SCALE times that of the centre of their pixel, signed lanes; of which: from
 /// SAMPLE_BASE.
-uint256 constant DEPTH_OFFSETS = 0x3ca0;
-uint256 constant DEPTH_BASE = 0x3cc0;
+uint256 constant DEPTH_OFFSETS = 0x3ba0;
+uint256 constant DEPTH_BASE = 0x3bc0;
 /// @dev The row for which sides and bounds are told: the first with a sample of the triangle in the band.
-uint256 constant SIDE_ROW = 0x3ce0;
+uint256 constant SIDE_ROW = 0x3be0;
 /// @dev The sides of the triangle at that row: see SampleRasterizer; and what they change per row.
-uint256 constant SIDE_LEFT = 0x3d00;
-uint256 constant SIDE_RIGHT = 0x3d20;
-uint256 constant SIDE_LEFT_STEP = 0x3d40;
-uint256 constant SIDE_RIGHT_STEP = 0x3d60;
+uint256 constant SIDE_LEFT = 0x3c00;
+uint256 constant SIDE_RIGHT = 0x3c20;
+uint256 constant SIDE_LEFT_STEP = 0x3c40;
+uint256 constant SIDE_RIGHT_STEP = 0x3c60;
 /// @dev The addresses of the first pixel that may be covered, and of the one after the last, Q37 in lanes of 128 bits; what they change per
 /// row; what those have more between which all samples are covered.
-uint256 constant BOUNDS = 0x3d80;
-uint256 constant BOUND_STEPS = 0x3da0;
-uint256 constant INSETS = 0x3dc0;
+uint256 constant BOUNDS = 0x3c80;
+uint256 constant BOUND_STEPS = 0x3ca0;
+uint256 constant INSETS = 0x3cc0;
 /// @dev The row in which one side continues with the edge from the second to the third vertex; which: the address of SIDE_LEFT or
 /// SIDE_RIGHT.
-uint256 constant KINK_ROW = 0x3de0;
-uint256 constant KINK_SIDE = 0x3e00;
+uint256 constant KINK_ROW = 0x3ce0;
+uint256 constant KINK_SIDE = 0x3d00;
 /// @dev The lanes of its samples that lie on that edge; that edge at that row, and its change per row.
-uint256 constant KINK_MASK = 0x3e20;
-uint256 constant KINK_EDGE = 0x3e40;
-uint256 constant KINK_STEP = 0x3e60;
+uint256 constant KINK_MASK = 0x3d20;
+uint256 constant KINK_EDGE = 0x3d40;
+uint256 constant KINK_STEP = 0x3d60;
 /// @dev From that row on: what is kept of the bounds, what takes the place of the rest; their changes, and INSETS.
-uint256 constant KINK_KEPT = 0x3e80;
-uint256 constant KINK_BOUND = 0x3ea0;
-uint256 constant KINK_BOUND_STEPS = 0x3ec0;
-uint256 constant KINK_INSETS = 0x3ee0;
+uint256 constant KINK_KEPT = 0x3d80;
+uint256 constant KINK_BOUND = 0x3da0;
+uint256 constant KINK_BOUND_STEPS = 0x3dc0;
+uint256 constant KINK_INSETS = 0x3de0;
 /// @dev Whether SPAN_BEGIN and SPAN_END are to be asked in each row: the bounds may be far outside.
-uint256 constant IS_CLAMPED = 0x3f00;
+uint256 constant IS_CLAMPED = 0x3e00;
 /// @dev The columns between which fragments may lie: of the triangle, of the tile, and of the cell that is drawn.
-uint256 constant SPAN_BEGIN = 0x3f20;
-uint256 constant SPAN_END = 0x3f40;
+uint256 constant SPAN_BEGIN = 0x3e20;
+uint256 constant SPAN_END = 0x3e40;
 /// @dev SAMPLE_STRIDE as addresses of samples are told, Q37.
-uint256 constant STRIDE_37 = 0x3f60;
+uint256 constant STRIDE_37 = 0x3e60;
 /// @dev What START changes per row if it is told by addresses.
-uint256 constant ROW_STEP_32 = 0x3f80;
+uint256 constant ROW_STEP_32 = 0x3e80;
 /// @dev The bounds of the row that is drawn by drawSpans, and their changes.
-uint256 constant ROW_BOUNDS = 0x3fa0;
-uint256 constant ROW_BOUND_STEPS = 0x3fc0;
+uint256 constant ROW_BOUNDS = 0x3ea0;
+uint256 constant ROW_BOUND_STEPS = 0x3ec0;
 /// @dev What its sides change.
-uint256 constant ROW_LEFT_STEP = 0x3fe0;
-uint256 constant ROW_RIGHT_STEP = 0x4000;
+uint256 constant ROW_LEFT_STEP = 0x3ee0;
+uint256 constant ROW_RIGHT_STEP = 0x3f00;
 /// @dev The addresses of the first pixel of the row of which all samples are covered, and of the one after the last.
-uint256 constant INNER_BEGIN = 0x4020;
-uint256 constant INNER_END = 0x4040;
+uint256 constant INNER_BEGIN = 0x3f20;
+uint256 constant INNER_END = 0x3f40;
 /// @dev The change of a quadratic function at column 0 to the next row.
-uint256 constant QUADRATIC_DOWN = 0x4060;
+uint256 constant QUADRATIC_DOWN = 0x3f60;
 /// @dev The row for which the quadratic functions are told.
-uint256 constant QUADRATIC_ROW = 0x4080;
+uint256 constant QUADRATIC_ROW = 0x3f80;
 /// @dev The least depth of the vertices, with 8 more bits than in a vertex.
-uint256 constant FARTHEST = 0x40a0;
+uint256 constant FARTHEST = 0x3fa0;
 
 // ---------------------------------------------------------------------------------------------------------------------------------- light
 // What a light is to the frame, at LIGHTS.

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {BOTTOM_AT, CONSTANT_AT, LAST_SHADOW, LEFT_AT, RIGHT_AT, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
+import {BOTTOM_AT, CONSTANT_AT, LAST_EDGE, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
 import "./Registers.sol";
 
-// The samples of a row that are in the shadow: a word of four lanes for each pixel, of which the highest bit of each is set where all
-// functions of a shadow, see Receivers, are at least 0. In most of the pixels of a shadow all samples are in it: only at its edges the
-// functions are taken at the samples.
+// The samples of a row that are in the shadow: a word of four lanes for each pixel, of which the highest bit of each is set where more
+// shadows begin than end to the left of the sample: see Receivers. Each edge changes the words of the pixels that it crosses, and the sums
+// of the words from the left on are what is wanted.
 //
 // The light that casts shadows is weakened by the share of the samples of a fragment that it reaches.
 
 /// @dev The share of a fragment of which the light reaches all samples.
 uint256 constant ALL_SAMPLES = 1 << 8;
-uint256 constant SHADOW_COUNT_MASK = 0xff;
 /// @dev Bytes of an entry, and where it is in a word; that of a dark face.
 uint256 constant SHADOW_ENTRY_SIZE = 4;
 uint256 constant SHADOW_ENTRY_AT = 224;
 uint256 constant SHADOW_DARK = 1;
-/// @dev In rows of fewer pixels the functions are taken at all samples.
-uint256 constant SHORT_SPAN = 8;
 /// @dev How far the value of a function is below the top of a word, and where it is there.
 uint256 constant CONSTANT_TO_TOP = 96;
 uint256 constant LANE_AT_TOP = 192;
@@ -56,133 +53,68 @@ library ShadowRows {
 
     /// @notice Sets the words of a row of the triangle from `column` to before `end`. Rows must ascend.
     function prepare(uint256 column, uint256 end, uint256 row) internal pure {
-        unchecked {
-            uint256 pixel = load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN));
-            uint256 shadow = load(SHADOW_BEGIN);
-            assembly ("memory-safe") {
-                calldatacopy(pixel, calldatasize(), shl(5, sub(end, column)))
-            }
-            (column, end, row) = (column - PIXEL_BIAS, end - PIXEL_BIAS, row - PIXEL_BIAS);
-            bool isLeading = true;
-            while (true) {
-                uint256 word = loadCalldata(shadow);
-                if ((word >> TOP_AT) & ROW_MASK > row) return;
-                uint256 next = shadow + 32 * (word & SHADOW_COUNT_MASK);
-                if ((word >> BOTTOM_AT) & ROW_MASK > row) {
-                    isLeading = false;
-                    uint256 first;
-                    uint256 last;
-                    assembly ("memory-safe") {
-                        first := and(shr(LEFT_AT, word), ROW_MASK)
-                        last := and(shr(RIGHT_AT, word), ROW_MASK)
-                        if lt(first, column) { first := column }
-                        if gt(last, end) { last := end }
-                    }
-                    uint256 inner;
-                    uint256 innerEnd;
-                    if (first < last) (first, last, inner, innerEnd) = setFunctions(shadow, next, row, first, last);
-                    if (first < last) fill(pixel + 32 * (first - column), first, last, inner, innerEnd, next - shadow);
-                }
-                if (word & LAST_SHADOW != 0) return;
-                shadow = next;
-                // those above are passed over from now on
-                if (isLeading) store(SHADOW_BEGIN, shadow);
-            }
-        }
-    }
-
-    /// @dev Writes the functions in a row: each at the samples of the first pixel of the canvas, and its change from pixel to pixel.
-    /// @return first The first pixel that may have samples in the shadow.
-    /// @return last The one after the last.
-    /// @return inner The first pixel of which all samples are in the shadow.
-    /// @return innerEnd The one after the last.
-    function setFunctions(uint256 shadow, uint256 shadowEnd, uint256 row, uint256 column, uint256 end)
-        private
-        pure
-        returns (uint256 first, uint256 last, uint256 inner, uint256 innerEnd)
-    {
         assembly ("memory-safe") {
-            // the least whole number that is not below n / d, and not below low
-            function from(n, d, low) -> result {
-                result := low
-                if sgt(n, 0) {
-                    result := div(add(n, sub(d, 1)), d)
-                    if lt(result, low) { result := low }
-                }
-            }
-            // 1 more than the greatest whole number that is not above n / d, and not above high
-            function to(n, d, high) -> result {
-                if sgt(n, not(0)) {
-                    result := add(div(n, d), 1)
-                    if gt(result, high) { result := high }
-                }
-            }
-
-            first := column
-            last := end
-            inner := column
-            innerEnd := end
-            let target := SHADOW_FUNCTIONS
-            for {} lt(shadow, shadowEnd) { shadow := add(shadow, 32) } {
-                let word := calldataload(shadow)
+            // Adds an edge that crosses rows of samples from q on, four for each row of pixels. `words` is the address that the word of the
+            // first pixel of the canvas would have. Returns the address of the first word that is changed, or wordsEnd.
+            function addEdge(word, q, words, column_, wordsEnd) -> first {
+                // the lanes of the samples that are in its rows
+                let crossed := TOPS_64
+                let cut := and(shr(TOP_AT, word), ROW_MASK)
+                if gt(cut, q) { crossed := shl(shl(6, sub(cut, q)), crossed) }
+                cut := and(shr(BOTTOM_AT, word), ROW_MASK)
+                if lt(cut, add(q, 4)) { crossed := and(crossed, shr(shl(6, sub(add(q, 4), cut)), TOPS_64)) }
                 let x := sar(X_AT, word)
                 let y := sar(X_AT, shl(sub(X_AT, Y_AT), word))
-                let value := add(sar(LANE_AT_TOP, shl(CONSTANT_TO_TOP, word)), mul(y, shl(3, row)))
-                mstore(
-                    target,
-                    add(add(mul(value, ONES_64), TOPS_64), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8)))
-                )
-                mstore(add(target, 0x20), mul(shl(3, x), ONES_64))
-                target := add(target, 0x40)
-                // ranges would cost more than the few pixels
-                if lt(sub(end, column), SHORT_SPAN) {
-                    innerEnd := 0
-                    continue
-                }
+                let value := add(sar(LANE_AT_TOP, shl(CONSTANT_TO_TOP, word)), mul(y, shl(1, q)))
+                let lanes := add(add(mul(value, ONES_64), TOPS_64), add(mul(x, SAMPLE_X_8), mul(y, SAMPLE_Y_8)))
+                cut := sar(255, y)
                 // more than the change from the centre to a sample
-                let sign := sar(255, y)
-                let change := sub(xor(y, sign), sign)
-                sign := sar(255, x)
-                let step := sub(xor(x, sign), sign)
-                change := mul(3, add(change, step))
-                switch step
-                case 0 {
-                    if slt(add(value, change), 0) { last := 0 }
-                    if slt(value, change) { innerEnd := 0 }
-                }
-                default {
-                    step := shl(3, step)
-                    switch sign
-                    case 0 {
-                        first := from(sub(0, add(value, change)), step, first)
-                        inner := from(sub(change, value), step, inner)
-                    }
-                    default {
-                        last := to(add(value, change), step, last)
-                        innerEnd := to(sub(value, change), step, innerEnd)
-                    }
+                value := add(value, mul(3, add(x, sub(xor(y, cut), cut))))
+                x := shl(3, x)
+                value := sdiv(sub(0, value), x)
+                if sgt(value, column_) { column_ := value }
+                x := mul(x, ONES_64)
+                lanes := add(lanes, mul(x, column_))
+                first := add(words, shl(5, column_))
+                let before := 0
+                for { let p := first } lt(p, wordsEnd) { p := add(p, 0x20) } {
+                    let right := and(lanes, crossed)
+                    let change := shr(63, xor(right, before))
+                    if and(word, 1) { change := sub(0, change) }
+                    mstore(p, add(mload(p), change))
+                    if eq(right, crossed) { break }
+                    before := right
+                    lanes := add(lanes, x)
                 }
             }
-        }
-    }
 
-    /// @dev Adds a shadow to the words of a row.
-    /// @param pixel The address of the word of the first pixel.
-    /// @param size Bytes of the functions in calldata.
-    function fill(uint256 pixel, uint256 first, uint256 last, uint256 inner, uint256 innerEnd, uint256 size) private pure {
-        assembly ("memory-safe") {
-            size := add(SHADOW_FUNCTIONS, shl(1, size))
-            for {} lt(first, last) { first := add(first, 1) } {
-                switch or(and(lt(first, innerEnd), iszero(lt(first, inner))), eq(mload(pixel), TOPS_64))
-                case 1 { mstore(pixel, TOPS_64) }
-                default {
-                    let lanes := TOPS_64
-                    for { let p := SHADOW_FUNCTIONS } lt(p, size) { p := add(p, 0x40) } {
-                        lanes := and(lanes, add(mload(p), mul(first, mload(add(p, 0x20)))))
-                    }
-                    mstore(pixel, or(mload(pixel), lanes))
+            let words := sub(mload(SHADOW_ROW), shl(5, mload(COLUMN_BEGIN)))
+            end := add(words, shl(5, end))
+            let first := add(words, shl(5, column))
+            calldatacopy(first, calldatasize(), sub(end, first))
+            words := add(words, shl(5, PIXEL_BIAS))
+            column := sub(column, PIXEL_BIAS)
+            row := shl(2, sub(row, PIXEL_BIAS))
+            first := end
+            let isLeading := 1
+            let edge := mload(SHADOW_BEGIN)
+            for {} 1 {} {
+                let word := calldataload(edge)
+                if gt(and(shr(TOP_AT, word), ROW_MASK), add(row, 3)) { break }
+                if gt(and(shr(BOTTOM_AT, word), ROW_MASK), row) {
+                    isLeading := 0
+                    let changed := addEdge(word, row, words, column, end)
+                    if lt(changed, first) { first := changed }
                 }
-                pixel := add(pixel, 0x20)
+                if and(word, LAST_EDGE) { break }
+                edge := add(edge, 0x20)
+                // those above are passed over from now on
+                if isLeading { mstore(SHADOW_BEGIN, edge) }
+            }
+            let sum := sub(TOPS_64, ONES_64)
+            for {} lt(first, end) { first := add(first, 0x20) } {
+                sum := add(sum, mload(first))
+                mstore(first, sum)
             }
         }
     }
@@ -191,17 +123,21 @@ library ShadowRows {
     /// @param covered The highest bit of the lane of each sample of the fragment.
     function setShare(uint256 covered, uint256 column) internal pure {
         unchecked {
-            uint256 list = load(SHADOW_LIST);
             uint256 dark;
-            if (list == SHADOW_DARK) dark = covered;
-            else if (list != 0) dark = load(load(SHADOW_ROW) + 32 * (column - load(COLUMN_BEGIN))) & covered;
-            uint256 share = load(SHADOW_SHARE);
-            if (dark == 0 && share == ALL_SAMPLES) return;
+            bool isKnown;
+            assembly ("memory-safe") {
+                let list := mload(SHADOW_LIST)
+                if list {
+                    dark := covered
+                    if gt(list, SHADOW_DARK) { dark := and(dark, mload(add(mload(SHADOW_ROW), shl(5, sub(column, mload(COLUMN_BEGIN)))))) }
+                }
+                isKnown := iszero(or(dark, sub(mload(SHADOW_SHARE), ALL_SAMPLES)))
+            }
+            if (isKnown) return;
             uint256 total = count(covered);
             uint256 visible = total - count(dark);
-            uint256 before = share;
-            share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
-            if (share == before) return;
+            uint256 share = visible == total ? ALL_SAMPLES : visible == 0 ? 0 : (visible << 4) | total;
+            if (share == load(SHADOW_SHARE)) return;
             store(SHADOW_SHARE, share);
             uint256 light = load(SHADOW_LIGHT);
             store(light + LIGHT_COLOR, part(load(SHADOW_COLOR), visible, total));

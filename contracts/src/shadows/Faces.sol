@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
-import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
+import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
 
 // Faces in the space of the light, and which of them may shade a face.
 //
@@ -11,27 +11,38 @@ import {BESIDE, BUCKETS, Frame, PLACE_BUCKETS} from "./LightSpace.sol";
 //
 // Those that cast shadows have numbers, each a bit in the sets of what lies in a range of coordinates. There are five tables of sets: what
 // reaches a range in x or beyond it, what begins in it or before; the same of y; what is in a range of depths or nearer to the light.
-// What may shade a face is in five of these sets: 256 faces are found by four `and`s.
+// What may shade a face is in five of these sets: 256 faces are found by four `and`s. Each side of a cube has such tables.
 
 uint256 constant FACE_RECORD_SIZE = 0xc0;
 uint256 constant FACE_NORMAL = 0x20;
 uint256 constant FACE_SIDE = 0x80;
 uint256 constant FACE_ENTRY = 0xa0;
-/// @dev In the first word: the addresses of the vertices, that of the functions (0 if there are none yet), and the ranges of x, y, z, the
-/// least and the greatest, in bytes.
+/// @dev In the first word: the addresses of the vertices, HAS_PLANES, and the ranges of x, y, z, the least and the greatest, in bytes.
 uint256 constant FACE_B_AT = 32;
 uint256 constant FACE_C_AT = 64;
-uint256 constant FACE_PLANES_AT = 96;
+/// @dev Whether its functions are written.
+uint256 constant HAS_PLANES = 1 << 96;
 uint256 constant FACE_BOX_AT = 128;
 uint256 constant ADDRESS_MASK = 0xffffffff;
+uint256 constant BOX_MASK = 0xffffffffffffffff;
 /// @dev The highest bit of each lane of the ranges of a vertex.
 uint256 constant LANE_GUARDS = 0x800080008000;
 
-/// @dev Four functions of x, y and z with a constant: the sides, each opposite to a corner, and what lies behind the face. All are positive
-/// in shadow.
-uint256 constant PLANE_SIZE = 0x80;
-uint256 constant PLANES_SIZE = 0x200;
-uint256 constant BEHIND = 0x180;
+/// @dev The functions of a face, positive in shadow: three sides, each opposite to a corner, with the factors of x and y, and that of z for
+/// a point light, else a constant; and what lies behind the face, with the factors of x, y and z and a constant.
+uint256 constant SIDE_SIZE = 0x60;
+uint256 constant BEHIND = 0x120;
+uint256 constant PLANES_SIZE = 0x1a0;
+
+/// @dev What casts shadows: the address of its face, and the x, y and z of its corners, signed lanes of 85 bits, so that a function takes
+/// as many products for three corners as for one.
+uint256 constant CASTER_SIZE = 0x80;
+uint256 constant LANE = 85;
+/// @dev The highest bit of a lane is added to its value, so that it is set where that is at least 0.
+uint256 constant LANE_ONES = 0x4000000000000000000002000000000000000000001;
+uint256 constant LANE_TOP = 0x1000000000000000000000;
+uint256 constant LANE_TOPS = 0x4000000000000000000002000000000000000000001000000000000000000000;
+uint256 constant LANE_MASK = 0x1fffffffffffffffffffff;
 
 library Faces {
     /// @notice Writes the record of a face.
@@ -64,13 +75,14 @@ library Faces {
         }
     }
 
-    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper.
+    /// @dev The ranges of three vertices: the least in the lower byte of each lane, the greatest in the upper; BESIDE if a vertex is, or if
+    /// they are on several sides of the cube.
     function boxOf(uint256 a, uint256 b, uint256 c) private pure returns (uint256 box) {
         assembly ("memory-safe") {
             a := mload(add(a, PLACE_BUCKETS))
             b := mload(add(b, PLACE_BUCKETS))
             c := mload(add(c, PLACE_BUCKETS))
-            switch and(or(or(a, b), c), BESIDE)
+            switch or(and(or(or(a, b), c), BESIDE), shr(SIDE_AT, or(xor(a, b), xor(b, c))))
             case 0 {
                 // where a lane of a is not less than that of b, the mask has ones
                 let mask := and(sub(or(a, LANE_GUARDS), b), LANE_GUARDS)
@@ -87,15 +99,43 @@ library Faces {
         }
     }
 
+    /// @notice Writes where to look for what may shade a face: for each side of the cube that it is on, the tables and the ranges.
+    /// @param target Where to write them.
+    /// @param tables Where those of the first side begin.
+    /// @param corners The first word of its record.
+    /// @return end The address after the last of these pairs.
+    function writeBoxes(uint256 target, uint256 tables, uint256 words, Frame memory frame, uint256 corners)
+        internal
+        pure
+        returns (uint256 end)
+    {
+        unchecked {
+            uint256 box = (corners >> FACE_BOX_AT) & BOX_MASK;
+            uint256 size = 5 * BUCKETS * 32 * words;
+            if (corners & BESIDE == 0 || frame.sides == 1) {
+                // what is beside a point light may shade everything
+                store(target, tables + (box >> SIDE_AT & 7) * size);
+                store(target + 0x20, corners & BESIDE == 0 ? box : EVERYWHERE);
+                return target + 0x40;
+            }
+            uint256[3] memory places =
+                [corners & ADDRESS_MASK, (corners >> FACE_B_AT) & ADDRESS_MASK, (corners >> FACE_C_AT) & ADDRESS_MASK];
+            for (uint256 side; side != CUBE; ++side) {
+                box = LightSpace.boxOn(frame, places, side);
+                if (box != 0) {
+                    store(target, tables + side * size);
+                    store(target + 0x20, box);
+                    target += 0x40;
+                }
+            }
+            return target;
+        }
+    }
+
     /// @notice Puts a face into the sets of its ranges.
-    /// @param words Of each set.
-    function insert(uint256 sets, uint256 words, uint256 index, uint256 face) internal pure {
+    /// @param sets Tables of sets of `words` words each.
+    function insert(uint256 sets, uint256 words, uint256 index, uint256 box) internal pure {
         assembly ("memory-safe") {
-            let box := mload(face)
-            // what is beside a point light may shade everything
-            switch and(box, BESIDE)
-            case 0 { box := shr(FACE_BOX_AT, box) }
-            default { box := 0x1f001f001f00 }
             let bit := shl(and(index, 0xff), 1)
             let size := shl(5, words)
             let set := add(sets, shl(5, shr(8, index)))
@@ -142,11 +182,10 @@ library Faces {
     }
 
     /// @notice What may shade a face, of 256 faces.
-    /// @param box The first word of its record.
+    /// @param box Its ranges.
     /// @param offset Of the word in each set.
     function candidates(uint256 sets, uint256 words, uint256 box, uint256 offset) internal pure returns (uint256 bits) {
         assembly ("memory-safe") {
-            box := shr(FACE_BOX_AT, box)
             let size := shl(5, words)
             let set := add(sets, offset)
             bits := mload(add(set, mul(size, byte(31, box))))
@@ -161,18 +200,16 @@ library Faces {
         }
     }
 
-    /// @notice The place of the lowest bit of a word that is not zero.
-    function lowestBit(uint256 bits) internal pure returns (uint256 place) {
+    /// @notice Writes the coordinates of three corners as lanes.
+    /// @param corners The first word of the record of a face.
+    function pack(uint256 target, uint256 corners) internal pure {
         assembly ("memory-safe") {
-            bits := and(bits, sub(0, bits))
-            place := shl(7, lt(0xffffffffffffffffffffffffffffffff, bits))
-            place := or(place, shl(6, lt(0xffffffffffffffff, shr(place, bits))))
-            place := or(place, shl(5, lt(0xffffffff, shr(place, bits))))
-            place := or(place, shl(4, lt(0xffff, shr(place, bits))))
-            place := or(place, shl(3, lt(0xff, shr(place, bits))))
-            place := or(place, shl(2, lt(0xf, shr(place, bits))))
-            place := or(place, shl(1, lt(0x3, shr(place, bits))))
-            place := or(place, lt(1, shr(place, bits)))
+            let a := and(corners, ADDRESS_MASK)
+            let b := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
+            let c := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
+            for { let i := 0 } lt(i, 0x60) { i := add(i, 0x20) } {
+                mstore(add(target, i), add(mload(add(a, i)), shl(LANE, add(mload(add(b, i)), shl(LANE, mload(add(c, i)))))))
+            }
         }
     }
 
@@ -185,15 +222,20 @@ library Faces {
             uint256 c = (corners >> FACE_C_AT) & ADDRESS_MASK;
             int256 sign = loadSigned(face + FACE_SIDE) > 0 ? int256(1) : int256(-1);
             writeSide(plane, b, c, sign, isPoint);
-            writeSide(plane + PLANE_SIZE, c, a, sign, isPoint);
-            writeSide(plane + 2 * PLANE_SIZE, a, b, sign, isPoint);
-            plane += BEHIND;
-            (int256 x, int256 y, int256 z) =
-                (-sign * loadSigned(face + 0x20), -sign * loadSigned(face + 0x40), -sign * loadSigned(face + 0x60));
-            storeSigned(plane, x);
-            storeSigned(plane + 0x20, y);
-            storeSigned(plane + 0x40, z);
-            storeSigned(plane + 0x60, -(x * loadSigned(a) + y * loadSigned(a + 0x20) + z * loadSigned(a + 0x40)));
+            writeSide(plane + SIDE_SIZE, c, a, sign, isPoint);
+            writeSide(plane + 2 * SIDE_SIZE, a, b, sign, isPoint);
+            assembly ("memory-safe") {
+                plane := add(plane, BEHIND)
+                sign := sub(0, sign)
+                let x := mul(sign, mload(add(face, 0x20)))
+                let y := mul(sign, mload(add(face, 0x40)))
+                let z := mul(sign, mload(add(face, 0x60)))
+                mstore(plane, x)
+                mstore(add(plane, 0x20), y)
+                mstore(add(plane, 0x40), z)
+                x := add(mul(x, mload(a)), add(mul(y, mload(add(a, 0x20))), mul(z, mload(add(a, 0x40)))))
+                mstore(add(plane, 0x60), sub(0, x))
+            }
         }
     }
 
@@ -205,12 +247,9 @@ library Faces {
             let qy := mload(add(q, 0x20))
             switch isPoint
             case 0 {
-                let x := mul(sign, sub(py, qy))
-                let y := mul(sign, sub(qx, px))
-                mstore(plane, x)
-                mstore(add(plane, 0x20), y)
-                mstore(add(plane, 0x40), 0)
-                mstore(add(plane, 0x60), sub(0, add(mul(x, px), mul(y, py))))
+                mstore(plane, mul(sign, sub(py, qy)))
+                mstore(add(plane, 0x20), mul(sign, sub(qx, px)))
+                mstore(add(plane, 0x40), mul(sign, sub(mul(px, qy), mul(py, qx))))
             }
             default {
                 let pz := mload(add(p, 0x40))
@@ -218,25 +257,7 @@ library Faces {
                 mstore(plane, mul(sign, sub(mul(pz, qy), mul(py, qz))))
                 mstore(add(plane, 0x20), mul(sign, sub(mul(px, qz), mul(pz, qx))))
                 mstore(add(plane, 0x40), mul(sign, sub(mul(py, qx), mul(px, qy))))
-                mstore(add(plane, 0x60), 0)
             }
-        }
-    }
-
-    /// @notice A function at the corners of a face.
-    /// @param corners The first word of its record.
-    function values(uint256 plane, uint256 corners) internal pure returns (int256 a, int256 b, int256 c) {
-        assembly ("memory-safe") {
-            let x := mload(plane)
-            let y := mload(add(plane, 0x20))
-            let z := mload(add(plane, 0x40))
-            plane := mload(add(plane, 0x60))
-            let p := and(corners, ADDRESS_MASK)
-            a := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
-            p := and(shr(FACE_B_AT, corners), ADDRESS_MASK)
-            b := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
-            p := and(shr(FACE_C_AT, corners), ADDRESS_MASK)
-            c := add(add(plane, mul(x, mload(p))), add(mul(y, mload(add(p, 0x20))), mul(z, mload(add(p, 0x40)))))
         }
     }
 }

@@ -12,25 +12,37 @@ import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
 // The space of the light. z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
 // what casts shadows, or the point light. The farthest place that casts a shadow has coordinates of 20 bits, with the sign.
 //
-// A vertex is four words: x, y, z, and the ranges in which they are, lanes of 16 bits, or BESIDE.
+// Coordinates are divided into ranges, to find what may shade a face: x, y and z, or x / z, y / z and -z. A point light among what casts
+// shadows is in the middle of a cube, and each side of it, z, -z, x, -x, y, -y, has ranges of its own, with its axis in place of z.
+//
+// A vertex is four words: x, y, z, and the ranges in which they are with the side of the cube, lanes of 16 bits, or BESIDE.
 
 /// @dev Bits of the coordinates of the farthest place that casts a shadow, without the sign.
 uint256 constant COORDINATE_BITS = 19;
 /// @dev Coordinates are divided into so many ranges, to find what may shade a face.
-uint256 constant BUCKETS = 32;
+uint256 constant BUCKETS = 128;
 uint256 constant PLACE_SIZE = 0x80;
 uint256 constant PLACE_BUCKETS = 0x60;
-/// @dev The vertex is beside or behind a point light.
+/// @dev The vertex is beside or behind a point light that is not in a cube, or at the light.
 uint256 constant BESIDE = 1 << 255;
 /// @dev Bits of the product of a length, Q32, and a factor, 2^64 / radius (Q32), below those of a coordinate.
 uint256 constant PLACE_SHIFT = 77;
 /// @dev Bits of x / z and y / z.
 uint256 constant SLOPE_BITS = 16;
+/// @dev A point light with a greater slope across what casts shadows is among that.
+int256 constant WIDEST = 2 << 16;
+/// @dev Sides of a cube; where the side is in the ranges; and whether there are any.
+uint256 constant CUBE = 6;
+uint256 constant SIDE_AT = 48;
+uint256 constant HAS_BOX = 1 << 63;
+/// @dev All ranges of x and y, and from the least one of z on.
+uint256 constant EVERYWHERE = 0x7f007f007f00;
 /// @dev Above this, Q32, the y component of a direction is not taken as that of a second axis.
 int256 constant UPRIGHT = 3 << 30;
 
 /// @param axis Three times three numbers, 2^64 / radius times the components of the axes.
 /// @param low, factor Of the ranges into which coordinates are divided.
+/// @param sides How many sides of the cube have ranges: CUBE or 1.
 struct Frame {
     bool isPoint;
     int256 radius;
@@ -38,6 +50,7 @@ struct Frame {
     int256[9] axis;
     int256[3] low;
     int256[3] factor;
+    uint256 sides;
 }
 
 library LightSpace {
@@ -96,6 +109,7 @@ library LightSpace {
     function frameOf(Light calldata light, int256[6] memory bounds) internal pure returns (Frame memory frame) {
         unchecked {
             frame.isPoint = light.kind == POINT;
+            frame.sides = 1;
             int256[3] memory vector = [light.vector.x.raw(), light.vector.y.raw(), light.vector.z.raw()];
             int256[3] memory middle;
             int256[3] memory reach;
@@ -142,15 +156,19 @@ library LightSpace {
         unchecked {
             int256 size = (half << COORDINATE_BITS) / frame.radius + 2;
             distance = (distance << COORDINATE_BITS) / frame.radius;
-            int256 across = int256(4 << SLOPE_BITS);
-            if (distance > size) {
-                int256 slope = (size << SLOPE_BITS) / (distance - size) + 1;
-                if (slope < across) across = slope;
+            int256 lowest = distance + size;
+            int256 depth = 2 * size;
+            int256 across = distance > size ? (size << SLOPE_BITS) / (distance - size) + 1 : WIDEST + 1;
+            if (across > WIDEST) {
+                frame.sides = CUBE;
+                across = int256(1 << SLOPE_BITS);
+                lowest = int256(1 << COORDINATE_BITS);
+                depth = lowest;
             }
-            (frame.low[0], frame.low[1], frame.low[2]) = (-across, -across, -(distance + size));
+            (frame.low[0], frame.low[1], frame.low[2]) = (-across, -across, -lowest);
             frame.factor[0] = int256(BUCKETS << 32) / (2 * across);
             frame.factor[1] = frame.factor[0];
-            frame.factor[2] = int256(BUCKETS << 32) / (2 * size);
+            frame.factor[2] = int256(BUCKETS << 32) / depth;
         }
     }
 
@@ -186,14 +204,22 @@ library LightSpace {
                 storeSigned(vertex, x);
                 storeSigned(vertex + 0x20, y);
                 storeSigned(vertex + 0x40, z);
+                uint256 side = 0;
                 if (frame.isPoint) {
+                    if (frame.sides != 1) {
+                        side = mainSide(x, y, z);
+                        (x, y, z) = turned(x, y, z, side);
+                    }
                     if (4 * z <= magnitude(x) || 4 * z <= magnitude(y)) {
                         store(vertex + PLACE_BUCKETS, BESIDE);
                         continue;
                     }
                     (x, y, z) = ((x << SLOPE_BITS) / z, (y << SLOPE_BITS) / z, -z);
                 }
-                store(vertex + PLACE_BUCKETS, bucket(frame, 0, x) | (bucket(frame, 1, y) << 16) | (bucket(frame, 2, z) << 32));
+                store(
+                    vertex + PLACE_BUCKETS,
+                    bucket(frame, 0, x) | (bucket(frame, 1, y) << 16) | (bucket(frame, 2, z) << 32) | (side << SIDE_AT)
+                );
             }
         }
     }
@@ -204,7 +230,67 @@ library LightSpace {
             value := sub(value, mload(add(mload(add(frame, 0x80)), offset)))
             value := sar(32, mul(value, mload(add(mload(add(frame, 0xa0)), offset))))
             range := mul(value, sgt(value, 0))
-            if gt(range, 31) { range := 31 }
+            if gt(range, 127) { range := 127 }
+        }
+    }
+
+    /// @dev The side of the cube on which a place is.
+    function mainSide(int256 x, int256 y, int256 z) private pure returns (uint256) {
+        unchecked {
+            (int256 i, int256 j, int256 k) = (magnitude(x), magnitude(y), magnitude(z));
+            if (k >= i && k >= j) return z < 0 ? 1 : 0;
+            if (i >= j) return x < 0 ? 3 : 2;
+            return y < 0 ? 5 : 4;
+        }
+    }
+
+    /// @dev A place with the axis of a side in place of z.
+    function turned(int256 x, int256 y, int256 z, uint256 side) private pure returns (int256, int256, int256) {
+        unchecked {
+            if (side > 3) (x, y, z) = (z, x, y);
+            else if (side > 1) (x, y, z) = (y, z, x);
+            return (x, y, side & 1 == 0 ? z : -z);
+        }
+    }
+
+    /// @notice The ranges of a face that is on several sides of the cube, on one of them.
+    /// @param places Three addresses of vertices.
+    /// @return box As in Faces, and HAS_BOX; 0 where it is not on that side.
+    function boxOn(Frame memory frame, uint256[3] memory places, uint256 side) internal pure returns (uint256 box) {
+        unchecked {
+            int256 far;
+            int256 near = type(int256).max;
+            uint256 outside = 15;
+            for (uint256 i; i != 3; ++i) {
+                uint256 vertex = places[i];
+                (int256 x, int256 y, int256 z) =
+                    turned(loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40), side);
+                if (z > far) far = z;
+                if (z < near) near = z;
+                outside &= (x > z ? 1 : 0) | (-x > z ? 2 : 0) | (y > z ? 4 : 0) | (-y > z ? 8 : 0);
+            }
+            if (far <= 0 || outside != 0) return 0;
+            box = HAS_BOX | (bucket(frame, 2, -far) << 32);
+            if (near <= 0) return box | EVERYWHERE;
+            box |= bucket(frame, 2, -near) << 40;
+            return box | boxAcross(frame, places, side, 0) | (boxAcross(frame, places, side, 1) << 16);
+        }
+    }
+
+    /// @dev The least range of x / z (axis 0) or y / z (1) and, above it, the greatest.
+    function boxAcross(Frame memory frame, uint256[3] memory places, uint256 side, uint256 axis) private pure returns (uint256) {
+        unchecked {
+            int256 low = type(int256).max;
+            int256 high = type(int256).min;
+            for (uint256 i; i != 3; ++i) {
+                uint256 vertex = places[i];
+                (int256 x, int256 y, int256 z) =
+                    turned(loadSigned(vertex), loadSigned(vertex + 0x20), loadSigned(vertex + 0x40), side);
+                int256 slope = ((axis == 0 ? x : y) << SLOPE_BITS) / z;
+                if (slope < low) low = slope;
+                if (slope > high) high = slope;
+            }
+            return bucket(frame, axis, low) | (bucket(frame, axis, high) << 8);
         }
     }
 

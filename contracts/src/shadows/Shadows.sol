@@ -4,17 +4,17 @@ pragma solidity 0.8.37;
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Matrix} from "../math/Quaternion.sol";
+import {GROUND, OPACITIES_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/EffectRecords.sol";
 import {Extensions, OPACITY_OF} from "../scene/Extensions.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {ADDRESS_MASK, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces} from "./Faces.sol";
-import {BESIDE, BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
-import {COVERED, LAST_SHADOW, MISSED, ROW_MASK, Receiver, Receivers, TOP_AT} from "./Receivers.sol";
 import {Indices} from "../pipeline/Indices.sol";
 import {Triangles} from "../pipeline/Triangles.sol";
-import {GROUND, OPACITIES_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/EffectRecords.sol";
 import {Transform} from "../uniforms/Transform.sol";
 import {View} from "../uniforms/View.sol";
+import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE} from "./Faces.sol";
+import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
+import {CHAINS, COVERED, LAST_EDGE, MISSED, RECEIVER_SIZE, Receiver, Receivers} from "./Receivers.sol";
 import "../pipeline/Registers.sol";
 
 // Which parts of which faces one light does not reach.
@@ -28,10 +28,12 @@ library Shadows {
     /// @param frame The space of the light.
     /// @param vertices, faces Of each object, where its vertices and faces begin.
     /// @param begin, end Of the faces.
-    /// @param casters The addresses of the faces that cast shadows.
+    /// @param casters The faces that cast shadows: see Faces.
     /// @param sets See Faces; of `words` words each.
-    /// @param found What shades a face, one address for each face that casts shadows.
-    /// @param heads A word for each row of the canvas, whose size is `width` and `height`.
+    /// @param boxes Where to look for what may shade a face: see Faces.writeBoxes.
+    /// @param planes Where the functions of what casts shadows are written.
+    /// @param heads A word for each row of the canvas, whose size is `width` and `height`; 0 but while lists are ordered.
+    /// @param chains See Receiver.
     /// @param light Its number; `toward` is the direction toward it in the space of a mesh: see turnsAway.
     /// @param eye In the space of the light; for an orthographic camera the direction in which it looks.
     struct State {
@@ -43,8 +45,10 @@ library Shadows {
         uint256 casterCount;
         uint256 sets;
         uint256 words;
-        uint256 found;
+        uint256 boxes;
+        uint256 planes;
         uint256 heads;
+        uint256 chains;
         uint256 width;
         uint256 height;
         int256[3] eye;
@@ -73,7 +77,10 @@ library Shadows {
                 LightSpace.place(state.frame, state.vertices[0], state.vertices[scene.objects.length]);
                 setEye(scene, view_, state);
                 readFaces(scene, state, Extensions.word(Extensions.find(scene, SHADOW, light)));
-                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, i);
+                Receiver memory receiver;
+                (receiver.isPoint, receiver.chains) = (state.frame.isPoint, state.chains);
+                Receivers.open(receiver);
+                for (uint256 i; i != scene.objects.length; ++i) shadeObject(scene, view_, state, receiver, i);
             } else {
                 readFaces(scene, state, 0);
             }
@@ -158,22 +165,28 @@ library Shadows {
                     state, mesh, i, end, casts(scene, i) ? (object.flags & CULL_BACKFACES == 0 ? SHADOWS_ALL : rule) : 0
                 );
             }
-            uint256 count = (end - state.casters) >> 5;
+            uint256 count = (end - state.casters) / CASTER_SIZE;
             uint256 words = (count + 255) >> 8;
             (state.casterCount, state.words, state.sets) = (count, words, end);
-            uint256 size = 5 * BUCKETS * words * 32;
+            uint256 size = 5 * BUCKETS * words * 32 * state.frame.sides;
             assembly ("memory-safe") {
                 calldatacopy(end, calldatasize(), size)
             }
-            state.found = end + size;
-            state.heads = state.found + 32 * count;
-            setFreeMemory(state.heads + 32 * scene.canvas.height);
-            for (uint256 i; i != count; ++i) Faces.insert(state.sets, words, i, load(state.casters + 32 * i));
-            Faces.complete(state.sets, words);
+            state.planes = end + size;
+            state.boxes = state.planes + PLANES_SIZE * count;
+            state.heads = state.boxes + 0x40 * state.frame.sides;
+            state.chains = state.heads + 32 * state.height;
+            setFreeMemory(state.chains + 32 * CHAINS);
+            for (uint256 i; i != count; ++i) {
+                uint256 corners = load(load(state.casters + CASTER_SIZE * i));
+                uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, words, state.frame, corners);
+                for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) Faces.insert(load(p), words, i, load(p + 0x20));
+            }
+            for (uint256 i; i != state.frame.sides; ++i) Faces.complete(state.sets + i * (size / state.frame.sides), words);
         }
     }
 
-    /// @param end Where to append the addresses of faces that cast shadows.
+    /// @param end Where to append those that cast shadows.
     /// @param rule Which of them do; 0 for none.
     function readObject(State memory state, Mesh memory mesh, uint256 index, uint256 end, uint256 rule)
         private
@@ -198,7 +211,8 @@ library Shadows {
                     int256 side = loadSigned(face + FACE_SIDE);
                     if (side != 0 && (rule == SHADOWS_ALL || (side > 0) == (rule == SHADOWS_TURNED))) {
                         store(end, face);
-                        end += 32;
+                        Faces.pack(end + 0x20, load(face));
+                        end += CASTER_SIZE;
                     }
                 }
                 face += FACE_RECORD_SIZE;
@@ -208,7 +222,10 @@ library Shadows {
     }
 
     /// @dev Sets the entries of the faces of an object.
-    function shadeObject(Scene calldata scene, View memory view_, State memory state, uint256 index) private pure {
+    function shadeObject(Scene calldata scene, View memory view_, State memory state, Receiver memory receiver, uint256 index)
+        private
+        pure
+    {
         unchecked {
             Object calldata object = scene.objects[index];
             Mesh memory mesh = openMesh(object.mesh);
@@ -219,9 +236,6 @@ library Shadows {
                     mcopy(MESH_VERTICES, mesh, 0xc0)
                 }
             }
-            Receiver memory receiver;
-            receiver.planes = freeMemory();
-            setFreeMemory(receiver.planes + 0x200);
             uint256 source = mesh.faces;
             bool isFlat = object.material.shading == FLAT;
             bool isCulled = object.flags & CULL_BACKFACES != 0;
@@ -299,7 +313,7 @@ library Shadows {
         }
     }
 
-    /// @return The entry of a face: LIT, DARK, or the address of a chain of lists: that of the next or 0, the end of this one, functions.
+    /// @return The entry of a face: LIT, DARK, or the address of a list: see Receivers.finish.
     function shadeFace(
         State memory state,
         Receiver memory receiver,
@@ -308,84 +322,35 @@ library Shadows {
     ) private pure returns (uint256) {
         unchecked {
             uint256 corners = load(face);
-            (receiver.corners, receiver.isPlaced) = (corners, false);
-            bool hasPlanes;
-            uint256 count;
+            bool isSet;
+            receiver.isPlaced = false;
+            uint256 boxesEnd = Faces.writeBoxes(state.boxes, state.sets, state.words, state.frame, corners);
             for (uint256 offset; offset != 32 * state.words; offset += 32) {
                 uint256 bits;
-                if (corners & BESIDE == 0) {
-                    bits = Faces.candidates(state.sets, state.words, corners, offset);
-                } else {
-                    bits = state.casterCount - 8 * offset;
-                    bits = bits < 256 ? (1 << bits) - 1 : type(uint256).max;
+                for (uint256 p = state.boxes; p != boxesEnd; p += 0x40) {
+                    bits |= Faces.candidates(load(p), state.words, load(p + 0x20), offset);
                 }
-                if (bits != 0 && !hasPlanes) {
-                    hasPlanes = true;
-                    Faces.writePlanes(face, state.frame.isPoint, receiver.planes);
+                if (bits != 0 && !isSet) {
+                    isSet = true;
+                    Receivers.setFace(receiver, face);
                 }
                 while (bits != 0) {
-                    uint256 caster = load(state.casters + 32 * (8 * offset + Faces.lowestBit(bits)));
-                    bits &= bits - 1;
-                    if (caster == face) continue;
-                    uint256 found = shadowOf(state, receiver, caster, source);
-                    if (found == DARK) return DARK;
-                    if (found != LIT) store(state.found + 32 * count++, found);
-                }
-            }
-            return count == 0 ? LIT : ordered(state, count);
-        }
-    }
-
-    /// @return What one face casts on another: LIT for nothing, DARK for all of it, or the address of a list.
-    function shadowOf(State memory state, Receiver memory receiver, uint256 caster, uint256 source) private pure returns (uint256) {
-        unchecked {
-            uint256 shade = Receivers.test(receiver, caster, state.frame.isPoint);
-            if (shade == MISSED) return LIT;
-            if (shade == COVERED) return DARK;
-            if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source));
-            uint256 list = freeMemory();
-            uint256 end;
-            (shade, end) = Receivers.write(receiver, state.width, state.height, list + 0x40);
-            if (shade == MISSED) return LIT;
-            if (shade == COVERED) return DARK;
-            setFreeMemory(end);
-            store(list + 0x20, end);
-            return list;
-        }
-    }
-
-    /// @dev Chains the lists that were found, ordered by their first rows.
-    /// @return first The address of the first.
-    function ordered(State memory state, uint256 count) private pure returns (uint256 first) {
-        unchecked {
-            uint256 found = state.found;
-            uint256 heads = state.heads;
-            uint256 size = 32 * state.height;
-            assembly ("memory-safe") {
-                calldatacopy(heads, calldatasize(), size)
-                // those of a row in front of one another, from the last on
-                for { let p := add(found, shl(5, count)) } gt(p, found) {} {
-                    p := sub(p, 0x20)
-                    let list := mload(p)
-                    let head := add(heads, shl(5, and(shr(TOP_AT, mload(add(list, 0x40))), ROW_MASK)))
-                    mstore(list, mload(head))
-                    mstore(head, list)
-                }
-                let last
-                for {} count { heads := add(heads, 0x20) } {
-                    let list := mload(heads)
-                    if list {
-                        switch last
-                        case 0 { first := list }
-                        default { mstore(last, list) }
-                        for {} list { list := mload(list) } {
-                            last := list
-                            count := sub(count, 1)
-                        }
+                    uint256 caster;
+                    (caster, bits) = Receivers.next(receiver, bits, state.casters + 8 * CASTER_SIZE * offset);
+                    if (caster == 0) break;
+                    uint256 plane = state.planes + PLANES_SIZE * ((caster - state.casters) / CASTER_SIZE);
+                    caster = load(caster);
+                    uint256 shade = Receivers.test(receiver, caster, plane);
+                    if (shade == MISSED) continue;
+                    if (shade == COVERED) {
+                        Receivers.clear(receiver);
+                        return DARK;
                     }
+                    if (!receiver.isPlaced) Receivers.place(receiver, Triangles.readIndices(source), state.width, state.height);
+                    Receivers.add(receiver, caster);
                 }
-                mstore(last, 0)
             }
+            return receiver.isPlaced ? Receivers.finish(receiver, state.heads) : LIT;
         }
     }
 
@@ -410,7 +375,7 @@ library Shadows {
                     face += FACE_RECORD_SIZE;
                     if (entry > DARK) {
                         word |= end - begin;
-                        end = copyLists(entry, end);
+                        end = copyList(entry, end);
                     } else {
                         word |= entry;
                     }
@@ -422,21 +387,15 @@ library Shadows {
         }
     }
 
-    /// @dev Copies a chain of lists.
+    /// @dev Copies a list.
     /// @return end The address after the last word.
-    function copyLists(uint256 list, uint256 target) private pure returns (uint256 end) {
+    function copyList(uint256 list, uint256 target) private pure returns (uint256 end) {
         unchecked {
-            end = target;
-            uint256 last;
-            for (; list != 0; list = load(list)) {
-                uint256 size = load(list + 0x20) - list - 0x40;
-                last = end;
-                assembly ("memory-safe") {
-                    mcopy(end, add(list, 0x40), size)
-                }
-                end += size;
+            end = target + load(list);
+            assembly ("memory-safe") {
+                mcopy(target, add(list, 0x20), mload(list))
             }
-            store(last, load(last) | LAST_SHADOW);
+            store(end - 32, load(end - 32) | LAST_EDGE);
         }
     }
 }

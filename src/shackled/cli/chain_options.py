@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property, wraps
 from inspect import Parameter, Signature, signature
@@ -19,13 +19,15 @@ from ..checks import number
 from ..errors import InputError
 from ..ethereum import at_most, checksum_address, ether, parse_address, roughly
 from ..untrusted import plain
+from ..values import plural
+from ..whole_file import write_output
 from .option import option
 from .output import print_line, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ..deploy import DeploymentStep, Quote, Receipt, Transactor
+    from ..deploy import DeploymentStep, Plan, Quote, Receipt, Transactor
 
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
@@ -185,6 +187,39 @@ def print_price(quotes: Sequence[Quote]) -> None:
         + f"about {roughly(likely)} for {gas:,} gas as the node estimates, {counted:,} as counted here; "
         + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in all"
     )
+
+
+def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote]) -> None:
+    """Write transactions as JSON, so that a wallet can send them: the chain, and calls as in EIP-5792.
+
+    quotes: what each one is for, in the order in which they must be sent.
+    """
+    calls = []
+    for name, each in quotes.items():
+        call, to = each.call, each.call.to
+        fields = {"value": hex(call.value), "data": f"0x{call.data.hex()}", "gas": hex(each.gas)}
+        calls.append({"name": name, "to": to and checksum_address(to), **fields})
+    write_output(path, (json.dumps({"chainId": hex(chain_id), "calls": calls}, indent=1) + "\n").encode())
+    print_note(
+        f"nothing was sent: {path} has {plural(len(calls), 'transaction')}, which any account can send in this order, "
+        f"with {sum(each.gas for each in quotes.values()):,} gas in all"
+    )
+
+
+def wallet_calls(plan: Plan) -> dict[str, Quote]:
+    """Return the transactions by which a wallet deploys what is missing, in order, by what they are for.
+
+    InputError if the chain has no deployment proxy, whose transaction is signed already.
+    """
+    quotes = {}
+    for step in plan.missing:
+        if step.deployment is None or step.quote is None:
+            raise InputError(
+                "the chain has no deterministic-deployment proxy, which --calldata cannot deploy: "
+                "run `shackled deploy` with an account first"
+            )
+        quotes[f"deploy {step.name}"] = step.quote
+    return quotes
 
 
 def print_step(step: DeploymentStep, receipts: Sequence[Receipt], to_stdout: bool = False) -> None:

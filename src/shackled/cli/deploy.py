@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 from ..chain import PATIENCE, Connection
 from ..errors import InputError
 from ..ethereum import GWEI, at_most, checksum_address, rounded
-from .chain_options import NodeOptions, PayerOptions, print_json, print_step, with_groups
+from .chain_options import (
+    NodeOptions,
+    PayerOptions,
+    print_json,
+    print_step,
+    wallet_calls,
+    with_groups,
+    write_calls,
+)
 from .option import option
 from .output import print_line, print_note, print_table
 
@@ -29,6 +37,10 @@ def deploy(
             "GenesisMetadata; without it, the first nine. Contracts that they call are added.",
             "NAMES",
         ),
+    ] = None,
+    calldata: Annotated[
+        Path | None,
+        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
     standard_json: Annotated[
@@ -55,6 +67,9 @@ def deploy(
     receipts: list[Receipt] = []
     if plan.missing:
         _print_plan(plan, connection, as_json)
+        if calldata is not None:
+            write_calls(calldata, connection.chain_id, wallet_calls(plan))
+            return
         transactor = payer.transactor(connection)
         transactor.on_delay = print_note
         transactor.wait_for_pending()

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..image import FORMATS, one_of
-from .chain_options import NodeOptions, PayerOptions, print_json, print_price, print_step, with_groups
+from .chain_options import (
+    NodeOptions,
+    PayerOptions,
+    print_json,
+    print_price,
+    print_step,
+    wallet_calls,
+    with_groups,
+    write_calls,
+)
 from .option import option, parse_size
 from .output import print_line, print_note
 
@@ -28,6 +38,10 @@ def mint(
     position_bits: Annotated[
         int | None,
         option("--position-bits", "Cheaper: round positions to a grid of 2^N steps, 4 to 16. Default: exact.", "N"),
+    ] = None,
+    calldata: Annotated[
+        Path | None,
+        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
@@ -68,6 +82,13 @@ def mint(
         print_note(f"storing it: {storage.gas:,} gas; it cannot be undone")
         # before the account is opened, so that nobody needs one to see the price
         print_price([*storage.parts.quotes, *storage.quotes])
+        if calldata is not None:
+            parts = {
+                f"store part {number} of {each.name}": each.quote for number, each in enumerate(storage.missing, 1)
+            }
+            write_calls(calldata, connection.chain_id, wallet_calls(storage.parts) | parts)
+            print_line(f"pointer  {pointer}")
+            return
         transactor = payer.transactor(connection)
         payer.confirm(transactor)
         gas = sum(receipt.gas for receipt in store(storage, transactor, print_step))

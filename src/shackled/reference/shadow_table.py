@@ -8,37 +8,32 @@ from typing import NamedTuple
 
 #: Entries of faces; others are offsets of lists.
 LIT, DARK = 0, 1
-#: Bytes of an entry. In words of a list: how many functions a shadow has, and whether it is the last one, both in its
-#: first word; rows and coefficients.
+#: Bytes of an entry. In words of a list: whether the shadow ends at an edge, or begins; whether it is the last one;
+#: rows of samples and coefficients.
 ENTRY_SIZE = 4
-LAST = 1 << 8
-LEFT_AT, RIGHT_AT, BOTTOM_AT, TOP_AT, CONSTANT_AT, Y_AT, X_AT = 32, 48, 64, 80, 96, 160, 208
-#: Where the four samples of a pixel are, in eighths of it.
+ENDS, LAST = 1, 1 << 8
+BOTTOM_AT, TOP_AT, CONSTANT_AT, Y_AT, X_AT = 64, 80, 96, 160, 208
+#: Where the four samples of a pixel are, in eighths of it; each is in a row of its own.
 SAMPLES = ((-1, -3), (3, -1), (-3, 1), (1, 3))
 
 
-class Function(NamedTuple):
-    """x * X + y * Y + constant, where X and Y are the place on the canvas in eighths of a pixel."""
+class Edge(NamedTuple):
+    """An edge of shadows, of the rows of samples from top to before bottom, four for each row of pixels.
 
+    A place on the canvas, in eighths of a pixel, is to the right of it where x * X + y * Y + constant is at least 0.
+    There are so many more shadows to the right of it than to the left.
+    """
+
+    top: int
+    bottom: int
+    more: int
     x: int
     y: int
     constant: int
 
 
-class Shadow(NamedTuple):
-    """What a face casts on another: where all functions are at least 0, in the rows from top to before bottom, and the
-    columns from left to before right.
-    """
-
-    top: int
-    bottom: int
-    left: int
-    right: int
-    functions: tuple[Function, ...]
-
-
-#: LIT, DARK, or what shades parts of a face, ordered by the first row.
-Entry = int | list[Shadow]
+#: LIT, DARK, or the edges of what shades parts of a face, ordered by the first row of pixels.
+Entry = int | list[Edge]
 
 
 @dataclass(frozen=True)
@@ -70,23 +65,23 @@ def dark_samples(entry: Entry, column: int, row: int) -> list[bool]:
     """Return which of the samples of a pixel of the canvas are in the shadow on a face."""
     if isinstance(entry, int):
         return [entry == DARK] * 4
-    shadows = [each for each in entry if each.top <= row < each.bottom and each.left <= column < each.right]
-    return [any(covers(each, 8 * column + x, 8 * row + y) for each in shadows) for x, y in SAMPLES]
+    return [
+        sum(
+            edge.more
+            for edge in entry
+            if edge.top <= 4 * row + k < edge.bottom
+            and edge.x * (8 * column + x) + edge.y * (8 * row + y) + edge.constant >= 0
+        )
+        > 0
+        for k, (x, y) in enumerate(SAMPLES)
+    ]
 
 
-def covers(shadow: Shadow, x: int, y: int) -> bool:
-    """Return whether a place on the canvas, in eighths of a pixel, is shaded."""
-    return all(f.x * x + f.y * y + f.constant >= 0 for f in shadow.functions)
-
-
-def words_of(shadows: Sequence[Shadow]) -> Iterable[bytes]:
+def words_of(edges: Sequence[Edge]) -> Iterable[bytes]:
     """Yield the words of a list."""
-    for shadow in shadows:
-        head = len(shadow.functions) | (shadow is shadows[-1]) * LAST
-        for f in shadow.functions:
-            word = head | shadow.left << LEFT_AT | shadow.right << RIGHT_AT
-            word |= shadow.bottom << BOTTOM_AT | shadow.top << TOP_AT
-            word |= (f.constant & (1 << 64) - 1) << CONSTANT_AT
-            word |= (f.y & (1 << 48) - 1) << Y_AT | (f.x & (1 << 48) - 1) << X_AT
-            yield word.to_bytes(32, "big")
-            head = 0
+    for number, edge in enumerate(edges):
+        last = number == len(edges) - 1
+        word = last * LAST | (edge.more < 0) * ENDS | edge.bottom << BOTTOM_AT | edge.top << TOP_AT
+        word |= (edge.constant & (1 << 64) - 1) << CONSTANT_AT
+        word |= (edge.y & (1 << 48) - 1) << Y_AT | (edge.x & (1 << 48) - 1) << X_AT
+        yield word.to_bytes(32, "big")

@@ -17,7 +17,7 @@ from .opacities import OPACITIES
 from .registers import Registers
 from .roots import sqrt
 from .scene_errors import Reverted
-from .shadow_table import DARK, LIT, Entry, Function, Shadow, Table
+from .shadow_table import DARK, LIT, Edge, Entry, Table
 from .structs import CULL_BACKFACES, FLAT, POINT, SMOOTH, UNLIT, WIREFRAME, Canvas, Scene
 from .vector import Vector, cross, normalize, scale, subtract, to_matrix, transposed_times
 from .view import View
@@ -26,15 +26,24 @@ from .words import divide, divide_signed
 #: The farthest place that casts a shadow has coordinates of so many bits in the space of the light.
 COORDINATE_BITS = 19
 #: Coordinates are divided into so many ranges, to find what may shade a face.
-BUCKETS = 32
+BUCKETS = 128
+#: The first and the last range of x, y and z.
+Box = tuple[int, int, int, int, int, int]
+EVERYWHERE = (0, BUCKETS - 1) * 3
+#: A point light with a greater slope across what casts shadows is among that.
+WIDEST = 2 << 16
+#: The functions of a face with coordinates of this magnitude, or a greater one, have factors of fewer bits.
+NARROW, WIDE_BITS = 1 << 26, 60
+Plane = tuple[int, int, int, int]
+#: Bits of the coordinates of corners that are made where polygons are cut.
+VALUE_BITS = 83
 #: Bits of the distances of vertices, and of other homogeneous coordinates.
 DISTANCE_BITS, CLIP_BITS = 38, 60
-#: Bits of the change of a function per eighth of a pixel, and below what the functions are on the canvas.
-GRADIENT_BITS, BOUND = 44, 1 << 60
-#: More than what rounding takes from a function anywhere on the canvas.
-SLACK = 1 << 16
-#: Sub-pixels by which the rows and columns of a shadow are widened: to the outermost sample, and for rounding.
-WIDER = 112
+#: Places on the canvas: whole numbers with so many bits below the pixel; in sub-pixels they are below 2 to this.
+POINT_BITS, GUARD = 20, 22
+Point = tuple[int, int]
+#: Bits of the change of the function of an edge per eighth of a pixel.
+EDGE_BITS = 40
 
 
 @dataclass(frozen=True)
@@ -44,7 +53,8 @@ class Frame:
     z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
     what casts shadows, or the point light.
 
-    axes: times 2^64 / radius. low, factor: of the ranges into which coordinates are divided.
+    axes: times 2^64 / radius. low, factor: of the ranges into which coordinates are divided. sides: of a point light,
+    the sides of a cube around it that have ranges of their own: 6 where it is among what casts shadows, else 1.
     """
 
     is_point: bool
@@ -53,6 +63,7 @@ class Frame:
     radius: int
     low: Vector
     factor: Vector
+    sides: int = 1
 
     def place(self, v: Vector) -> Vector:
         """Return a place of the world."""
@@ -70,35 +81,70 @@ class Frame:
         x, y, z = (self._along(axis, scaled) for axis in self.axes)
         return x, y, z
 
-    def bucket(self, place: Vector) -> tuple[int, int, int] | None:
-        """Return the ranges of a place; None for one that is beside or behind a point light."""
-        x, y, z = place
-        if self.is_point:
-            if 4 * z <= max(abs(x), abs(y)):
-                return None
-            x, y, z = divide_signed(x << 16, z), divide_signed(y << 16, z), -z
-        ranges = (
-            (value - low) * factor >> 32 for value, low, factor in zip((x, y, z), self.low, self.factor, strict=True)
-        )
-        i, j, k = (min(max(value, 0), BUCKETS - 1) for value in ranges)
-        return i, j, k
+    def bucket(self, axis: int, value: int) -> int:
+        """Return the range of a coordinate."""
+        return min(max((value - self.low[axis]) * self.factor[axis] >> 32, 0), BUCKETS - 1)
+
+    def boxes(self, corners: Sequence[Vector]) -> list[Box | None]:
+        """Return the ranges of a face on each side of the cube; None where it is not on it."""
+        if not self.is_point:
+            return [self._box(corners)]
+        if self.sides == 1:
+            is_beside = any(4 * z <= max(abs(x), abs(y)) for x, y, z in corners)
+            return [EVERYWHERE if is_beside else self._box([slopes(each) for each in corners])]
+        main = [main_side(each) for each in corners]
+        if None not in main and len(set(main)) == 1:
+            return [self._box([slopes(turned(c, k)) for c in corners]) if k == main[0] else None for k in range(6)]
+        return [self._box_on([turned(each, k) for each in corners]) for k in range(6)]
+
+    def _box(self, places: Sequence[Vector]) -> Box:
+        x, y, z = (sorted(self.bucket(axis, place[axis]) for place in places) for axis in range(3))
+        return x[0], x[-1], y[0], y[-1], z[0], z[-1]
+
+    def _box_on(self, corners: Sequence[Vector]) -> Box | None:
+        """Return the ranges on a side of the cube of a face that is on several."""
+        far = max(z for _, _, z in corners)
+        outside = any(all(s * place[axis] > place[2] for place in corners) for axis in (0, 1) for s in (1, -1))
+        if far <= 0 or outside:
+            return None
+        if min(z for _, _, z in corners) > 0:
+            return self._box([slopes(each) for each in corners])
+        return 0, BUCKETS - 1, 0, BUCKETS - 1, self.bucket(2, -far), BUCKETS - 1
+
+
+def slopes(place: Vector) -> Vector:
+    """Return x / z and y / z, and how near a place is to a point light."""
+    x, y, z = place
+    return divide_signed(x << 16, z), divide_signed(y << 16, z), -z
+
+
+def turned(place: Vector, side: int) -> Vector:
+    """Return a place with the axis of a side of the cube in place of z: z, -z, x, -x, y, -y."""
+    axis = (2, 0, 1)[side // 2]
+    return place[(axis + 1) % 3], place[(axis + 2) % 3], -place[axis] if side % 2 else place[axis]
+
+
+def main_side(place: Vector) -> int | None:
+    """Return the side of the cube on which a place is; None for the light itself."""
+    far = max(map(abs, place))
+    return next((k for k in range(6) if turned(place, k)[2] == far), None) if far else None
 
 
 @dataclass
 class Face:
     """A face in the space of the light.
 
-    corners: their places. box: the ranges of its coordinates; None if a corner is beside a point light. normal: the
-    cross product of two sides. side: positive if it is turned to the light, 0 if it is seen edge-on.
+    corners: their places. boxes: the ranges of its coordinates: see Frame.boxes. normal: the cross product of two
+    sides. side: positive if it is turned to the light, 0 if it is seen edge-on.
     """
 
     object: int
     number: int
     corners: tuple[Vector, Vector, Vector]
-    box: tuple[int, int, int, int, int, int] | None
+    boxes: list[Box | None]
     normal: Vector
     side: int
-    planes: list[tuple[int, int, int, int]] = field(default_factory=list)
+    planes: list[Plane] = field(default_factory=list)
 
 
 def shadow_of(records: Records) -> tuple[int, int] | None:
@@ -128,9 +174,9 @@ def cast(scene: Scene, view: View, registers: Registers) -> Table | None:
         return table
     frame = frame_of(scene, light, points)
     faces = [
-        face_of(frame, index, number, [places[k] for k in corners], [buckets[k] for k in corners])
+        face_of(frame, index, number, [places[k] for k in corners])
         for index, (mesh, world) in enumerate(zip(meshes, worlds, strict=True))
-        for places, buckets in [light_places(frame, world)]
+        for places in [[frame.place(each) for each in world]]
         for number, corners in enumerate(mesh.faces)
     ]
     casters = [each for each in faces if casting[each.object] and is_caster(scene, each, rule)]
@@ -168,6 +214,7 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
     is_point = scene.lights[light].kind == POINT
     vector = scene.lights[light].vector
     half = (length_of(subtract(high, low)) >> 1) + 1
+    sides = 1
     if is_point:
         origin = vector
         reach = tuple(max(abs(a - o), abs(b - o)) for a, b, o in zip(low, high, origin, strict=True))
@@ -178,9 +225,12 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
         # the cone around the sphere around what casts shadows
         size = (half << COORDINATE_BITS) // radius + 2
         distance = (length_of(subtract(middle, origin)) << COORDINATE_BITS) // radius
-        most = 4 << 16
-        across = min((size << 16) // (distance - size) + 1, most) if distance > size else most
-        lows, sizes = (-across, -across, -(distance + size)), (2 * across, 2 * across, 2 * size)
+        across = (size << 16) // (distance - size) + 1 if distance > size else WIDEST + 1
+        if across > WIDEST:
+            across, lowest, depth, sides = 1 << 16, 1 << COORDINATE_BITS, 1 << COORDINATE_BITS, 6
+        else:
+            lowest, depth = distance + size, 2 * size
+        lows, sizes = (-across, -across, -lowest), (2 * across, 2 * across, depth)
     else:
         origin, radius, z = middle, half, normalize(vector)
         most = 1 << COORDINATE_BITS
@@ -188,7 +238,7 @@ def frame_of(scene: Scene, light: int, points: Sequence[Vector]) -> Frame:
     x = normalize(cross(z, (0, 1 << 32, 0) if abs(z[1]) < 3 << 30 else (1 << 32, 0, 0)))
     i, j, k = (divided(axis, radius) for axis in (x, cross(z, x), z))
     f, g, h = ((BUCKETS << 32) // each for each in sizes)
-    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h))
+    return Frame(is_point, origin, (i, j, k), radius, lows, (f, g, h), sides)
 
 
 def divided(axis: Vector, radius: int) -> Vector:
@@ -202,35 +252,21 @@ def length_of(v: Iterable[int]) -> int:
     return sqrt(sum(k * k for k in v))
 
 
-def light_places(frame: Frame, world: Iterable[Vector]) -> tuple[list[Vector], list[tuple[int, int, int] | None]]:
-    """Return places in the space of the light, and their ranges."""
-    places = [frame.place(each) for each in world]
-    return places, [frame.bucket(each) for each in places]
-
-
-def face_of(
-    frame: Frame, index: int, number: int, corners: Sequence[Vector], buckets: Sequence[tuple[int, int, int] | None]
-) -> Face:
+def face_of(frame: Frame, index: int, number: int, corners: Sequence[Vector]) -> Face:
     """Return a face in the space of the light."""
     a, b, c = corners
     normal = product(subtract(b, a), subtract(c, a))
     side = -inner(normal, a) if frame.is_point else normal[2]
-    box = None
-    if None not in buckets:
-        x, y, z = zip(*buckets, strict=True)
-        box = min(x), max(x), min(y), max(y), min(z), max(z)
     planes = planes_of((a, b, c), normal, side, frame.is_point) if side else []
-    return Face(index, number, (a, b, c), box, normal, side, planes)
+    return Face(index, number, (a, b, c), frame.boxes(corners), normal, side, planes)
 
 
-def planes_of(
-    corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool
-) -> list[tuple[int, int, int, int]]:
+def planes_of(corners: tuple[Vector, Vector, Vector], normal: Vector, side: int, is_point: bool) -> list[Plane]:
     """Return the sides, each opposite to a corner, and what lies behind: x, y, z and a constant of each.
 
     All are positive in the shadow.
     """
-    planes = []
+    planes: list[Plane] = []
     sign = 1 if side > 0 else -1
     for k in range(3):
         p, q = corners[(k + 1) % 3], corners[(k + 2) % 3]
@@ -293,49 +329,61 @@ def turns_away(scene: Scene, light: int, face: Face, mesh: Mesh) -> bool:
 
 def may_shade(caster: Face, face: Face) -> bool:
     """Return whether the ranges of a face let it shade another."""
-    if caster.box is None or face.box is None:
-        return True
-    left, right, low, high, _, near = caster.box
-    x, x_end, y, y_end, z, _ = face.box
+    return any(a and b and overlaps(a, b) for a, b in zip(caster.boxes, face.boxes, strict=True))
+
+
+def overlaps(caster: Box, face: Box) -> bool:
+    """Return whether ranges overlap, and the first are not all behind the others."""
+    left, right, low, high, _, near = caster
+    x, x_end, y, y_end, z, _ = face
     return right >= x and left <= x_end and high >= y and low <= y_end and near >= z
 
 
-def values(plane: tuple[int, int, int, int], corners: Iterable[Vector]) -> tuple[int, int, int]:
+def values(plane: Plane, corners: Iterable[Vector]) -> tuple[int, int, int]:
     """Return a function at the corners of a face."""
     a, b, c = (inner(plane[:3], place) + plane[3] for place in corners)
     return a, b, c
 
 
+def shrunk(planes: Sequence[Plane]) -> list[Plane]:
+    """Return functions divided by a power of two, so that factors have WIDE_BITS bits, and constants 22 more."""
+    shift = max(max(max(abs(x), abs(y), abs(z), abs(w) >> 22).bit_length() for x, y, z, w in planes) - WIDE_BITS, 0)
+    return [(x >> shift, y >> shift, z >> shift, w >> shift) for x, y, z, w in planes]
+
+
 def shade(scene: Scene, face: Face, casters: Iterable[Face], mesh: Mesh, view: View, registers: Registers) -> Entry:
-    """Return LIT, DARK, or what shades parts of a face."""
-    shadows: list[Shadow] = []
-    homogeneous: list[Vector] = []
+    """Return LIT, DARK, or the edges of what shades parts of a face."""
+    outlines: Outlines | None = None
+    is_wide = any(not -NARROW <= value < NARROW for corner in face.corners for value in corner)
+    own = shrunk(face.planes[:3]) + shrunk(face.planes[3:]) if is_wide else face.planes
     for caster in casters:
         if caster is face or not may_shade(caster, face):
             continue
-        if min(values(face.planes[3], caster.corners)) >= 0:
+        heights = values(own[3], caster.corners)
+        if min(heights) >= 0:
             continue
-        sides = [values(plane, caster.corners) for plane in face.planes[:3]]
+        a, b, c = sides = [values(plane, caster.corners) for plane in own[:3]]
         if any(max(side) <= 0 for side in sides):
             continue
-        lanes = [values(plane, face.corners) for plane in caster.planes]
-        if any(max(lane) <= 0 for lane in lanes):
-            continue
-        if all(min(lane) >= 0 for lane in lanes):
-            return DARK
-        if not homogeneous:
-            homogeneous = canvas_places(scene, face, mesh, view, registers)
-        shadow = shadow_on(homogeneous, sides, lanes, scene.canvas)
-        if shadow is not None:
-            if not shadow.functions:
+        if not is_wide:
+            # what is in front of the face is in front of all that is inside its sides
+            planes = caster.planes[:3] if max(heights) <= 0 else caster.planes
+            lanes = [values(plane, face.corners) for plane in planes]
+            if any(max(lane) <= 0 for lane in lanes):
+                continue
+            if all(min(lane) >= 0 for lane in lanes):
                 return DARK
-            shadows.append(shadow)
-    return sorted(shadows, key=lambda each: each.top) or LIT
+        if outlines is None:
+            outlines = Outlines(scene.canvas, *canvas_places(scene, face, mesh, view, registers))
+        outlines.add(list(zip(a, b, c, strict=True)), heights, face.side > 0, caster.side > 0)
+    return (outlines.edges() if outlines else []) or LIT
 
 
-def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers) -> list[Vector]:
-    """Return the corners of a face on the canvas: column and row in sub-pixels, and the distance, by all of which they
-    are multiplied.
+def canvas_places(
+    scene: Scene, face: Face, mesh: Mesh, view: View, registers: Registers
+) -> tuple[list[Vector], list[Point] | None]:
+    """Return the corners of a face on the canvas: column and row in sub-pixels, and the distance, by which both are
+    multiplied; and column and row alone, None if a corner is nearer than the near plane or far beyond the canvas.
     """
     thing = scene.objects[face.object]
     transform.set_matrix(view, thing, to_matrix(thing.rotation), registers)
@@ -347,69 +395,104 @@ def canvas_places(scene: Scene, face: Face, mesh: Mesh, view: View, registers: R
         w >= registers.near and max(x, y) < d * limit and min(x, y) >= 0
         for (x, y, w), d in zip(clip, distances, strict=True)
     ):
-        if view.orthographic:
-            return [((x >> 32) - bias, (y >> 32) - bias, 1) for x, y, _ in clip]
-        shift = max(max(distances).bit_length() - DISTANCE_BITS, 0)
-        return [
-            ((divide(x, w) - bias) * (w >> shift), (divide(y, w) - bias) * (w >> shift), w >> shift) for x, y, w in clip
-        ]
-    # nearer than the near plane, or far beyond the canvas
+        shift = 32 if view.orthographic else max(max(distances).bit_length() - DISTANCE_BITS, 0)
+        points = [(divide(x, w) - bias, divide(y, w) - bias) for (x, y, _), w in zip(clip, distances, strict=True)]
+        weights = [w >> shift for w in distances]
+        return [(x * w, y * w, w) for (x, y), w in zip(points, weights, strict=True)], points
     places = [(x - bias * d, y - bias * d, d) for (x, y, _), d in zip(clip, distances, strict=True)]
     shift = max(max(abs(k) for place in places for k in place).bit_length() - CLIP_BITS, 0)
-    return [(x >> shift, y >> shift, w >> shift) for x, y, w in places]
+    return [(x >> shift, y >> shift, w >> shift) for x, y, w in places], None
 
 
-def shadow_on(
-    places: Sequence[Vector],
-    sides: Sequence[tuple[int, int, int]],
-    lanes: Sequence[tuple[int, int, int]],
-    canvas: Canvas,
-) -> Shadow | None:
-    """Return the shadow of a face on another; None if none of it is on the canvas.
+class Outlines:
+    """The edges of all shadows on a face.
 
-    places: of the receiving face on the canvas, homogeneous. sides: its sides, at the corners of what casts the shadow.
-    lanes: the functions of that at the corners of the receiving face.
+    A sample is in a shadow if more of them begin than end to the left of it. Where two shadows meet, one ends and
+    the other begins: neither edge is kept.
     """
-    weights = [product(places[(k + 1) % 3], places[(k + 2) % 3]) for k in range(3)]
-    determinant = inner(weights[0], places[0])
-    if determinant == 0:
-        return None
-    top, bottom = bounds_of(places, sides, 1, canvas.height)
-    left, right = bounds_of(places, sides, 0, canvas.width)
-    if top >= bottom or left >= right:
-        return None
-    functions = []
-    for number, lane in enumerate(lanes):
-        if min(lane) >= 0:
-            continue
-        x, y, constant = (
-            sum(value * weight[axis] for value, weight in zip(lane, weights, strict=True)) for axis in range(3)
-        )
-        if determinant < 0:
-            x, y, constant = -x, -y, -constant
-        x, y = x << 5, y << 5
-        shift = max(max(abs(x), abs(y)).bit_length() - GRADIENT_BITS, 0)
-        x, y, constant = x >> shift, y >> shift, constant >> shift
-        if number < 3:
-            # neighbours overlap, so that rounding makes no cracks
-            constant += SLACK
-        if constant <= -BOUND:
-            return None
-        if constant < BOUND:
-            functions.append(Function(x, y, constant))
-    return Shadow(top, bottom, left, right, tuple(functions))
+
+    def __init__(self, canvas: Canvas, places: list[Vector], points: list[Point] | None) -> None:
+        """Take the corners of the face: see canvas_places."""
+        self.places = places
+        self.determinant = inner(product(places[0], places[1]), places[2])
+        self.top, self.bottom, self.right = 0, 4 * canvas.height, canvas.width << POINT_BITS
+        if points is not None:
+            low, high = (f(y for _, y in points) for f in (min, max))
+            self.top = max(first_row((low - 2) << 12), 0)
+            self.bottom = min(first_row((high + 2) << 12), self.bottom)
+            self.right = min(self.right, (max(x for x, _ in points) + 2 << 12) + (1 << POINT_BITS))
+        #: By the places of both ends, the upper first: how many more shadows begin at an edge than end.
+        self.counts: dict[tuple[Point, Point], int] = {}
+
+    def add(self, corners: list[Vector], heights: tuple[int, int, int], face_is_turned: bool, is_turned: bool) -> None:
+        """Add the shadow of a face.
+
+        corners: of what casts it, by their sides of the face that receives it. heights: above 0 behind that.
+        """
+        if self.determinant == 0:
+            return
+        if max(heights) > 0:
+            corners = clipped(corners, [-height for height in heights])
+        if not all(map(self._is_plain, corners)):
+            corners = clipped(corners, [sum(corner) for corner in corners])
+            for axis in (0, 1):
+                for sign in (1, -1):
+                    places = [self._place(corner) for corner in corners]
+                    corners = clipped(corners, [(place[2] << GUARD) + sign * place[axis] for place in places])
+        points = [self._point(corner) for corner in corners]
+        is_flipped = face_is_turned ^ is_turned ^ (self.determinant < 0)
+        for k, b in enumerate(points):
+            self._add_edge(*((b, points[k - 1]) if is_flipped else (points[k - 1], b)))
+
+    def _add_edge(self, a: Point, b: Point) -> None:
+        first, end = sorted(min(max(first_row(y), self.top), self.bottom) for _, y in (a, b))
+        if first == end or min(a[0], b[0]) > self.right:
+            return
+        is_down = a[1] < b[1]
+        key = (a, b) if is_down else (b, a)
+        self.counts[key] = self.counts.get(key, 0) + (-1 if is_down else 1)
+
+    def _place(self, sides: Vector) -> Vector:
+        x, y, w = (sum(side * place[k] for side, place in zip(sides, self.places, strict=True)) for k in range(3))
+        return x, y, w
+
+    def _is_plain(self, sides: Vector) -> bool:
+        x, y, w = self._place(sides)
+        return sum(sides) > 0 and w > 0 and max(abs(x), abs(y)) <= w << GUARD
+
+    def _point(self, sides: Vector) -> Point:
+        x, y, w = self._place(sides)
+        return (divide_signed(x << 12, w), divide_signed(y << 12, w)) if w else (0, 0)
+
+    def edges(self) -> list[Edge]:
+        """Return the edges that are left, ordered by the first row of pixels."""
+        found = []
+        for (a, b), count in self.counts.items():
+            top, bottom = (min(max(first_row(y), self.top), self.bottom) for _, y in (a, b))
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            x, y, constant = dy << 17, -dx << 17, a[1] * dx - a[0] * dy
+            shift = max(max(x, abs(y)).bit_length() - EDGE_BITS, 0)
+            edge = Edge(top, bottom, 1 if count > 0 else -1, x >> shift, y >> shift, constant >> shift)
+            found += [edge] * abs(count)
+        return sorted(found, key=lambda each: each.top >> 2)
 
 
-def bounds_of(places: Sequence[Vector], sides: Sequence[tuple[int, int, int]], axis: int, size: int) -> tuple[int, int]:
-    """Return the columns (axis 0) or rows (1) of the canvas in which a shadow may be: the first, and the one after the
-    last.
-    """
+def first_row(y: int) -> int:
+    """Return the first row of samples that is not above a place."""
+    return y + (5 << 17) - 1 >> 18
+
+
+def clipped(corners: list[Vector], distances: Sequence[int]) -> list[Vector]:
+    """Return the part of a convex polygon that is not below 0 in a distance."""
     found = []
-    for corner in range(3):
-        weights = [side[corner] for side in sides]
-        w = sum(weight * place[2] for weight, place in zip(weights, places, strict=True))
-        if sum(weights) <= 0 or w <= 0:
-            return 0, size
-        value = sum(weight * place[axis] for weight, place in zip(weights, places, strict=True))
-        found.append(divide_signed(value, w))
-    return max((min(found) - WIDER) >> 8, 0), min(((max(found) + WIDER) >> 8) + 1, size)
+    for k, (b, q) in enumerate(zip(corners, distances, strict=True)):
+        a, p = corners[k - 1], distances[k - 1]
+        if (p < 0) != (q < 0):
+            # the same for both faces that share the edge
+            (i, m), (o, n) = ((a, p), (b, q)) if q < 0 else ((b, q), (a, p))
+            x, y, z = (outer * m - inside * n for outer, inside in zip(o, i, strict=True))
+            shift = max(max(abs(x), abs(y), abs(z)).bit_length() - VALUE_BITS, 0)
+            found.append((x >> shift, y >> shift, z >> shift))
+        if q >= 0:
+            found.append(b)
+    return found

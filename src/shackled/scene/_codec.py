@@ -56,8 +56,8 @@ WIREFRAME = 2
 #: Rules of a shadow: which faces of culled objects cast it.
 ALL_FACES = 1
 TURNED_AWAY = 2
-#: The largest radius of a ground, Q32.
-MAX_FADE = 1 << 58
+#: The largest outer and inner radius of a ground, Q32; both are floats.
+MAX_FADE, MAX_INNER_FADE = 1 << 58, (1 << 58) - 64
 
 #: Flags of a tone.
 FILMIC = 1
@@ -156,8 +156,9 @@ def extensions(scene: Scene) -> bytes:
             records.append(_record(SHADOW, index, shadow_rule(scene).to_bytes(32, "big")))
     for index, thing in enumerate(scene.objects):
         if thing.fade is not None:
-            inner, outer = (min(each, MAX_FADE) for each in _q32(thing.fade))
-            radii = min(inner, MAX_FADE - 1).to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
+            inner, outer = _q32(thing.fade)
+            inner, outer = min(inner, MAX_INNER_FADE), min(outer, MAX_FADE)
+            radii = inner.to_bytes(8, "big") + max(outer, inner + 1).to_bytes(8, "big")
             records.append(_record(GROUND, index, radii.ljust(32, b"\0")))
     return b"".join(records)
 

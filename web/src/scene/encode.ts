@@ -39,8 +39,9 @@ const SHADOW = 10;
 const GROUND = 11;
 /** Records from this kind on have a size in words of 32 bytes, others in bytes. */
 export const FIRST_IN_WORDS = 8;
-/** The largest radius of a ground, Q32. */
+/** The largest outer and inner radius of a ground, Q32; both are numbers without loss. */
 const MAX_FADE = 2n ** 58n;
+const MAX_INNER_FADE = MAX_FADE - 64n;
 /** One, in opacities. */
 const OPAQUE = 2 ** 24;
 /** One, in exposures. */
@@ -146,8 +147,9 @@ function extensions(scene: CheckedScene): Uint8Array {
     scene.objects.forEach(({ fade }, index) => {
         if (!fade) return;
         const content = new DataView(new ArrayBuffer(WORD));
-        const [inner, outer] = fade.map((each) => (q32(each) < MAX_FADE ? q32(each) : MAX_FADE)) as [bigint, bigint];
-        content.setBigInt64(0, inner < MAX_FADE ? inner : MAX_FADE - 1n);
+        const within = (each: number, most: bigint): bigint => (q32(each) < most ? q32(each) : most);
+        const [inner, outer] = [within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE)];
+        content.setBigInt64(0, inner);
         content.setBigInt64(8, outer > inner ? outer : inner + 1n);
         records.push(record(GROUND, index, content));
     });
