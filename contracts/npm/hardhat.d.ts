@@ -9,7 +9,7 @@ export interface Eip1193 {
  * Place the shipped bytecode of all contracts at their addresses on a development network, Hardhat or anvil. Where an
  * address has code, as on a fork, it stays.
  *
- * @param network The `hre` of Hardhat 2, a connection of Hardhat 3 (`await hre.network.connect()`), or a provider.
+ * @param network The `hre` of Hardhat 2, a connection of Hardhat 3 (`await hre.network.create()`), or a provider.
  * @returns Address and ABI of each contract, by name.
  */
 export function shackled(

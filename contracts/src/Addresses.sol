@@ -6,18 +6,18 @@ pragma solidity ^0.8.25;
 /// @title Addresses: where `shackled deploy` creates the contracts, the same on every chain.
 /// @notice They are made of the bytecode: another version of a contract has another address.
 library Addresses {
-    address internal constant ENGINE = 0x506978F073CB0FaEf4FEb135F1A4a1ea8Cbfcdd6;
-    address internal constant FRAGMENT_ENGINE = 0x931eb9575aDAb65Dd0C3395D464501d19E545B80;
-    address internal constant ANTIALIASED_ENGINE = 0x784c37F17bb9cBB9adA771c0248A5b47E1d0aE7f;
-    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0xd57F75C6D1b8467484745E689D28bB840aebA7c0;
-    address internal constant EFFECTS_ENGINE = 0x79cC80Ea0E2fFce9997248DE93DCCE9c35305919;
-    address internal constant EFFECTS = 0x767Ead3a4C252C66471A6B01dB2FC699e12c7541;
-    address internal constant RENDERER = 0x61936B4D0f8E8e03130F33ba82fABC58a5732fE1;
-    address internal constant ORIGINAL = 0x88BC85e2a4502b4c568EeEd2b8eC3f9a3589aA4b;
-    address internal constant GENESIS = 0xFc6028EE9f1F96b759A4597aD156c236267e4EA7;
+    address internal constant ENGINE = 0xF46B349Cf677E4E4A953e490Fc183Bc79aD09a41;
+    address internal constant FRAGMENT_ENGINE = 0x46eE9DEc67ab95D23bc9b08A8b56b126714C65fa;
+    address internal constant ANTIALIASED_ENGINE = 0x59703FB76f4aeE7AeB4e1400e35C097f941fd6da;
+    address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x670718e190aA67528134c65EC6C9BC097a31D1bc;
+    address internal constant EFFECTS_ENGINE = 0x221BD61D9c9609392891B7f07A8cAb6ECDC1f30e;
+    address internal constant EFFECTS = 0xD292e1096b5e64589e95345124bF149a73CFfE11;
+    address internal constant RENDERER = 0x822AB45598411Fc4c5e193ADe427fAC7971BFF75;
+    address internal constant ORIGINAL = 0x44075ADA7f7aac453d3c0F246107dC6f170c81E0;
+    address internal constant GENESIS = 0x92CF5EFAfB0636BA4e8ACf86bE0CCbbE1Acf98a0;
     address internal constant PNG_ENCODER = 0x1f8059e3E3bCe2bF238Ed669FA4B8aC318628Df1;
-    address internal constant TURNTABLE = 0x0f709D7f0F3AbFa0d60A1AF03a139AC817ba85df;
+    address internal constant TURNTABLE = 0xbD745d76AD8364EdDBDA3EC0Ee27202f49053a68;
     address internal constant GLB_ENCODER = 0xE41aFF7484BA7bf49fAf857Dc49c1b52A5bB78db;
-    address internal constant STUDIO = 0x11000d1D2E4A16b81172395157097866CA4604b1;
-    address internal constant GENESIS_METADATA = 0xfC5C756405c549bf7E916aE85c202A411c2CfA3A;
+    address internal constant STUDIO = 0x92387C87be93087b5aDA5E2f017a519B70732511;
+    address internal constant GENESIS_METADATA = 0xc73e72912a2291fbDF01cf19bE650A6702994842;
 }
