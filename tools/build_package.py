@@ -56,36 +56,39 @@ def addresses(contracts: list[Deployment]) -> str:
 
 
 def runtime_codes(contracts: list[Deployment]) -> str:
-    """Return the Solidity contract that holds the runtime codes, immutable values included, for the Foundry fixture."""
-    cases, functions = [], []
-    for number, each in enumerate(contracts):
-        chunks = [each.code[begin : begin + CHUNK] for begin in range(0, len(each.code), CHUNK)]
-        names = [f"_{each.name}{part}" for part in range(len(chunks))]
-        cases.append(f"        if (index == {number}) return (Addresses.{_constant(each.name)}, _{each.name}());\n")
-        calls = "".join(f"        {name}(code);\n" for name in names)
-        functions.append(
-            f"    function _{each.name}() private pure returns (bytes memory code) {{\n"
-            f"        code = new bytes({len(each.code)});\n{calls}    }}\n"
-        )
-        functions += [
-            f"    function {name}(bytes memory code) private pure {{\n"
-            f'        write(code, {part * CHUNK}, hex"{chunk.hex()}");\n    }}\n'
-            for part, (name, chunk) in enumerate(zip(names, chunks, strict=True))
-        ]
-    body = "\n".join(functions)
+    """Return Solidity contracts that hold the runtime codes, immutable values included, for the Foundry fixture."""
+    # a contract for each: the time of the compiler's IR pipeline grows with the square of the size
+    holders = "\n".join(f"contract {each.name}Code {{\n{_code_functions(each.code)}}}\n" for each in contracts)
+    rows = "".join(
+        f'        (names[{number}], targets[{number}]) = ("{each.name}Code", Addresses.{_constant(each.name)});\n'
+        for number, each in enumerate(contracts)
+    )
     return (
         f'{HEAD}import {{Addresses}} from "../Addresses.sol";\n\n'
-        "/// @title ShackledCode: the runtime code of every contract, for `ShackledTest`.\n"
-        "contract ShackledCode {\n"
-        "    /// @notice How many contracts there are.\n"
-        f"    uint256 public constant count = {len(contracts)};\n\n"
-        "    /// @notice Address and code of a contract, by its number from 0.\n"
-        "    function get(uint256 index) external pure returns (address target, bytes memory code) {\n"
-        f'{"".join(cases)}        revert("no such contract");\n    }}\n\n'
-        "    function write(bytes memory code, uint256 offset, bytes memory chunk) private pure {\n"
+        "/// @title ShackledCode: the contracts below, each of which returns a code, and where it belongs.\n"
+        "library ShackledCode {\n"
+        "    function all() internal pure returns (string[] memory names, address[] memory targets) {\n"
+        f"        (names, targets) = (new string[]({len(contracts)}), new address[]({len(contracts)}));\n"
+        f"{rows}    }}\n\n"
+        "    function write(bytes memory code, uint256 offset, bytes memory chunk) internal pure {\n"
         '        assembly ("memory-safe") {\n'
         "            mcopy(add(add(code, 32), offset), add(chunk, 32), mload(chunk))\n"
-        f"        }}\n    }}\n\n{body}}}\n"
+        f"        }}\n    }}\n}}\n\n{holders}"
+    )
+
+
+def _code_functions(code: bytes) -> str:
+    """Return the functions of a Solidity contract that returns some bytes."""
+    chunks = [code[begin : begin + CHUNK] for begin in range(0, len(code), CHUNK)]
+    calls = "".join(f"        write{part}(code);\n" for part in range(len(chunks)))
+    functions = "".join(
+        f"\n    function write{part}(bytes memory code) private pure {{\n"
+        f'        ShackledCode.write(code, {part * CHUNK}, hex"{chunk.hex()}");\n    }}\n'
+        for part, chunk in enumerate(chunks)
+    )
+    return (
+        "    function get() external pure returns (bytes memory code) {\n"
+        f"        code = new bytes({len(code)});\n{calls}    }}\n{functions}"
     )
 
 

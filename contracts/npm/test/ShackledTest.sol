@@ -14,8 +14,13 @@ interface Cheats {
     function etch(address target, bytes calldata code) external;
 }
 
+/// @dev A contract of ShackledCode.sol.
+interface CodeHolder {
+    function get() external view returns (bytes memory code);
+}
+
 /// @title ShackledTest: a Foundry test with the contracts at their addresses, the same bytes as on every chain.
-/// @notice `ShackledCode`, which holds the bytes, is compiled once: the test reads it as an artifact of the project.
+/// @notice The contracts of ShackledCode.sol, which hold the bytes, are compiled once: tests read them as artifacts of the project.
 abstract contract ShackledTest {
     IStudio internal constant studio = IStudio(Addresses.STUDIO);
     IRenderer internal constant renderer = IRenderer(Addresses.RENDERER);
@@ -30,11 +35,11 @@ abstract contract ShackledTest {
 
     /// @notice Places all contracts whose addresses have no code. To be called again after a fork is selected.
     function placeShackled() internal {
-        ShackledCode codes = ShackledCode(CHEATS.deployCode("ShackledCode.sol:ShackledCode"));
-        uint256 count = codes.count();
-        for (uint256 k; k < count; ++k) {
-            (address target, bytes memory code) = codes.get(k);
-            if (target.code.length == 0) CHEATS.etch(target, code);
+        (string[] memory names, address[] memory targets) = ShackledCode.all();
+        for (uint256 k; k < names.length; ++k) {
+            if (targets[k].code.length != 0) continue;
+            address holder = CHEATS.deployCode(string.concat("ShackledCode.sol:", names[k]));
+            CHEATS.etch(targets[k], CodeHolder(holder).get());
         }
     }
 }
