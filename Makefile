@@ -7,13 +7,14 @@ PACKAGE := $(VENV)/.package
 CREATOR := $(VENV)/.creator
 DEV := $(VENV)/.dev
 NODE := web/node_modules/.package-lock.json
+HARDHAT := tests/package/node_modules/.package-lock.json
 
 # Set-up steps write to the same folders. The checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test checks lint types contracts evm evm-check web docs unit build gas bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test checks lint types contracts evm evm-check web docs unit build npm gas bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -31,6 +32,9 @@ $(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
 
 $(NODE): contracts/package.json contracts/package-lock.json web/package.json web/package-lock.json tools/prepare.py
 	@$(PYTHON) tools/prepare.py node
+
+$(HARDHAT): tests/package/package.json tests/package/package-lock.json tools/prepare.py
+	@$(PYTHON) tools/prepare.py hardhat
 
 browser:
 	@$(PYTHON) tools/prepare.py browser
@@ -64,6 +68,7 @@ types: $(DEV) ## types of the Python code
 
 contracts: $(DEV) $(NODE) ## whether the compiled contracts are those of the sources
 	$(BIN)/python tools/build_contracts.py --check
+	$(BIN)/python tools/build_package.py --check
 
 evm-check: $(DEV) ## whether the compiled EVM is that of the sources
 	$(BIN)/python tools/build_evm.py --check
@@ -81,9 +86,14 @@ unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 
 # ---- what is made and kept in the repository ----
 
-build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web
+build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web, make build/npm
 	$(BIN)/python tools/build_contracts.py
+	$(BIN)/python tools/build_package.py
 	$(BIN)/python tools/build_web.py
+
+npm: $(DEV) $(NODE) $(HARDHAT) ## the npm package for contract authors, in build/npm, tried in projects of Foundry and Hardhat
+	$(BIN)/python tools/build_package.py
+	$(BIN)/pytest tests/package
 
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py
@@ -121,5 +131,5 @@ conformance: $(DEV) opengl ## contracts against OpenGL over 500 random scenes an
 	$(BIN)/python tests/conformance
 
 clean: ## remove what was made here, but for the repository
-	rm -rf $(VENV) contracts/node_modules web/node_modules web/dist build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) contracts/node_modules tests/package/node_modules web/node_modules web/dist build site dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -prune -exec rm -rf {} +

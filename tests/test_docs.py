@@ -106,7 +106,7 @@ def test_the_files_that_a_page_names_exist(page: Path) -> None:
 
 @cache
 def sources() -> list[str]:
-    folders = ("src", "contracts/src", "tests", "tools", "benchmarks", "docs", "examples")
+    folders = ("src", "contracts/src", "contracts/npm", "tests", "tools", "benchmarks", "docs", "examples")
     files = [*ROOT.glob("*.toml"), *(ROOT / "contracts").glob("*.toml")]
     files += [path for folder in folders for path in (ROOT / folder).rglob("*.*")]
     return [path.as_posix() for path in files]

@@ -34,6 +34,8 @@ ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
 SOURCES = CONTRACTS / "src"
 LIBRARIES = CONTRACTS / "node_modules"
+#: How contracts outside import these sources: as the npm package of tools/build_package.py.
+PACKAGE = "shackled-contracts/"
 ARTIFACTS = ROOT / "src" / "shackled" / "artifacts"
 STANDARD_INPUT = "standard-input"
 #: The source maps, for profiles.
@@ -117,7 +119,14 @@ def follow_imports(names: Iterable[str], folder: Path = SOURCES) -> dict[str, st
         name = waiting.pop()
         if name in sources:
             continue
-        path = next((path for path in (folder / name, LIBRARIES / name) if path.is_file()), None)
+        path = next(
+            (
+                path
+                for path in (folder / name, LIBRARIES / name, SOURCES / name.removeprefix(PACKAGE))
+                if path.is_file()
+            ),
+            None,
+        )
         if path is None:
             raise SystemExit(f"{name} is imported, but is neither in {folder} nor in contracts/node_modules")
         sources[name] = path.read_text("utf-8")

@@ -4,6 +4,7 @@
     python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py node       node_modules of contracts/ and web/: compilers, and a node for the tests
+    python3 tools/prepare.py hardhat    node_modules of tests/package: a Hardhat, to try the npm package with
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
@@ -26,6 +27,7 @@ VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python"
 CONTRACTS = ROOT / "contracts"
 WEB = ROOT / "web"
+PACKAGE_TESTS = ROOT / "tests" / "package"
 CONSTRAINTS = ROOT / "tools" / "constraints.txt"
 
 #: Browsers that the tests of pages use: their commands, and the package with them.
@@ -49,6 +51,7 @@ def main() -> int:
         "creator": prepare_creator,
         "dev": prepare_dev,
         "node": prepare_node,
+        "hardhat": prepare_hardhat,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
     }
@@ -94,15 +97,26 @@ def prepare_dev() -> None:
 
 def prepare_node() -> None:
     """Install node_modules of contracts/ and web/ from their package-lock.json."""
+    need_node()
+    say("installing the compilers and the node for tests")
+    for folder in (CONTRACTS, WEB):
+        npm_install(folder)
+    if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
+        say("there is no anvil for this machine; tests of a real node look for one in the PATH")
+
+
+def prepare_hardhat() -> None:
+    """Install node_modules of tests/package, 370 MB; `make test` does without."""
+    need_node()
+    say("installing Hardhat")
+    npm_install(PACKAGE_TESTS)
+
+
+def need_node() -> None:
+    """Install Node.js and npm if they are missing; exit if Node is too old."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
     check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
-    say("installing the compilers and the node for tests")
-    for folder in (CONTRACTS, WEB):
-        run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=folder)
-        (folder / "node_modules" / ".package-lock.json").touch()
-    if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
-        say("there is no anvil for this machine; tests of a real node look for one in the PATH")
 
 
 def check_node(said: str) -> None:
@@ -154,6 +168,12 @@ def make_venv() -> None:
 def install(*wanted: object) -> None:
     """Install Python packages in .venv."""
     run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", CONSTRAINTS, *wanted)
+
+
+def npm_install(folder: Path) -> None:
+    """Install what the package-lock.json of a folder lists."""
+    run("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error", cwd=folder)
+    (folder / "node_modules" / ".package-lock.json").touch()
 
 
 def apt_install(what: str, *packages: str) -> None:

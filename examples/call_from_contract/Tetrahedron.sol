@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
-import {Fixed, ZERO, ONE} from "../../contracts/src/math/Fixed.sol";
-import {Vector} from "../../contracts/src/math/Vector.sol";
+import {Fixed, ZERO, ONE} from "shackled-contracts/math/Fixed.sol";
+import {Vector} from "shackled-contracts/math/Vector.sol";
 import {
     Background,
     Camera,
@@ -15,16 +15,16 @@ import {
     DIRECTIONAL,
     FLAT,
     PERSPECTIVE
-} from "../../contracts/src/scene/Scene.sol";
-import {Renderer} from "../../contracts/src/Renderer.sol";
-import {PngEncoder} from "../../contracts/src/encode/PngEncoder.sol";
+} from "shackled-contracts/scene/Scene.sol";
+import {IPngEncoder} from "shackled-contracts/interfaces/IPngEncoder.sol";
+import {IRenderer} from "shackled-contracts/interfaces/IRenderer.sol";
 
 /// @notice A contract that shows itself: a tetrahedron, turned as far as the caller wants, as a PNG file or as a bitmap.
 contract Tetrahedron {
-    Renderer public immutable renderer;
-    PngEncoder public immutable encoder;
+    IRenderer public immutable renderer;
+    IPngEncoder public immutable encoder;
 
-    constructor(Renderer renderer_, PngEncoder encoder_) {
+    constructor(IRenderer renderer_, IPngEncoder encoder_) {
         (renderer, encoder) = (renderer_, encoder_);
     }
 
@@ -72,7 +72,7 @@ contract Tetrahedron {
     }
 
     /// @notice Four vertices of six bytes for the place and three for the colour, four faces of three vertex numbers of two bytes: see
-    /// contracts/src/scene/Mesh.sol.
+    /// shackled-contracts/scene/Mesh.sol.
     function mesh() public pure returns (bytes memory) {
         return bytes.concat(
             // format, vertices, faces

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 import {ERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Base64} from "solady/src/utils/Base64.sol";
-import {Fixed, ZERO} from "../../contracts/src/math/Fixed.sol";
-import {fromEuler} from "../../contracts/src/math/Euler.sol";
-import {Studio} from "../../contracts/src/studio/Studio.sol";
-import {Changes, TURN} from "../../contracts/src/studio/SceneChanges.sol";
+import {Fixed, ZERO} from "shackled-contracts/math/Fixed.sol";
+import {fromEuler} from "shackled-contracts/math/Euler.sol";
+import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
+import {Changes, TURN} from "shackled-contracts/studio/Changes.sol";
 
 /// @notice Tokens whose picture is a scene that the Studio keeps, turned by ten degrees more for each token.
 contract PictureToken is ERC721A("Pictures", "PIC") {
-    Studio public immutable studio;
+    IStudio public immutable studio;
     address public immutable picture;
 
-    constructor(Studio studio_, address picture_) {
+    constructor(IStudio studio_, address picture_) {
         (studio, picture) = (studio_, picture_);
     }
 

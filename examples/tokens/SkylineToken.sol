@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 import {ERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Base64} from "solady/src/utils/Base64.sol";
-import {Scene} from "../../contracts/src/scene/Scene.sol";
-import {Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
-import {Studio} from "../../contracts/src/studio/Studio.sol";
+import {IStudio} from "shackled-contracts/interfaces/IStudio.sol";
+import {Scene} from "shackled-contracts/scene/Scene.sol";
+import {Model, ModelMaker, Stage, StageMaker} from "shackled-contracts/studio/SceneBuilder.sol";
 
 /// @notice Tokens whose picture is made of their number alone: a town of 5 by 5 houses, no two towns alike.
 contract SkylineToken is ERC721A("Skylines", "SKY") {
-    Studio public immutable studio;
+    IStudio public immutable studio;
 
-    constructor(Studio studio_) {
+    constructor(IStudio studio_) {
         studio = studio_;
     }
 

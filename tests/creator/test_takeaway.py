@@ -341,8 +341,8 @@ def meshes(scene: Scene) -> bytes:
 
 def compiled(contracts: list[str]) -> list[tuple[bytes, dict[str, str]]]:
     """Creation code and selectors of the contract in each source, compiled as a user would, from the npm package."""
-    found = tool.read_sources(["Renderer"])
-    sources = {f"shackled/contracts/src/{name}": text for name, text in found.items()}
+    found = tool.follow_imports(["interfaces/IRenderer.sol"])
+    sources = {f"shackled-contracts/{name}": text for name, text in found.items()}
     names = [f"{number}.sol" for number in range(len(contracts))]
     sources |= dict(zip(names, contracts, strict=True))
     request = tool.request(sources, tool.settings(200, True), {name: {"*": tool.OUTPUTS} for name in names})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title GlbErrors: why there is no GLB file of a scene.
 interface GlbErrors {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title PngErrors: why there is no PNG file of something.
 interface PngErrors {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title Fixed: signed binary fixed-point numbers with 32 fraction bits (Q32).
 /// @notice One is `1 << 32`. The operators do not check for overflow: scenes are bounded by `Checks` before anything is computed of them,

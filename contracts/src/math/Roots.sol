@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @notice The square root of `x`, with an error below one and below 2^-22 of it.
 /// @dev With h such that x = m * 4^h and 1 <= m < 4, the line 0.343 * (m + 2) is within 3 % of the root of m; each of the two steps

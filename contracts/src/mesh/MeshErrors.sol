@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title MeshErrors: what can be wrong with a mesh before it is in the form that the renderer takes.
 interface MeshErrors {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 import {Fixed} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";

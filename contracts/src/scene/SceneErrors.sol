@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title SceneErrors: what can be wrong with a scene.
 /// @notice Contracts that draw scenes for others inherit this, so that their ABIs have these errors, wherever they arise. Indices of

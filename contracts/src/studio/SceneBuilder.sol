@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler} from "../math/Euler.sol";
-import {
-    FOG, GROUND, HEMISPHERE, OPACITIES_OF, RIM, SHADOW, SHADOWS_ALL, TEXTURE_OF, TONE, TONE_FILMIC, TONE_GAMMA
-} from "../scene/EffectRecords.sol";
-import {ANTIALIAS, Extensions, OPACITY_OF, SPOT} from "../scene/Extensions.sol";
 import {HEADER_SIZE, VERTEX_SIZE, FACE_SIZE} from "../mesh/PackedMesh.sol";
+import {
+    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_OF, TONE, TONE_FILMIC,
+    TONE_GAMMA, addRecord, copyBytes
+} from "../scene/Records.sol";
 import {
     Scene, Canvas, Camera, Background, Light, Material, Object, PERSPECTIVE, DIRECTIONAL, POINT, UNLIT, FLAT, CULL_BACKFACES
 } from "../scene/Scene.sol";
@@ -126,7 +126,8 @@ library ModelMaker {
             uint256 first = m.faces - faceSize;
             uint256 header = (m.vertexCount << 16) | m.faceCount;
             assembly ("memory-safe") {
-                mcopy(end, first, faceSize)
+                // whole words: what the last one has beyond the faces is cleared below
+                for { let k := 0 } lt(k, faceSize) { k := add(k, 32) } { mstore(add(end, k), mload(add(first, k))) }
                 let begin := sub(end, vertexSize)
                 mesh := sub(begin, 37)
                 // the header has a byte of zeros before it, and overwrites nothing: it is put into the word that ends where vertices begin
@@ -216,14 +217,14 @@ library StageMaker {
         bytes memory cone = abi.encodePacked(
             int64(toward.x.raw()), int64(toward.y.raw()), int64(toward.z.raw()), int64(percent(inner).raw()), int64(percent(outer).raw())
         );
-        made.scene.extensions = Extensions.added(made.scene.extensions, SPOT, index, cone);
+        made.scene.extensions = addRecord(made.scene.extensions, SPOT, index, cone);
     }
 
     /// @notice Has the object that was added last hide only so many per cent, 0..99, of what is behind it.
     function fade(Stage memory made, int256 opacity) internal pure {
         unchecked {
             bytes memory content = abi.encodePacked(uint32(uint256(percent(opacity).raw()) >> 8));
-            made.scene.extensions = Extensions.added(made.scene.extensions, OPACITY_OF, made.scene.objects.length - 1, content);
+            made.scene.extensions = addRecord(made.scene.extensions, OPACITY_OF, made.scene.objects.length - 1, content);
         }
     }
 
@@ -284,8 +285,8 @@ library StageMaker {
             uint256 size = head.length + 6 * uvs.length;
             // whole words, and room for one that is written behind
             bytes memory content = new bytes(((size + 31) & ~uint256(31)) + 32);
+            copyBytes(content, 0, head, 0, head.length);
             assembly ("memory-safe") {
-                mcopy(add(content, 32), add(head, 32), mload(head))
                 mstore(content, sub(mload(content), 32))
                 head := add(add(content, 32), mload(head))
             }
@@ -296,7 +297,7 @@ library StageMaker {
                     mstore(add(head, mul(6, k)), or(shl(232, u), shl(208, and(v, 0xffffff))))
                 }
             }
-            made.scene.extensions = Extensions.added(made.scene.extensions, TEXTURE_OF, made.scene.objects.length - 1, content);
+            made.scene.extensions = addRecord(made.scene.extensions, TEXTURE_OF, made.scene.objects.length - 1, content);
         }
     }
 
@@ -306,17 +307,15 @@ library StageMaker {
         unchecked {
             // whole words, at least one
             bytes memory content = new bytes(levels.length == 0 ? 32 : (levels.length + 31) & ~uint256(31));
-            assembly ("memory-safe") {
-                mcopy(add(content, 32), add(levels, 32), mload(levels))
-            }
-            made.scene.extensions = Extensions.added(made.scene.extensions, OPACITIES_OF, made.scene.objects.length - 1, content);
+            copyBytes(content, 0, levels, 0, levels.length);
+            made.scene.extensions = addRecord(made.scene.extensions, OPACITIES_OF, made.scene.objects.length - 1, content);
         }
     }
 
     /// @notice Has objects cast shadows in the light that was added last; one light of a scene at most.
     function shadow(Stage memory made) internal pure {
         bytes memory rule = abi.encode(SHADOWS_ALL);
-        made.scene.extensions = Extensions.added(made.scene.extensions, SHADOW, made.scene.lights.length - 1, rule);
+        made.scene.extensions = addRecord(made.scene.extensions, SHADOW, made.scene.lights.length - 1, rule);
     }
 
     /// @notice Adds a level, matte disc, 0xRRGGBB, which catches shadows and casts none: opaque around its middle, and gone `radius` units
@@ -331,12 +330,12 @@ library StageMaker {
         object = add(made, square.pack(), flat(40, 70, 0, 1));
         (object.position, object.scale) = (middle, Fixed.wrap(int256(radius << 32)));
         bytes memory radii = abi.encode((radius << 32) * 2 / 5 << 192 | radius << 160);
-        made.scene.extensions = Extensions.added(made.scene.extensions, GROUND, made.scene.objects.length - 1, radii);
+        made.scene.extensions = addRecord(made.scene.extensions, GROUND, made.scene.objects.length - 1, radii);
     }
 
     /// @dev Sets a record of the scene.
     function extend(Stage memory made, uint256 kind, bytes memory content) private pure {
-        made.scene.extensions = Extensions.added(made.scene.extensions, kind, 0, content);
+        made.scene.extensions = addRecord(made.scene.extensions, kind, 0, content);
     }
 
     /// @notice Adds an object at the origin, a unit long for each step of its coordinates, without the faces that turn away. What is

@@ -12,10 +12,12 @@ import {NORMALS} from "../scene/Mesh.sol";
 import {FLAT, SMOOTH, Background, Object, Rectangle, Scene} from "../scene/Scene.sol";
 import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
+import {Changes} from "./Changes.sol";
 import {Kept} from "./Kept.sol";
-import {Changes, SceneChanges} from "./SceneChanges.sol";
+import {SceneChanges} from "./SceneChanges.sol";
+import {Spin} from "./Spin.sol";
 import {StudioErrors} from "./StudioErrors.sol";
-import {Spin, Turntable} from "./Turntable.sol";
+import {Turntable} from "./Turntable.sol";
 
 /// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be

@@ -16,21 +16,8 @@ import {Renderer} from "../Renderer.sol";
 import {WithRenderer} from "../WithRenderer.sol";
 import {Holding} from "./Holding.sol";
 import {SceneChanges} from "./SceneChanges.sol";
+import {Spin} from "./Spin.sol";
 import {TurntableErrors} from "./TurntableErrors.sol";
-
-/// @notice A full turn of all objects of a scene about their middle, in equal steps; camera and lights stay.
-/// @param frames How many pictures, 2..360.
-/// @param delay How long each is shown, in milliseconds: 20..10,000.
-/// @param scale How many pixels each pixel becomes in both directions, 1..8.
-/// @param axis Seen from where it points, objects turn counter-clockwise. Of any length but zero; (0, 1, 0) is upright.
-/// @param hold Whether the camera is moved back until nothing leaves the picture, at whatever angle.
-struct Spin {
-    uint256 frames;
-    uint256 delay;
-    uint256 scale;
-    Vector axis;
-    bool hold;
-}
 
 /// @title Turntable: scenes that turn, as animated PNG files, for the Studio and all contracts.
 /// @notice Stateless. Each frame is drawn by a call of its own, and only its compressed bytes are kept: memory costs the square.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
 /// @title TurntableErrors: what can be wrong with how a scene is to be turned.
 interface TurntableErrors {

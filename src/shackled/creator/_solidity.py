@@ -33,25 +33,25 @@ _IMPORTED = (
     "Material",
     "Object",
     "Quaternion",
-    "Renderer",
+    "IRenderer",
     "Scene",
 )
 
 _CONTRACT = Template("""\
 // SPDX-License-Identifier: $licence
-pragma solidity 0.8.37;
+pragma solidity ^0.8.25;
 
-import {Renderer} from "shackled/contracts/src/Renderer.sol";
-import {Fixed} from "shackled/contracts/src/math/Fixed.sol";
-import {Quaternion} from "shackled/contracts/src/math/Quaternion.sol";
-import {Vector} from "shackled/contracts/src/math/Vector.sol";
-import {Background, Camera, Canvas, Light, Material, Object, Scene} from "shackled/contracts/src/scene/Scene.sol";
+import {IRenderer} from "shackled-contracts/interfaces/IRenderer.sol";
+import {Fixed} from "shackled-contracts/math/Fixed.sol";
+import {Quaternion} from "shackled-contracts/math/Quaternion.sol";
+import {Vector} from "shackled-contracts/math/Vector.sol";
+import {Background, Camera, Canvas, Light, Material, Object, Scene} from "shackled-contracts/scene/Scene.sol";
 
 $about
 contract $name {
-    Renderer public immutable renderer;
+    IRenderer public immutable renderer;
 
-    constructor(Renderer renderer_) {
+    constructor(IRenderer renderer_) {
         renderer = renderer_;
     }
 
@@ -83,7 +83,7 @@ $body
 
 
 def solidity_contract(subject: Subject, image: Image) -> str:
-    """Return a source that compiles with the contracts of Shackled, imported as the package "shackled".
+    """Return a source that compiles with the contracts of Shackled, imported as the package "shackled-contracts".
 
     Meshes that do not fit into a contract become parameters, packed as in the calldata. image: the picture.
     """

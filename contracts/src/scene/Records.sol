@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+pragma solidity ^0.8.25;
+
+import {SceneErrors} from "./SceneErrors.sol";
+
+// Records for `Scene.extensions`, made in memory, with the numbers that `Extensions.sol` and `EffectRecords.sol` explain. They stand here
+// once more, since contracts outside cannot import those: they need a compiler for newer EVMs.
+
+uint256 constant SPOT = 1;
+uint256 constant OPACITY_OF = 2;
+uint256 constant ANTIALIAS = 3;
+uint256 constant HEMISPHERE = 4;
+uint256 constant RIM = 5;
+uint256 constant FOG = 6;
+uint256 constant TONE = 7;
+uint256 constant TEXTURE_OF = 8;
+uint256 constant OPACITIES_OF = 9;
+uint256 constant SHADOW = 10;
+uint256 constant GROUND = 11;
+
+/// @dev The first kind of which sizes are told in words.
+uint256 constant LONG_KINDS = 8;
+
+uint256 constant RECORD_HEADER = 5;
+
+/// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
+uint256 constant TONE_FILMIC = 1;
+uint256 constant TONE_GAMMA = 2;
+/// @dev Flags of a TEXTURE: colours are interpolated; beyond the border its colours go on.
+uint256 constant TEXTURE_BILINEAR = 1;
+uint256 constant TEXTURE_CLAMP = 2;
+
+/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
+/// closed; those turned to it.
+uint256 constant SHADOWS_ALL = 1;
+uint256 constant SHADOWS_AVERSE = 2;
+uint256 constant SHADOWS_TURNED = 3;
+
+/// @notice The records in memory with one more, which replaces one of the same kind and index.
+/// @dev As `Extensions.added`, but without MCOPY, which compilers for older EVMs do not know.
+function addRecord(bytes memory records, uint256 kind, uint256 index, bytes memory content) pure returns (bytes memory more) {
+    unchecked {
+        // in words, for kinds from LONG_KINDS on
+        uint256 size = content.length >> (kind < LONG_KINDS ? 0 : 5);
+        bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(size), content);
+        uint256 key = kind << 16 | index;
+        // where the record belongs, and where those after it begin
+        (uint256 place, uint256 next) = (0, 0);
+        while (next < records.length) {
+            uint256 header;
+            assembly ("memory-safe") {
+                header := shr(216, mload(add(add(records, 32), next)))
+            }
+            if (header >> 16 > key) break;
+            uint256 end = next + RECORD_HEADER + ((header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5));
+            if (end > records.length) revert SceneErrors.ExtensionCutOff(next);
+            next = end;
+            if (header >> 16 < key) place = next;
+        }
+        more = new bytes(place + record.length + records.length - next);
+        copyBytes(more, 0, records, 0, place);
+        copyBytes(more, place, record, 0, record.length);
+        copyBytes(more, place + record.length, records, next, records.length - next);
+    }
+}
+
+/// @notice Copies `size` bytes from one place to another, and changes no byte beside them. Within the same bytes only toward the front.
+function copyBytes(bytes memory target, uint256 to, bytes memory source, uint256 from, uint256 size) pure {
+    assembly ("memory-safe") {
+        to := add(add(target, 32), to)
+        from := add(add(source, 32), from)
+        let end := add(to, and(size, not(31)))
+        for {} lt(to, end) {} {
+            mstore(to, mload(from))
+            to := add(to, 32)
+            from := add(from, 32)
+        }
+        let behind := shr(shl(3, and(size, 31)), not(0))
+        mstore(to, or(and(mload(from), not(behind)), and(mload(to), behind)))
+    }
+}

@@ -1,0 +1,239 @@
+"""The npm package for contract authors, installed and used as they do."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from eth_abi.abi import decode as decode_abi
+from PIL import Image as PillowImage
+from tools import build_contracts, build_package
+from tools.examples import compile_example
+from tools.ledger import World, call_data
+
+from shackled import Image, render
+from shackled.artifacts import artifact
+from shackled.deploy import CONTRACTS, deployments
+from shackled.ethereum import to_hex
+from shackled.scene import decode
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+MODULES = ROOT / "contracts" / "node_modules"
+EXAMPLES = sorted((ROOT / "examples").rglob("*.sol"))
+FORGE = MODULES / ".bin" / "forge"
+HARDHAT = HERE / "node_modules" / "hardhat"
+#: What the pragma of the sources is that compile outside.
+OPEN = "pragma solidity ^0.8.25;"
+TOKEN, DEGREES = 3, -25
+
+pytestmark = [
+    pytest.mark.skipif(not shutil.which("npm"), reason="npm is not installed"),
+    pytest.mark.skipif(not (MODULES / "solc").is_dir(), reason="the compiler is not installed: npm ci in contracts/"),
+]
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The packed file."""
+    folder = tmp_path_factory.mktemp("package")
+    build_package.build(folder / "npm")
+    npm("pack", "--pack-destination", str(folder), cwd=folder / "npm")
+    return next(folder.glob("*.tgz"))
+
+
+@pytest.fixture
+def project(package: Path, tmp_path: Path) -> Path:
+    """A folder where the package is installed, and the libraries of the examples."""
+    (tmp_path / "package.json").write_text('{"private": true}')
+    npm("install", "--offline", str(package), cwd=tmp_path)
+    installed = tmp_path / "node_modules"
+    assert [path.name for path in installed.glob("[!.]*")] == ["shackled-contracts"]
+    for library, folder in (("erc721a", "contracts"), ("solady", "src/utils")):
+        shutil.copytree(MODULES / library / folder, installed / library / folder)
+        shutil.copy(MODULES / library / "package.json", installed / library)
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def town() -> Image:
+    """The picture of a token of the examples, by Python."""
+    return drawn("tokens/SkylineToken.sol", "town(uint256)", ["Studio"], TOKEN)
+
+
+@pytest.fixture(scope="module")
+def tetrahedron() -> Image:
+    return drawn("call_from_contract/Tetrahedron.sol", "scene(int256)", ["Renderer", "PngEncoder"], DEGREES)
+
+
+def drawn(example: str, function: str, contracts: list[str], value: int) -> Image:
+    """Render the scene that a contract returns."""
+    world = World()
+    creation, _ = compile_example(f"examples/{example}")
+    arguments = b"".join(world.address(name).rjust(32, b"\0") for name in contracts)
+    scene = world.run(world.deploy(creation, arguments), call_data(function, value))
+    return render(decode(artifact("Renderer").selectors["render"] + scene))
+
+
+def npm(*arguments: str, cwd: Path) -> None:
+    result = run("npm", *arguments, "--silent", cwd=cwd)
+    assert not result.returncode, result.stderr
+
+
+def run(*command: str | Path, cwd: Path, **variables: str) -> subprocess.CompletedProcess[str]:
+    environment = os.environ | {"HARDHAT_DISABLE_TELEMETRY_PROMPT": "true"} | variables
+    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+
+
+def signatures(abi: list[dict[str, Any]]) -> set[tuple[str, ...]]:
+    """Each entry without names of parameters."""
+
+    def types(parameters: list[dict[str, Any]]) -> str:
+        parts = (types(p["components"]) + p["type"][5:] if "components" in p else p["type"] for p in parameters)
+        return f"({','.join(parts)})"
+
+    return {
+        (e["type"], e["name"], types(e["inputs"]), types(e.get("outputs", [])), e.get("stateMutability", ""))
+        for e in abi
+        if e["type"] != "constructor"
+    }
+
+
+def open_sources() -> dict[str, str]:
+    """Return the sources that compile outside, by path."""
+    folder = build_contracts.SOURCES
+    found = {path.relative_to(folder).as_posix(): path.read_text("utf-8") for path in folder.rglob("*.sol")}
+    return {name: text for name, text in found.items() if OPEN in text}
+
+
+def constants(name: str) -> dict[str, str]:
+    text = (build_contracts.SOURCES / name).read_text("utf-8")
+    return dict(re.findall(r"^uint256 constant (\w+) = (\w+);", text, re.M))
+
+
+@pytest.mark.parametrize("optimized", [False, True])
+def test_sources_compile_with_default_settings(optimized: bool) -> None:
+    """Those of Hardhat 2 have the oldest EVM. The interfaces have all functions, events and errors of the contracts."""
+    sources = open_sources()
+    # none imports another
+    assert build_contracts.follow_imports(sources) == sources
+    assert not [name for name in sources if name.startswith(("pipeline/", "uniforms/")) or "Engine" in name]
+    numbers = constants("scene/Records.sol")
+    kept = constants("scene/Extensions.sol") | constants("scene/EffectRecords.sol")
+    assert numbers.items() <= kept.items()
+    settings = {"evmVersion": "paris", "optimizer": {"enabled": optimized}}
+    selection = {name: {"*": ["abi", "evm.bytecode.object"]} for name in sources}
+    request = build_contracts.request(sources, settings, selection)
+    output = build_contracts.run_compiler(json.dumps(request))["contracts"]
+    interfaces = {name: made for name, made in output.items() if name.startswith("interfaces/")}
+    assert len(interfaces) == 6
+    for made in interfaces.values():
+        ((name, interface),) = made.items()
+        assert signatures(interface["abi"]) == signatures(artifact(name.removeprefix("I")).abi), name
+
+
+def test_generated_source_is_up_to_date() -> None:
+    assert build_package.ADDRESSES.read_text() == build_package.addresses(deployments(CONTRACTS))
+
+
+def test_javascript(project: Path) -> None:
+    """Addresses and ABIs in JavaScript, their types, artifacts that other tools read."""
+    script = """
+        const { contracts } = require("shackled-contracts");
+        const { bytecode } = require("shackled-contracts/artifacts/Studio.json");
+        console.log(JSON.stringify([contracts.Studio, Object.keys(contracts), bytecode]));
+    """
+    said = subprocess.run(["node", "-e", script], cwd=project, check=True, capture_output=True, text=True).stdout
+    studio, names, bytecode = json.loads(said)
+    assert studio["abi"] == artifact("Studio").abi
+    assert bytecode == to_hex(artifact("Studio").creation)
+    assert sorted(names) == sorted(CONTRACTS)
+    (project / "use.ts").write_text("""
+        import { contracts } from "shackled-contracts";
+        import { shackled } from "shackled-contracts/hardhat";
+        const address: `0x${string}` = contracts.Studio.address;
+        const kind: "constructor" = contracts.Renderer.abi[0].type;
+        export const placed = async (provider: { request(_: object): Promise<unknown> }) =>
+            (await shackled(provider)).Renderer.address satisfies typeof contracts.Renderer.address;
+        // @ts-expect-error no such contract
+        contracts.Nothing;
+        console.log(address, kind);
+    """)
+    compiler = ROOT / "web" / "node_modules" / "typescript" / "bin" / "tsc"
+    if not compiler.is_file():
+        pytest.skip("the compiler of TypeScript is not installed: npm ci in web/")
+    result = run("node", compiler, "--noEmit", "--strict", "--module", "nodenext", "--types", "", "use.ts", cwd=project)
+    assert not result.returncode, result.stdout
+
+
+@pytest.mark.skipif(not FORGE.exists(), reason="forge is not installed: python tools/prepare.py node")
+def test_foundry_project(project: Path, town: Image, tetrahedron: Image) -> None:
+    for path in EXAMPLES:
+        (project / "src").mkdir(exist_ok=True)
+        shutil.copy(path, project / "src")
+    (project / "test").mkdir()
+    shutil.copy(HERE / "Pictures.t.sol", project / "test")
+    house, test = re.findall(r"^```solidity\n(.*?)^```$", build_package.README.read_text("utf-8"), re.M | re.S)
+    (project / "src" / "House.sol").write_text(house)
+    (project / "test" / "House.t.sol").write_text(test)
+    # the compiler of npm in place of the one that forge downloads; all other settings are the defaults
+    (project / "foundry.toml").write_text(f'[profile.default]\nsolc = "{compiler_command(project)}"\n')
+    result = run(FORGE, "test", "-vv", "--offline", cwd=project)
+    assert not result.returncode, result.stdout + result.stderr
+    said = {name: bytes.fromhex(value) for name, value in re.findall(r"^  (\w+): 0x([0-9a-f]+)$", result.stdout, re.M)}
+    assert said["bitmap"] == town.bmp
+    check_png(said["png"], town, 1)
+    uri = re.search(r"^  (data:image/png;base64,.*)$", result.stdout, re.M)
+    assert uri
+    with PillowImage.open(io.BytesIO(from_uri(uri[1]))) as shown:
+        assert shown.size == (512, 512)
+    check_png(from_uri(said["uri"].decode()), tetrahedron, 4)
+
+
+@pytest.mark.skipif(not HARDHAT.is_dir(), reason="Hardhat is not installed: python tools/prepare.py hardhat")
+def test_hardhat_project(project: Path, tetrahedron: Image) -> None:
+    (project / "contracts").mkdir()
+    for path in EXAMPLES:
+        shutil.copy(path, project / "contracts")
+    (project / "node_modules" / "hardhat").symlink_to(HARDHAT)
+    shutil.copy(HERE / "hardhat.config.js", project)
+    (project / "test").mkdir()
+    shutil.copy(HERE / "pictures.js", project / "test")
+    call = to_hex(call_data("image(int256)", DEGREES))
+    result = run("node", HARDHAT / "internal" / "cli" / "bootstrap.js", "test", cwd=project, CALL=call)
+    assert not result.returncode, result.stdout + result.stderr
+    answer = re.search(r"image: 0x([0-9a-f]+)", result.stdout)
+    assert answer
+    (uri,) = decode_abi(["string"], bytes.fromhex(answer[1]))
+    check_png(from_uri(uri), tetrahedron, 4)
+
+
+def compiler_command(folder: Path) -> Path:
+    """Write a command that calls the compiler of npm as forge calls a compiler; it reads and writes files only."""
+    command = folder / "solc.sh"
+    command.write_text(f"""#!/bin/sh
+case " $* " in *" --standard-json "*) set -- --standard-json ;; esac
+cat > {folder}/solc.in
+node {MODULES}/solc/solc.js "$@" < {folder}/solc.in > {folder}/solc.out || exit $?
+sed -n '/^[{{0-9]/,$p' {folder}/solc.out
+""")
+    command.chmod(0o755)
+    return command
+
+
+def from_uri(uri: str) -> bytes:
+    return base64.b64decode(uri.removeprefix("data:image/png;base64,"), validate=True)
+
+
+def check_png(png: bytes, image: Image, scale: int) -> None:
+    with PillowImage.open(io.BytesIO(png)) as opened:
+        assert np.array_equal(np.asarray(opened), image.pixels.repeat(scale, 0).repeat(scale, 1))
