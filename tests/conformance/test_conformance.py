@@ -84,7 +84,7 @@ def test_effects_of_random_scenes() -> None:
 
 
 def test_glass() -> None:
-    whole = sum((compare_effects(f"glass scene {seed}", glass_scene(seed)) for seed in range(200, 212)), Result())
+    whole = sum((compare_effects(f"glass scene {seed}", glass_scene(seed)) for seed in range(200, 208)), Result())
     assert whole.faults == []
     assert whole.interior > 40_000
     assert whole.mean < MEAN_OF_RUN
