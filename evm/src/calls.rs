@@ -12,8 +12,9 @@ use revm::{
         ContextSetters, Evm, TxEnv,
         result::{EVMError, ExecutionResult, HaltReason},
     },
-    context_interface::FrameStack,
+    context_interface::{ContextTr, FrameStack, JournalTr},
     database::{CacheDB, EmptyDB, WrapDatabaseRef},
+    database_interface::DatabaseCommit,
     handler::{
         EthFrame, EvmTr, FrameInitOrResult, FrameResult, Handler, MainnetContext, MainnetHandler,
         evm::{ContextDbError, FrameInitResult},
@@ -22,8 +23,8 @@ use revm::{
     interpreter::{
         InterpreterAction, interpreter::EthInterpreter, interpreter_action::FrameInit, interpreter_types::LoopControl,
     },
-    primitives::{Address, Bytes, HashMap, TxKind, address, hardfork::SpecId},
-    state::AccountInfo,
+    primitives::{Address, Bytes, HashMap, TxKind, U256, address, hardfork::SpecId},
+    state::{AccountInfo, EvmState},
 };
 use std::convert::Infallible;
 
@@ -46,6 +47,8 @@ pub struct Answer {
     pub output: Bytes,
     /// The gas of the execution, without that of a transaction before it.
     pub gas: u64,
+    /// The address of the contract that was created.
+    pub created: Option<Address>,
 }
 
 #[derive(Default)]
@@ -67,12 +70,27 @@ impl Contracts {
     }
 
     pub fn run(&self, kind: TxKind, data: Bytes, gas: u64) -> Answer {
-        self.transact(kind, data, gas, None).0
+        self.transact(kind, data, U256::ZERO, gas, None).0
+    }
+
+    /// Runs a transaction whose changes later calls find. The output of a creation is the address of the contract.
+    pub fn send(&mut self, kind: TxKind, data: Bytes, value: U256, gas: u64) -> Answer {
+        if !self.accounts.cache.accounts.contains_key(&SENDER) {
+            // half of all: a transfer to the sender cannot exceed the largest balance
+            self.accounts.insert_account_info(SENDER, AccountInfo::from_balance(U256::MAX >> 1));
+        }
+        let (mut answer, _, changes) = self.transact(kind, data, value, gas, None);
+        self.accounts.commit(changes);
+        if let Some(address) = answer.created {
+            answer.output = Bytes::copy_from_slice(address.as_slice());
+        }
+        answer
     }
 
     /// Returns the answer of a call, and its table as `Profile::table` says.
     pub fn profile(&self, address: Address, data: Bytes, gas: u64) -> (Answer, Vec<u32>) {
-        let (answer, profile) = self.transact(TxKind::Call(address), data, gas, Some(Profile::new(&self.described)));
+        let profile = Some(Profile::new(&self.described));
+        let (answer, profile, _) = self.transact(TxKind::Call(address), data, U256::ZERO, gas, profile);
         (answer, profile.map(|profile| profile.table()).unwrap_or_default())
     }
 
@@ -80,19 +98,21 @@ impl Contracts {
         &'a self,
         kind: TxKind,
         data: Bytes,
+        value: U256,
         gas: u64,
         profile: Option<Profile<'a>>,
-    ) -> (Answer, Option<Profile<'a>>) {
+    ) -> (Answer, Option<Profile<'a>>, EvmState) {
         let context = Context::mainnet()
             .with_db(WrapDatabaseRef(&self.accounts))
             .modify_cfg_chained(|cfg| {
                 cfg.set_spec_and_mainnet_gas_params(SpecId::CANCUN);
                 cfg.tx_gas_limit_cap = Some(u64::MAX);
+                cfg.disable_nonce_check = true;
             })
             .modify_block_chained(|block| block.gas_limit = u64::MAX);
         let mut evm = Evm::new(context, EthInstructions::new_mainnet_with_spec(SpecId::CANCUN), Precompiles::default());
         let mut transaction =
-            TxEnv { caller: SENDER, kind, data, gas_limit: u64::MAX, gas_price: 0, ..TxEnv::default() };
+            TxEnv { caller: SENDER, kind, data, value, gas_limit: u64::MAX, gas_price: 0, ..TxEnv::default() };
         let initial = evm
             .ctx
             .cfg
@@ -108,23 +128,27 @@ impl Contracts {
                 let gas = result.tx_gas_used().saturating_sub(initial);
                 match result {
                     ExecutionResult::Success { output, .. } => {
-                        Answer { status: Status::Success, output: output.into_data(), gas }
+                        let created = output.address().copied();
+                        Answer { status: Status::Success, output: output.into_data(), gas, created }
                     }
-                    ExecutionResult::Revert { output, .. } => Answer { status: Status::Revert, output, gas },
+                    ExecutionResult::Revert { output, .. } => {
+                        Answer { status: Status::Revert, output, gas, ..Answer::default() }
+                    }
                     ExecutionResult::Halt { reason: HaltReason::OutOfGas(_), .. } => {
-                        Answer { status: Status::OutOfGas, output: Bytes::new(), gas }
+                        Answer { status: Status::OutOfGas, gas, ..Answer::default() }
                     }
                     ExecutionResult::Halt { reason, .. } => failure(format!("{reason:?}"), gas),
                 }
             }
             Err(error) => failure(format!("{error:?}"), 0),
         };
-        (answer, runner.profile)
+        let changes = runner.evm.ctx.journal_mut().finalize();
+        (answer, runner.profile, changes)
     }
 }
 
 fn failure(reason: String, gas: u64) -> Answer {
-    Answer { status: Status::Failure, output: reason.into_bytes().into(), gas }
+    Answer { status: Status::Failure, output: reason.into_bytes().into(), gas, ..Answer::default() }
 }
 
 type State<'a> = MainnetContext<WrapDatabaseRef<&'a CacheDB<EmptyDB>>>;

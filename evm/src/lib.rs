@@ -1,7 +1,7 @@
 //! revm as a module of WebAssembly: an EVM, with the rules of Cancun, whose state is a few contracts.
 //!
-//! One instance serves one thread. Every call starts from the same state, so that the same call always costs the same
-//! gas. The host writes arguments to memory from `allocate`, and releases them afterwards; it reads an answer from
+//! One instance serves one thread. Every call starts from the state that `put`, `deploy` and `send` left, so that the same
+//! call always costs the same gas. The host writes arguments to memory from `allocate`, and releases them afterwards; it reads an answer from
 //! `answer` before the next call. Addresses have 20 bytes.
 
 mod calls;
@@ -10,7 +10,7 @@ mod precompiles;
 mod profile;
 
 use calls::{Answer, Contracts};
-use revm::primitives::{Address, Bytes, TxKind};
+use revm::primitives::{Address, Bytes, TxKind, U256};
 use std::cell::RefCell;
 
 #[derive(Default)]
@@ -72,6 +72,26 @@ pub unsafe extern "C" fn create(data: *const u8, size: usize, gas: u64) -> u32 {
     run(TxKind::Create, data, gas)
 }
 
+/// Runs creation code with at most `gas`, and keeps the contract; returns a `Status`. The output is its address.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn deploy(data: *const u8, size: usize, gas: u64) -> u32 {
+    let data = unsafe { read(data, size) };
+    send_to(TxKind::Create, data, U256::ZERO, gas)
+}
+
+/// Calls a contract with a value of 32 bytes, and keeps what the call changes; returns a `Status`.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn send(address: *const u8, value: *const u8, data: *const u8, size: usize, gas: u64) -> u32 {
+    let (address, value, data) = unsafe { (read_address(address), read(value, 32), read(data, size)) };
+    send_to(TxKind::Call(address), data, U256::from_be_slice(&value), gas)
+}
+
 /// Describes the code of a contract for `profile`, by a `profile::Place` for each position. Contracts are numbered from 0
 /// in the order in which they are described.
 ///
@@ -129,6 +149,13 @@ pub extern "C" fn table_size() -> usize {
 fn run(kind: TxKind, data: Bytes, gas: u64) -> u32 {
     INSTANCE.with_borrow_mut(|instance| {
         instance.answer = instance.contracts.run(kind, data, gas);
+        instance.answer.status as u32
+    })
+}
+
+fn send_to(kind: TxKind, data: Bytes, value: U256, gas: u64) -> u32 {
+    INSTANCE.with_borrow_mut(|instance| {
+        instance.answer = instance.contracts.send(kind, data, value, gas);
         instance.answer.status as u32
     })
 }

@@ -21,9 +21,16 @@ STANDARD = (
     "Renderer",
     "Original",
     "Genesis",
+    "PngEncoder",
+    "Turntable",
+    "GlbEncoder",
+    "Studio",
+    "Library",
+    "Web",
+    "Editions",
 )
 #: All contracts that `shackled deploy` can deploy.
-CONTRACTS = (*STANDARD, "PngEncoder", "Turntable", "GlbEncoder", "Studio", "GenesisMetadata")
+CONTRACTS = (*STANDARD, "GenesisMetadata")
 
 #: The runtime code of the proxy: CREATE2 of the call's data, whose first word is the salt.
 PROXY_CODE = bytes.fromhex(

@@ -39,7 +39,9 @@ class Answer(NamedTuple):
 
 
 class Instance:
-    """An EVM with the rules of Cancun. Every call starts from the same state. For one thread at a time.
+    """An EVM with the rules of Cancun. Every call starts from the state that `put`, `deploy` and `send` left.
+
+    For one thread at a time.
 
     Calls release the lock of the interpreter. ChainError if a call needs more memory than `MEMORY`; the instance must
     not be used afterwards.
@@ -75,6 +77,14 @@ class Instance:
     def create(self, creation: bytes, gas: int) -> Answer:
         """Run creation code, which is followed by the arguments of the constructor; the output is the runtime code."""
         return self._answer(self._pass("create", creation, gas=gas))
+
+    def deploy(self, creation: bytes, gas: int) -> Answer:
+        """Run creation code, and keep the contract; the output is its address."""
+        return self._answer(self._pass("deploy", creation, gas=gas))
+
+    def send(self, address: bytes, data: bytes, gas: int, value: int = 0) -> Answer:
+        """Call a contract with a value in wei, and keep what the call changes."""
+        return self._answer(self._pass("send", address, value.to_bytes(32, "big"), data, gas=gas))
 
     def describe(self, address: bytes, places: bytes) -> None:
         """Describe the code of a contract for `profile`, by 6 bytes for each position, as evm/src/profile.rs says."""

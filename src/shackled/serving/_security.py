@@ -51,7 +51,9 @@ class SameOrigin:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 sent = MutableHeaders(scope=message)
-                sent.update(HEADERS)
+                for name, value in HEADERS.items():
+                    # a response may have a stricter policy of its own
+                    sent.setdefault(name, value)
                 # else browsers may combine scripts of an older version with a new page
                 sent.setdefault("cache-control", "no-cache")
             await send(message)

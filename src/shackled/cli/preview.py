@@ -1,0 +1,123 @@
+"""shackled preview"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import InputError, VerificationError
+from ..untrusted import plain
+from .chain_options import print_json
+from .option import option
+from .output import print_line, print_table
+from .progress import LateBar
+
+if TYPE_CHECKING:
+    from ..preview import Project, Request, Token
+
+#: Default port of the page.
+PORT = 8090
+#: Gas of one transaction on Ethereum.
+MAX_GAS = 1 << 24
+
+
+def preview(
+    source: Annotated[Path, typer.Argument(help="Solidity file of the contract.", metavar="FILE")],
+    contract: Annotated[
+        str | None, option("--contract", "Contract of the file; default: the only one with tokenURI.", "NAME")
+    ] = None,
+    arg: Annotated[
+        list[str] | None,
+        option(
+            "--arg",
+            "Value for the constructor; may be repeated. Parameters that are contracts of Shackled are filled in.",
+            "VALUE",
+        ),
+    ] = None,
+    setup: Annotated[
+        list[str] | None,
+        option("--setup", "Call before tokens are read; may be repeated: 'mint{value: 0.1 ether}(3) x 5'.", "CALL"),
+    ] = None,
+    tokens: Annotated[int, option("--tokens", "Number of tokens.", "N", min=1, max=10_000)] = 256,
+    first: Annotated[int | None, option("--first", "First token (default: 0, or 1).", "N", min=0)] = None,
+    function: Annotated[
+        str | None,
+        option("--function", "Function to read (default: tokenURI, uri, image, render or svg).", "NAME"),
+    ] = None,
+    max_gas: Annotated[int, option("--max-gas", "Gas that a read may take (default: 2^24).", "GAS", min=1)] = MAX_GAS,
+    check: Annotated[
+        bool, option("--check", "No page: check all tokens; the exit code is 1 if one has a problem.")
+    ] = False,
+    as_json: Annotated[bool, option("--json", "With --check: print one JSON object instead of text.")] = False,
+    output: Annotated[
+        Path | None, option("-o --output", "With --check: write the pictures into one PNG.", "FILE")
+    ] = None,
+    port: Annotated[
+        int | None, option("--port", f"Port of the page (default: {PORT}, or a free one).", "PORT", min=0)
+    ] = None,
+    browser: Annotated[bool, option("--browser/--no-browser", "Open the page in the browser.")] = True,
+) -> None:
+    """Show the tokens of a Solidity contract on a page that follows its sources, with the gas of each."""
+    from ..preview import Project, Request
+
+    if not check and (as_json or output is not None):
+        raise InputError(f"{'--json' if as_json else '--output'} needs --check")
+    project = Project(source)
+    request = Request(contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas)
+    if check:
+        _check(project, request, as_json, output)
+        return
+    if not all(map(find_spec, ("starlette", "uvicorn"))):
+        raise InputError("the page needs more packages: pip install 'shackled[creator]'; --check needs none")
+    from ..preview import serve
+
+    serve(project, request, port, PORT, browser)
+
+
+def _check(project: Project, request: Request, as_json: bool, output: Path | None) -> None:
+    """Check all tokens. VerificationError if one of them has a problem."""
+    from ..preview import CompilerError, Preview, check_sheet, summary, write_sheet
+
+    if output is not None:
+        check_sheet(output)
+    found: list[Token] = []
+    with LateBar("reading tokens") as bar:
+        try:
+            made = Preview(project, request)
+        except CompilerError as error:
+            for line in error.said.splitlines():
+                bar.print(plain(line))
+            raise
+        for token in made.tokens():
+            found.append(token)
+            bar.set(len(found), made.count)
+    if output is not None:
+        write_sheet(output, found)
+    wrong = [token for token in found if token.problems]
+    gas = [token.gas for token in found if token.gas is not None]
+    if as_json:
+        document = {
+            "contract": made.contract.name,
+            "function": made.function["name"],
+            "max_gas": request.max_gas,
+            "gas": {"least": min(gas, default=None), "most": max(gas, default=None), "sum": sum(gas)},
+            "tokens": [summary(token) for token in found],
+        }
+        print_json(document)
+    else:
+        rows = [(str(token.number), problem) for token in wrong for problem in token.problems]
+        if rows:
+            print_table(("token", "problem"), rows)
+        if gas:
+            most = max(found, key=lambda token: token.gas or 0)
+            print_line(
+                f"{made.contract.name}.{made.function['name']}: {len(found)} tokens, {sum(gas) // len(gas):,} gas on "
+                f"average, {most.gas or 0:,} at most (token {most.number}), {request.max_gas:,} allowed"
+            )
+        if output is not None:
+            print_line(f"pictures: {output}")
+    if wrong:
+        raise VerificationError(f"{len(wrong)} of {len(found)} tokens have problems")

@@ -1,0 +1,32 @@
+from ._arguments import Call, parse_call, parse_value
+from ._document import Document, File, judge, judge_picture
+from ._preview import MAX_GAS, Preview, Request, Token
+from ._project import Compiled, CompilerError, Project
+from ._server import Live, make_app, serve
+from ._sheet import check_sheet, write_sheet
+from ._summary import summary
+from ._world import World
+
+__all__ = [
+    "MAX_GAS",
+    "Call",
+    "Compiled",
+    "CompilerError",
+    "Document",
+    "File",
+    "Live",
+    "Preview",
+    "Project",
+    "Request",
+    "Token",
+    "World",
+    "check_sheet",
+    "judge",
+    "judge_picture",
+    "make_app",
+    "parse_call",
+    "parse_value",
+    "serve",
+    "summary",
+    "write_sheet",
+]

@@ -1,0 +1,195 @@
+"""What a token returns, which is untrusted: its metadata and pictures, judged as marketplaces read them."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+from xml.etree import ElementTree
+
+from PIL import Image as PillowImage
+
+from ..errors import VerificationError
+from ..tokens import read_data_uri
+from ..untrusted import plain, read_json
+
+#: Media types of pictures, and Pillow's names of them; SVG is read as XML.
+PICTURES = {
+    "image/png": "PNG",
+    "image/apng": "PNG",
+    "image/gif": "GIF",
+    "image/bmp": "BMP",
+    "image/jpeg": "JPEG",
+    "image/webp": "WEBP",
+}
+SVG, GLB, HTML = "image/svg+xml", "model/gltf-binary", "text/html"
+#: The largest side of a picture, in pixels, and the most bytes of a document that is shown.
+MAX_SIDE = 4096
+#: What `display_type` may be (OpenSea's metadata standards).
+DISPLAY_TYPES = {"number", "boost_number", "boost_percentage", "date"}
+#: Keys whose values are text, and what they must match.
+TEXTS = {
+    "external_url": (r"(https?|web3|ipfs|ar|data):.+", "an address such as https://example.org/1"),
+    "background_color": (r"[0-9a-fA-F]{6}", "six hexadecimal digits without #, such as ffcc00"),
+}
+
+
+@dataclass(frozen=True)
+class File:
+    """A file in a `data:` URI. frames: of a picture that moves, else 1."""
+
+    media_type: str
+    content: bytes
+    frames: int = 1
+
+
+@dataclass
+class Document:
+    """The metadata of a token. fields: the JSON object. problems: what is wrong, each in one line."""
+
+    name: str = ""
+    fields: dict[str, Any] = field(default_factory=dict)
+    image: File | None = None
+    animation: File | None = None
+    problems: list[str] = field(default_factory=list)
+
+
+def judge(uri: str) -> Document:
+    """Read what `tokenURI` returned: all that is right of it, and all that is wrong."""
+    found = Document()
+    note = found.problems.append
+    try:
+        media_type, content = read_data_uri(uri, "the tokenURI")
+        if media_type != "application/json":
+            raise VerificationError(f"the tokenURI has the type {media_type}, not application/json")
+        fields = read_json(content.decode())
+        # lone surrogates and NaN, which other readers refuse
+        json.dumps(fields, ensure_ascii=False, allow_nan=False).encode()
+    except VerificationError as error:
+        note(str(error))
+        return found
+    except (ValueError, RecursionError) as error:
+        note(f"the tokenURI is not valid JSON: {' '.join(str(error).split())[:120]}")
+        return found
+    if not isinstance(fields, dict):
+        note("the JSON of the tokenURI is not an object")
+        return found
+    found.fields = fields
+    if not isinstance(fields.get("name"), str) or not fields["name"]:
+        note("there is no name, which marketplaces show")
+    if not isinstance(fields.get("description", ""), str):
+        note(f"description must be text, not {plain(json.dumps(fields['description']))[:60]}")
+    found.name = plain(fields["name"])[:100] if isinstance(fields.get("name"), str) else ""
+    for key, (pattern, wanted) in TEXTS.items():
+        value = fields.get(key, "")
+        if not isinstance(value, str) or (value and not re.fullmatch(pattern, value, re.DOTALL)):
+            note(f"{key} must be {wanted}, not {plain(json.dumps(value))[:60]}")
+    found.problems += attribute_problems(fields.get("attributes", []))
+    if "image" not in fields and "image_data" not in fields:
+        note("there is no image")
+    for key in ("image", "animation_url"):
+        if key in fields:
+            file = _file(fields[key], key, note)
+            if key == "image":
+                found.image = file
+            else:
+                found.animation = file
+    return found
+
+
+def judge_picture(content: bytes | str) -> Document:
+    """Read what a function such as `image` or `render` returned: a `data:` URI, an SVG, or the bytes of a picture."""
+    found = Document()
+    if isinstance(content, str) and content.lstrip().startswith("<"):
+        content = content.encode()
+    if isinstance(content, str):
+        found.image = _file(content, "the picture", found.problems.append)
+        return found
+    media_type = next((kind for mark, kind in MARKS.items() if content.startswith(mark)), SVG)
+    found.image = _checked(File(media_type, content), "the picture", found.problems.append)
+    return found
+
+
+#: What files of pictures begin with.
+MARKS = {b"\x89PNG": "image/png", b"GIF8": "image/gif", b"BM": "image/bmp", b"\xff\xd8": "image/jpeg", b"glTF": GLB}
+
+
+def attribute_problems(attributes: Any) -> list[str]:
+    """Return what is wrong with the attributes of a token."""
+    if not isinstance(attributes, list):
+        return ["attributes must be a list"]
+    found = []
+    for number, each in enumerate(attributes):
+        if not isinstance(each, dict) or "value" not in each:
+            found.append(f"attribute {number} has no value: {plain(json.dumps(each))[:60]}")
+            continue
+        kind, value = each.get("display_type"), each["value"]
+        if not isinstance(value, str | int | float | bool):
+            found.append(
+                f"the value of attribute {number} must be text or a number, not {plain(json.dumps(value))[:60]}"
+            )
+        if kind is not None and kind not in DISPLAY_TYPES:
+            found.append(f"display_type {plain(json.dumps(kind))[:40]} is none of {', '.join(sorted(DISPLAY_TYPES))}")
+        elif kind is not None and (isinstance(value, bool) or not isinstance(value, int | float)):
+            found.append(f"attribute {number} has the display_type {kind}, so its value must be a number")
+    return found
+
+
+def _file(uri: Any, key: str, note: Callable[[str], None]) -> File | None:
+    """Return the file of a `data:` URI."""
+    if not isinstance(uri, str):
+        note(f"{key} must be text, not {plain(json.dumps(uri))[:60]}")
+        return None
+    if key == "animation_url" and re.match(r"(https?|ipfs|ar|web3):", uri):
+        return None  # not on the chain, or by a gateway: allowed there
+    try:
+        media_type, content = read_data_uri(uri, key)
+    except VerificationError as error:
+        note(str(error))
+        return None
+    return _checked(File(media_type, content), key, note)
+
+
+def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
+    """Return the file if it can be decoded."""
+    kind, content = file.media_type, file.content
+    if kind in PICTURES:
+        return _picture(file, key, note)
+    if kind == SVG:
+        try:
+            # entities that grow without bound are refused by the parser
+            tag = ElementTree.fromstring(content).tag
+            if tag != "{http://www.w3.org/2000/svg}svg":
+                raise ValueError(f"its root is {plain(tag)[:40]}")
+        except (ElementTree.ParseError, ValueError) as error:
+            note(f"{key} is not a valid SVG: {error}")
+            return None
+        return file
+    if key == "image":
+        note(f"image has the type {kind}; marketplaces show {', '.join([*PICTURES, SVG])}")
+        return None
+    if kind == GLB and (content[:4] != b"glTF" or content[8:12] != len(content).to_bytes(4, "little")):
+        note(f"{key} is not a complete GLB")
+        return None
+    return file
+
+
+def _picture(file: File, key: str, note: Callable[[str], None]) -> File | None:
+    """Return a picture, all frames of which can be decoded."""
+    try:
+        with PillowImage.open(io.BytesIO(file.content), formats=[PICTURES[file.media_type]]) as opened:
+            if max(opened.size) > MAX_SIDE:
+                raise ValueError(
+                    f"it has {opened.size[0]} x {opened.size[1]} pixels, more than {MAX_SIDE} along a side"
+                )
+            frames = int(getattr(opened, "n_frames", 1))
+            for number in range(frames):
+                opened.seek(number)
+                opened.load()
+    except (OSError, ValueError, SyntaxError, EOFError, PillowImage.DecompressionBombError) as error:
+        note(f"{key} is not a complete {file.media_type}: {' '.join(str(error).split())[:100]}")
+        return None
+    return File(file.media_type, file.content, frames)

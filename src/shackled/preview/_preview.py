@@ -1,0 +1,163 @@
+"""One preview: the contract as its sources are now, and its tokens."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any
+
+from ..errors import InputError
+from ..ethereum import Interface, intrinsic_gas
+from ..evm import Answer, Status
+from ._arguments import parse_call
+from ._document import Document, judge, judge_picture
+from ._project import Compiled, Project
+from ._world import MOST_GAS, World
+
+#: The gas of one transaction on Ethereum (EIP-7825), and of a call on some nodes.
+MAX_GAS = 1 << 24
+#: Functions that are looked for, in this order.
+FUNCTIONS = ("tokenURI", "uri", "image", "render", "svg")
+#: Functions that return metadata; others return pictures.
+METADATA = ("tokenURI", "uri")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the author asks for.
+
+    contract: its name; None for the only one of the file. arguments: of its constructor. setup: calls before the
+    first token is read. function: that is read; None for the first of `FUNCTIONS`. first: the first token; None
+    for 0, or 1 where there is no token 0. count: how many tokens. max_gas: of a read, with that of its data.
+    """
+
+    contract: str | None = None
+    arguments: tuple[str, ...] = ()
+    setup: tuple[str, ...] = ()
+    function: str | None = None
+    first: int | None = None
+    count: int = 256
+    max_gas: int = MAX_GAS
+
+
+@dataclass
+class Token:
+    """A token. gas: of the execution and the data of the call; None if it failed. bytes: of what it returned."""
+
+    number: int
+    gas: int | None = None
+    bytes: int = 0
+    document: Document = field(default_factory=Document)
+    problems: list[str] = field(default_factory=list)
+
+
+class Preview:
+    """A contract that is compiled and deployed, and set up for its tokens to be read."""
+
+    def __init__(self, project: Project, request: Request) -> None:
+        """Compile, deploy, and send the calls. InputError with the reason if a step fails."""
+        self.request = request
+        self.contract = _chosen(project.compile(), request)
+        self.function = _function(self.contract, request.function)
+        self._interface = Interface([self.function])
+        setup = [parse_call(text, self.contract) for text in request.setup]
+        self.world = World(self.contract, request.arguments, setup)
+        #: Whether the tokens have numbers.
+        self.is_numbered = bool(self.function["inputs"])
+        self.first = self._first() if request.first is None else request.first
+        self.count = request.count if self.is_numbered else 1
+
+    def tokens(self) -> Generator[Token, None, None]:
+        """Yield the tokens in the order of their numbers; several are read at the same time."""
+        numbers = iter(range(self.first, self.first + self.count))
+        size = os.cpu_count() or 1
+        with ThreadPoolExecutor(size) as threads:
+            # as many waiting as are read: who stops early waits for few
+            waiting = [threads.submit(self.token, number) for number in islice(numbers, 2 * size)]
+            while waiting:
+                token = waiting.pop(0).result()
+                following = next(numbers, None)
+                if following is not None:
+                    waiting.append(threads.submit(self.token, following))
+                yield token
+
+    def token(self, number: int) -> Token:
+        """Read one token, and judge it."""
+        data = self._data(number)
+        intrinsic, name = intrinsic_gas(data), self.function["name"]
+        limit = self.request.max_gas
+        answer = self.world.call(data, max(0, limit - intrinsic))
+        problems = []
+        if answer.status != Status.SUCCESS:
+            # with more gas: does the limit fail, or the contract?
+            free = self.world.call(data, MOST_GAS)
+            if free.status != Status.SUCCESS:
+                return Token(number, problems=[f"{name}{self._shown(number)} fails: {self.world.reason(free)}"])
+            answer = free
+            problems = [f"{name}{self._shown(number)} takes {answer.gas + intrinsic:,} gas, more than {limit:,} allow"]
+        try:
+            value = self._interface.decode(name, answer.output)
+        except ValueError as error:
+            return Token(number, answer.gas + intrinsic, problems=[*problems, str(error)])
+        document = judge(value) if name in METADATA else judge_picture(value)
+        size = len(value.encode() if isinstance(value, str) else value)
+        return Token(number, answer.gas + intrinsic, size, document, problems + document.problems)
+
+    def _first(self) -> int:
+        """Return 1 where there is no token 0, but a token 1."""
+        return int(self.is_numbered and not self._is_there(0) and self._is_there(1))
+
+    def _is_there(self, number: int) -> bool:
+        answer: Answer = self.world.call(self._data(number))
+        return answer.status == Status.SUCCESS
+
+    def _data(self, number: int) -> bytes:
+        return self._interface.encode(self.function["name"], *([number] if self.is_numbered else []))
+
+    def _shown(self, number: int) -> str:
+        return f"({number})" if self.is_numbered else "()"
+
+
+def _chosen(contracts: list[Compiled], request: Request) -> Compiled:
+    """Return the contract to show: the one that is named, or the only one with a function that can be shown."""
+    names = [each.name for each in contracts]
+    if request.contract is not None:
+        if request.contract not in names:
+            raise InputError(f"there is no contract {request.contract!r} in the file, but {', '.join(names) or 'none'}")
+        return contracts[names.index(request.contract)]
+    shown = [each for each in contracts if _functions(each, request.function)]
+    if len(shown) != 1:
+        wanted = request.function or "tokenURI(uint256)"
+        if not shown:
+            raise InputError(
+                f"no contract of the file has a function {wanted}; its contracts: {', '.join(names) or 'none'}"
+            )
+        raise InputError(f"choose one of {', '.join(each.name for each in shown)} with `contract`")
+    return shown[0]
+
+
+def _function(contract: Compiled, name: str | None) -> dict[str, Any]:
+    """Return the entry of the function that is read."""
+    found = _functions(contract, name)
+    if not found:
+        raise InputError(
+            f"{contract.name} has no function {name or 'tokenURI'} of one number or none that returns text or bytes"
+        )
+    return found[0]
+
+
+def _functions(contract: Compiled, name: str | None) -> list[dict[str, Any]]:
+    """Return the functions of a name, or of `FUNCTIONS`, that take one number or nothing, and return text or bytes."""
+    wanted = FUNCTIONS if name is None else (name,)
+    fitting = [
+        each
+        for each in contract.abi
+        if each["type"] == "function"
+        and each["name"] in wanted
+        and [given["type"] for given in each["inputs"]] in ([], ["uint256"])
+        and [given["type"] for given in each["outputs"]] in (["string"], ["bytes"])
+    ]
+    return sorted(fitting, key=lambda each: (wanted.index(each["name"]), -len(each["inputs"])))

@@ -1,0 +1,203 @@
+"""The project of a contract: its folder, its compiler, and what the compiler makes of one file."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+
+#: Files in the folder of a project, the most telling first.
+MARKS = ("foundry.toml", "hardhat.config.js", "hardhat.config.ts", "hardhat.config.cjs", "remappings.txt")
+#: Folders whose sources are not the author's.
+FOREIGN = {"node_modules", "out", "cache", "artifacts", "lib", ".git"}
+#: Seconds that a compiler may take.
+PATIENCE = 600
+#: Of the compiler of a file without a project.
+SETTINGS = {"evmVersion": "cancun", "optimizer": {"enabled": True, "runs": 200}}
+INSTALL = (
+    "no compiler was found: install Foundry (forge), put solc on the PATH, or run `npm install solc` in the project"
+)
+
+
+class CompilerError(InputError):
+    """A source does not compile. said: what the compiler says, in lines."""
+
+    def __init__(self, source: Path, said: str) -> None:
+        """Take the source and the words of the compiler."""
+        super().__init__(f"{source.name} does not compile")
+        self.said = said
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A contract. abi: its entries. creation: its creation code, without arguments."""
+
+    name: str
+    abi: list[dict[str, Any]]
+    creation: bytes
+
+
+class Project:
+    """A source file, and the project around it."""
+
+    def __init__(self, source: Path) -> None:
+        """Take the file of the contract. InputError if it cannot be read."""
+        if source.suffix != ".sol":
+            raise InputError(f"the contract must be a Solidity file such as Token.sol, not {source}")
+        if not source.is_file():
+            raise InputError(f"there is no file {source}")
+        self.source = source.resolve()
+        parents = self.source.parents
+        marked = [folder for folder in parents if any((folder / mark).is_file() for mark in MARKS)]
+        installed = [folder for folder in parents if (folder / "node_modules").is_dir()]
+        self.root = (marked + installed + [self.source.parent])[0]
+
+    def compile(self) -> list[Compiled]:
+        """Return the contracts of the file, without abstract ones. CompilerError if it does not compile."""
+        if (self.root / "foundry.toml").is_file():
+            forge = self._command("forge")
+            if forge is None:
+                raise InputError(f"{self.root} is a project of Foundry, but there is no forge: install Foundry")
+            return self._by_tool([str(forge), "build", self._name, "--color", "never"], self._forge_output(forge))
+        if any((self.root / mark).is_file() for mark in MARKS[1:4]):
+            hardhat = self._command("hardhat")
+            if hardhat is None:
+                raise InputError(f"{self.root} is a project of Hardhat, but it is not installed: run npm install there")
+            return self._by_tool([str(hardhat), "compile"], self.root / "artifacts" / self._name)
+        return self._by_solc()
+
+    def stamps(self) -> dict[Path, int]:
+        """Return when each source of the project was changed last, to notice changes."""
+        found = {}
+        for path in [self.source, *_sources(self.root)]:
+            try:
+                found[path] = path.stat().st_mtime_ns
+            except OSError:
+                continue
+        return found
+
+    @property
+    def _name(self) -> str:
+        """The file as the project names it."""
+        return self.source.relative_to(self.root).as_posix()
+
+    def _command(self, name: str) -> Path | None:
+        """Return a command of the project or of the machine."""
+        folders = [folder / "node_modules" / ".bin" for folder in (self.root, *self.root.parents)]
+        found = shutil.which(name, path=os.pathsep.join(map(str, folders))) or shutil.which(name)
+        return Path(found) if found else None
+
+    def _forge_output(self, forge: Path) -> Path:
+        """Return the folder where forge writes what it makes of the file."""
+        said = self._run([str(forge), "config", "--json"])
+        try:
+            out = json.loads(said.stdout)["out"]
+        except (ValueError, KeyError):
+            raise InputError(f"foundry.toml cannot be read: {_shown(said)}") from None
+        return self.root / str(out) / self.source.name
+
+    def _by_tool(self, command: list[str], output: Path) -> list[Compiled]:
+        """Compile with a tool that writes a JSON file for each contract."""
+        said = self._run(command)
+        if said.returncode:
+            raise CompilerError(self.source, _shown(said))
+        made = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(output.glob("*.json"))}
+        # Hardhat writes files without an ABI beside them
+        return [_compiled(name, each["abi"], each["bytecode"]) for name, each in made.items() if _is_deployable(each)]
+
+    def _by_solc(self) -> list[Compiled]:
+        """Compile with solc, the program or the package of npm."""
+        compiler = shutil.which("solc")
+        command = [compiler] if compiler else self._solc_of_npm()
+        remappings = self.root / "remappings.txt"
+        settings: dict[str, Any] = SETTINGS | {
+            "remappings": remappings.read_text("utf-8").split() if remappings.is_file() else [],
+            "outputSelection": {self._name: {"*": ["abi", "evm.bytecode.object"]}},
+        }
+        sources = {self._name: {"content": self.source.read_text("utf-8")}}
+        request = {"language": "Solidity", "sources": sources, "settings": settings}
+        modules = self.root / "node_modules"
+        places = ["--base-path", str(self.root), *(("--include-path", str(modules)) if modules.is_dir() else ())]
+        said = self._run([*command, "--standard-json", *places], json.dumps(request))
+        try:
+            result = json.loads(said.stdout[said.stdout.index("{") :])
+        except ValueError:
+            raise CompilerError(self.source, _shown(said)) from None
+        faults = [each["formattedMessage"] for each in result.get("errors", []) if each["severity"] == "error"]
+        if faults:
+            raise CompilerError(self.source, "\n".join(faults).strip())
+        made = result.get("contracts", {}).get(self._name, {}).items()
+        return [_compiled(name, each["abi"], each["evm"]["bytecode"]) for name, each in made if _object(each["evm"])]
+
+    def _solc_of_npm(self) -> list[str]:
+        node = shutil.which("node")
+        for folder in (self.root, *self.root.parents):
+            script = folder / "node_modules" / "solc" / "solc.js"
+            if node and script.is_file():
+                return [node, str(script)]
+        raise InputError(INSTALL)
+
+    def _run(self, command: list[str], given: str = "") -> subprocess.CompletedProcess[str]:
+        """Run a command. Input and output are files, since solc of npm cuts off what it writes to a pipe."""
+        with tempfile.TemporaryFile("w+") as stdin, tempfile.TemporaryFile("w+", errors="replace") as stdout:
+            stdin.write(given)
+            stdin.seek(0)
+            environment = os.environ | {"NO_COLOR": "1", "HARDHAT_DISABLE_TELEMETRY_PROMPT": "true"}
+            try:
+                code = subprocess.run(
+                    command,
+                    stdin=stdin,
+                    stdout=stdout,
+                    stderr=subprocess.STDOUT,
+                    cwd=self.root,
+                    timeout=PATIENCE,
+                    env=environment,
+                ).returncode
+            except subprocess.TimeoutExpired:
+                raise InputError(f"{Path(command[0]).name} took more than {PATIENCE} seconds, and was ended") from None
+            except OSError as error:
+                raise InputError(f"{command[0]} cannot be run: {error.strerror}") from None
+            stdout.seek(0)
+            return subprocess.CompletedProcess(command, code, stdout.read(), "")
+
+
+def _sources(folder: Path) -> Iterator[Path]:
+    """Yield the sources below a folder that the author may change."""
+    for here, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if name not in FOREIGN]
+        yield from (Path(here, name) for name in files if name.endswith(".sol") or name in MARKS)
+
+
+def _is_deployable(built: dict[str, Any]) -> bool:
+    return "abi" in built and len(_code(built.get("bytecode", ""))) > 2
+
+
+def _object(evm: dict[str, Any]) -> str:
+    return str(evm["bytecode"]["object"])
+
+
+def _code(bytecode: Any) -> str:
+    """Return the digits of bytecode, which tools write as text or in an object."""
+    return str(bytecode.get("object", "") if isinstance(bytecode, dict) else bytecode)
+
+
+def _compiled(name: str, abi: list[dict[str, Any]], bytecode: Any) -> Compiled:
+    digits = _code(bytecode).removeprefix("0x")
+    if not re.fullmatch("[0-9a-fA-F]*", digits):
+        raise InputError(f"{name} needs external libraries, which the preview does not link: make them internal")
+    return Compiled(name, abi, bytes.fromhex(digits))
+
+
+def _shown(said: subprocess.CompletedProcess[str]) -> str:
+    """Return what a compiler says, or that it says nothing."""
+    text = said.stdout.strip()
+    return text or f"{Path(said.args[0]).name} failed, and says nothing (exit code {said.returncode})"

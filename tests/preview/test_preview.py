@@ -1,0 +1,340 @@
+"""The preview of a token contract: compiler, deployment, tokens, and the page that follows the sources."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import io
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image as PillowImage
+
+from shackled.cli.app import run
+from shackled.errors import InputError
+from shackled.preview import (
+    MAX_GAS,
+    Compiled,
+    CompilerError,
+    Live,
+    Preview,
+    Project,
+    Request,
+    World,
+    judge,
+    judge_picture,
+    make_app,
+    parse_call,
+    parse_value,
+)
+
+HERE = Path(__file__).resolve().parent
+MODULES = HERE.parents[1] / "contracts" / "node_modules"
+SETUP = ("mint{value: 6 gwei}(2)", "mint{value:3000000000}(1)")
+
+needs_solc = pytest.mark.skipif(
+    not (MODULES / "solc").is_dir() or not shutil.which("node"),
+    reason="the compiler is not installed: npm ci in contracts/",
+)
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A file without a project, beside the packages of npm."""
+    folder = tmp_path_factory.mktemp("odd")
+    (folder / "node_modules").symlink_to(MODULES)
+    return Path(shutil.copy(HERE / "Odd.sol", folder))
+
+
+@pytest.fixture(scope="module")
+def odd(source: Path) -> Compiled:
+    (found,) = Project(source).compile()
+    return found
+
+
+class Compiler(Project):
+    """A project that is compiled already."""
+
+    def __init__(self, source: Path, found: Compiled) -> None:
+        super().__init__(source)
+        self.found = found
+
+    def compile(self) -> list[Compiled]:
+        return [self.found]
+
+
+@pytest.fixture
+def project(source: Path, odd: Compiled) -> Project:
+    return Compiler(source, odd)
+
+
+def request(**changes: Any) -> Request:
+    return Request(arguments=("3_000_000_000",), setup=SETUP, count=4, **changes)
+
+
+@needs_solc
+def test_tokens_that_are_right_and_wrong(project: Project) -> None:
+    made = Preview(project, request())
+    tokens = list(made.tokens())
+    assert [token.number for token in tokens] == [0, 1, 2, 3]
+    assert tokens[0].problems == []
+    assert tokens[0].document.image
+    assert tokens[0].document.image.media_type == "image/svg+xml"
+    assert ["is not a complete image/png" in problem for problem in tokens[1].problems] == [True]
+    assert tokens[2].gas
+    assert tokens[2].gas > 20_000_000
+    assert tokens[2].problems == [f"tokenURI(2) takes {tokens[2].gas:,} gas, more than {MAX_GAS:,} allow"]
+    # an error of the contract, with its values
+    assert tokens[3].gas is None
+    assert tokens[3].problems == ["tokenURI(3) fails: Absent(id=3, why=not minted)"]
+    # the limit is exact: with the gas that a token takes its call succeeds, with less by one it does not
+    gas = tokens[0].gas
+    assert gas is not None
+    for limit, right in ((gas, True), (gas - 1, False)):
+        made.request = request(max_gas=limit)
+        assert (made.token(0).problems == []) == right
+
+
+@needs_solc
+def test_a_function_that_returns_a_picture(project: Project) -> None:
+    """The Studio is at the address that the constructor was given."""
+    (token,) = Preview(project, request(function="picture")).tokens()
+    assert token.document.image
+    assert token.document.image.media_type == "image/svg+xml"
+    assert not token.problems
+
+
+@needs_solc
+def test_calls_that_fail_and_values_that_do_not_fit(odd: Compiled) -> None:
+    for arguments, setup, message in (
+        ([], [], "needs price_ \\(uint256\\): give it with `arg`"),
+        (["1", "2"], [], "takes 1 values, not 2"),
+        (["one"], [], "price_ of the constructor must be a value of the type uint256, not 'one'"),
+        (["1"], ["mint(1)"], "the call mint\\(1\\) failed: the price"),
+        (["0"], ["mint(1) x 2", "minted() x 2", "tokenURI(2)"], "tokenURI\\(2\\) failed: Absent\\(id=2"),
+        (["0"], ["mint()"], "no function mint of 0 values: it takes 1"),
+        (["0"], ["burn(1)"], "its functions are mint, minted, picture, price, studio, tokenURI"),
+        (["0"], ["mint 1"], "a call must be like mint"),
+    ):
+        with pytest.raises(InputError, match=message):
+            World(odd, arguments, [parse_call(text, odd) for text in setup])
+
+
+@needs_solc
+def test_files_that_cannot_be_previewed(source: Path, project: Project, tmp_path: Path) -> None:
+    broken = source.with_name("Broken.sol")
+    broken.write_text("pragma solidity ^0.8.0;\ncontract Broken { uint x = ; }\n")
+    with pytest.raises(CompilerError, match=r"Broken\.sol does not compile") as raised:
+        Project(broken).compile()
+    assert "--> Broken.sol:2:28" in raised.value.said
+    for name in ("None.sol", "Odd.txt"):
+        with pytest.raises(InputError, match=name):
+            Project(tmp_path / name)
+    with pytest.raises(InputError, match="no contract 'Even' in the file, but Odd"):
+        Preview(project, request(contract="Even"))
+    with pytest.raises(InputError, match="no contract of the file has a function draw"):
+        Preview(project, request(function="draw"))
+
+
+def test_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "A.sol").write_text("contract A {}")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(InputError, match="install Foundry"):
+        Project(tmp_path / "A.sol").compile()
+    (tmp_path / "foundry.toml").write_text("")
+    with pytest.raises(InputError, match="a project of Foundry, but there is no forge"):
+        Project(tmp_path / "A.sol").compile()
+
+
+def test_values_of_all_types() -> None:
+    pair = {"type": "tuple[]", "components": [{"type": "uint8"}, {"type": "string"}]}
+    for text, parameter, value in (
+        ("0x10", {"type": "uint256"}, 16),
+        ("-1_000", {"type": "int16"}, -1000),
+        ("true", {"type": "bool"}, True),
+        ("0x00ff", {"type": "bytes"}, b"\0\xff"),
+        ("a, b", {"type": "string"}, "a, b"),
+        ('"a"', {"type": "string"}, "a"),
+        ("[[1, 2], [3, 4]]", {"type": "uint8[2][]"}, [[1, 2], [3, 4]]),
+        ('[[1, "a"]]', pair, [(1, "a")]),
+        ("[true]", {"type": "bool[]"}, [True]),
+    ):
+        assert parse_value(text, parameter, "it") == value
+    for text, kind in (("yes", "bool"), ("1", "uint8[]"), ("0x1", "bytes"), ("[[1]]", "uint8[]"), ("0x12", "address")):
+        with pytest.raises(InputError, match="it"):
+            parse_value(text, {"type": kind}, "it")
+
+
+def uri(document: Any) -> str:
+    text = document if isinstance(document, str) else json.dumps(document)
+    return "data:application/json;base64," + base64.b64encode(text.encode()).decode()
+
+
+def picture(frames: int = 1, kind: str = "PNG") -> str:
+    images = [PillowImage.new("RGB", (8, 8), (number, 9, 9)) for number in range(frames)]
+    stream = io.BytesIO()
+    images[0].save(stream, kind, save_all=frames > 1, append_images=images[1:])
+    return f"data:image/{kind.lower()};base64," + base64.b64encode(stream.getvalue()).decode()
+
+
+def test_documents_that_are_right() -> None:
+    fields = {
+        "name": "One",
+        "image": picture(3),
+        "animation_url": "ipfs://somewhere",
+        "background_color": "Ffcc00",
+        "external_url": "https://example.org/1",
+        "attributes": [{"trait_type": "Size", "value": 3, "display_type": "number"}, {"value": "Tall"}],
+    }
+    found = judge(uri(fields))
+    assert found.problems == []
+    assert found.image
+    assert found.image.frames == 3
+    assert judge(uri({"name": "Two", "image": picture(kind="GIF")})).problems == []
+    assert judge_picture(picture()).problems == []
+    assert judge_picture(base64.b64decode(picture().partition(",")[2])).problems == []
+
+
+HOSTILE = {
+    "https://example.org/1": "not on the chain",
+    "data:text/html,<p>": "has the type text/html, not application/json",
+    uri("{"): "not valid JSON",
+    uri('{"name": NaN}'): "not valid JSON",
+    uri("[" * 10_000): "nested more than",
+    uri('{"name": "\\ud800"}'): "not valid JSON",
+    uri("[]"): "not an object",
+    "data:application/json;base64,!": "not valid Base64",
+}
+
+
+@pytest.mark.parametrize(("given", "message"), HOSTILE.items(), ids=range(len(HOSTILE)))
+def test_documents_that_cannot_be_read(given: str, message: str) -> None:
+    (problem,) = judge(given).problems
+    assert message in problem
+
+
+WRONG = {
+    "name": (3, "there is no name"),
+    "description": ([], "description must be text"),
+    "background_color": ("#ffffff", "six hexadecimal digits without #"),
+    "external_url": ("javascript:alert(1)", "an address such as"),
+    "attributes": ([{"trait_type": "a"}], "attribute 0 has no value"),
+    "animation_url": ("data:model/gltf-binary;base64,Z2xURg==", "not a complete GLB"),
+    "image": ("data:text/html,<script>", "image has the type text/html"),
+}
+
+
+@pytest.mark.parametrize("key", WRONG)
+def test_fields_that_are_wrong(key: str) -> None:
+    value, message = WRONG[key]
+    (problem,) = judge(uri({"name": "One", "image": picture()} | {key: value})).problems
+    assert message in problem
+
+
+def test_pictures_that_cannot_be_decoded() -> None:
+    whole = base64.b64decode(picture(3).partition(",")[2])
+    bomb = "<!DOCTYPE svg [" + "".join(
+        f'<!ENTITY e{n} "{("&e" + str(n - 1) + ";") * 30 if n else "x" * 99}">' for n in range(9)
+    )
+    for content, message in (
+        (whole[:-30], "not a complete image/png"),
+        (b"\x89PNG\r\n\x1a\n", "not a complete image/png"),
+        ("<svg", "not a valid SVG"),
+        ("<html/>", "its root is html"),
+        (bomb + "]><svg xmlns='http://www.w3.org/2000/svg'>&e8;</svg>", "not a valid SVG"),
+        ("https://example.org/1.png", "not on the chain"),
+    ):
+        (problem,) = judge_picture(content).problems
+        assert message in problem
+
+
+@needs_solc
+def test_the_command_checks(source: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sheet = tmp_path / "sheet.png"
+    words = ["preview", str(source), "--arg", "0", "--setup", "mint(4)", "--check"]
+    assert run([*words, "--tokens", "1", "-o", str(sheet)]) == 0
+    assert "1 tokens" in capsys.readouterr().out
+    with PillowImage.open(sheet) as opened:
+        assert opened.size == (128, 128)
+    assert run([*words, "--tokens", "2", "--json"]) == 1
+    said = capsys.readouterr()
+    assert [bool(token["problems"]) for token in json.loads(said.out)["tokens"]] == [False, True]
+    assert "1 of 2 tokens have problems" in said.err
+    assert run(["preview", str(source), "-o", str(sheet)]) == 2
+    assert "--output needs --check" in capsys.readouterr().err
+
+
+@needs_solc
+def test_the_page_follows_the_sources(source: Path) -> None:
+    """It shows tokens, errors of the compiler, and tokens again; files of tokens run nothing."""
+    pytest.importorskip("starlette")
+    text = source.read_text("utf-8")
+    live = Live(Project(source), Request(arguments=("0",), setup=("mint(4)",), count=2))
+    app = make_app(live)
+
+    async def states() -> list[dict[str, Any]]:
+        following = asyncio.create_task(live.follow())
+        found, saves = [], ["contract", text]
+        async for event in live.events():
+            message = json.loads(event.removeprefix("data: "))
+            found.append(message)
+            if message.get("status") in ("done", "failed"):
+                if not saves:
+                    break
+                source.write_text(saves.pop(0), "utf-8")
+        following.cancel()
+        return found
+
+    found = asyncio.run(states())
+    assert [m["status"] for m in found if "status" in m and m["version"] == 2] == ["compiling", "failed"]
+    assert any("--> Odd.sol" in m.get("error", "") for m in found)
+    assert [m["token"]["number"] for m in found if m["version"] == 3 and "token" in m] == [0, 1]
+    page = get(app, "/")
+    assert page.status == 200
+    assert "script-src 'self'" in page.headers["content-security-policy"]
+    assert {get(app, f"/{name}").status for name in ("preview.js", "preview.css")} == {200}
+    assert get(app, "/../_server.py").status == get(app, "/other").status == 404
+    picture = get(app, f"/file/{live.version}/0/image")
+    assert picture.headers["content-type"] == "image/svg+xml"
+    assert "sandbox" in picture.headers["content-security-policy"]
+    assert json.loads(get(app, f"/token/{live.version}/0").body)["document"]["name"] == "Odd 0"
+    assert get(app, f"/file/{live.version - 1}/0/image").status == 404
+    assert get(app, f"/file/{live.version}/7/image").status == 404
+    assert get(app, "/", host="evil.example").status == 403
+    assert get(app, "/", origin="http://evil.example").status == 403
+
+
+@dataclass
+class Response:
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+
+def get(app: Any, path: str, **headers: str) -> Response:
+    """Ask the application without a socket."""
+    sent: list[dict[str, Any]] = []
+
+    async def receive() -> dict[str, Any]:
+        return {"type": "http.request"}
+
+    async def send(message: dict[str, Any]) -> None:
+        sent.append(message)
+
+    given = {"host": "127.0.0.1"} | headers
+    scope = {
+        "type": "http",
+        "method": "GET",
+        "path": path,
+        "query_string": b"",
+        "http_version": "1.1",
+        "scheme": "http",
+    }
+    scope["headers"] = [(name.encode(), value.encode()) for name, value in given.items()]
+    asyncio.run(app(scope, receive, send))
+    answered = {name.decode(): value.decode() for name, value in sent[0]["headers"]}
+    return Response(sent[0]["status"], answered, b"".join(message.get("body", b"") for message in sent[1:]))
