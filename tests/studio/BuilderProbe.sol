@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {Scene} from "../../contracts/src/scene/Scene.sol";
-import {Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
+import {Object, Scene} from "../../contracts/src/scene/Scene.sol";
+import {Box, Framing, Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
 
 /// @notice Builds meshes and scenes as it is told.
 contract BuilderProbe {
@@ -29,17 +29,88 @@ contract BuilderProbe {
         packed = m.pack();
     }
 
-    function addAfterPacking() external pure {
-        Model memory m = ModelMaker.model(4, 4);
-        m.vertex(1, 2, 3, 4);
-        m.pack();
-        m.vertex(1, 2, 3, 4);
-    }
-
-    function box() external pure returns (bytes memory packed) {
+    /// @notice The bytes of a mesh, which do not change when more is added, and those of the larger mesh.
+    function addAfterPacking() external pure returns (bytes memory, bytes memory) {
         Model memory m = ModelMaker.model(8, 12);
         m.box(-10, -20, -30, 40, 50, 60, 0x102030);
+        bytes memory packed = m.pack();
+        m.box(-10, -20, -30, 40, 50, 60, 0x102030);
+        return (packed, m.pack());
+    }
+
+    /// @notice A mesh of as many vertices, and of faces all alike.
+    function full(uint256 vertices, uint256 faces) external pure returns (bytes memory) {
+        Model memory m = ModelMaker.model();
+        for (uint256 k; k < vertices; ++k) m.vertex(1, 2, 3, 4);
+        for (uint256 k; k < faces; ++k) m.face(0, 0, 0);
         return m.pack();
+    }
+
+    /// @notice Meshes as objects, each turned about y and moved along x, all seen from a direction: with a perspective camera, or with an
+    /// orthographic one (0 degrees).
+    function fitted(bytes[] memory meshes, int256 degrees_, int256[3] memory toward) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(60, 40);
+        for (uint256 k; k < meshes.length; ++k) {
+            Object memory object = stage.add(meshes[k], StageMaker.unlit());
+            object.rotation = StageMaker.turned(0, int256(30 * k), 0);
+            (object.position.x, object.scale) = (StageMaker.unit(int256(100 * k)), StageMaker.fraction(1, int256(k + 1)));
+        }
+        if (degrees_ == 0) stage.orthographic(1);
+        else stage.fieldOfView(StageMaker.fraction(degrees_, 10));
+        stage.fit(StageMaker.units(toward[0], toward[1], toward[2]));
+        return stage.scene;
+    }
+
+    /// @notice A mesh placed in a box, and one of which only the bounds are known.
+    function placed(bytes memory packed, int256[3][2] memory bounds, int256[6] memory room) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(60, 40);
+        Box memory box_ = Framing.box(room[0], room[1], room[2], room[3], room[4], room[5]);
+        stage.add(packed, StageMaker.unlit()).rotation = StageMaker.turned(0, 90, 0);
+        stage.place(box_);
+        bytes memory stored = abi.encodePacked(uint8(0x12), address(1));
+        stage.add(stored, StageMaker.unlit(), Framing.box(bounds[0], bounds[1]));
+        stage.place(box_);
+        stage.fit(StageMaker.units(0, 0, 1));
+        return stage.scene;
+    }
+
+    /// @notice Lights, objects and cameras in an order that is told: a letter for each step.
+    function steps(string memory order) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(60, 40);
+        Model memory m = ModelMaker.model();
+        m.box(-1, -1, -1, 1, 1, 1, 0x102030);
+        bytes memory cube = m.pack();
+        for (uint256 k; k < bytes(order).length; ++k) {
+            bytes1 step = bytes(order)[k];
+            if (step == "a") {
+                stage.add(cube, StageMaker.smooth(StageMaker.fraction(1, 3), StageMaker.percent(1), StageMaker.unit(2), 5));
+            }
+            if (step == "p") stage.add(hex"12", StageMaker.unlit());
+            if (step == "P") stage.paint(0, 0xabcdef);
+            if (step == "L") stage.paint(0x123456);
+            if (step == "f") stage.fade(StageMaker.fraction(1, 8));
+            if (step == "s") stage.sun(StageMaker.units(1, 2, 3), 0xffffff);
+            if (step == "t") stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(0, 1, 0), 90, 50, 0xffffff);
+            if (step == "d") stage.dark();
+            if (step == "w") stage.shadow();
+            if (step == "l") stage.look(StageMaker.units(400, 0, 0), StageMaker.units(0, 0, 0));
+            if (step == "F") stage.fit(StageMaker.units(0, 0, 1));
+            if (step == "n") stage.fit(StageMaker.units(0, 0, 0));
+            if (step == "v") stage.fieldOfView(180);
+            if (step == "o") stage.orthographic(0);
+            if (step == "r") stage.place(Framing.box(0, 0, 0, 1, 0, 1));
+        }
+        return stage.scene;
+    }
+
+    /// @notice A scene that came from elsewhere, with an object and a light more.
+    function continued(Scene memory scene_) external pure returns (Scene memory, bytes memory behind) {
+        Stage memory stage = StageMaker.stage(1, 1, 9);
+        stage.scene = scene_;
+        behind = abi.encodePacked(uint256(0x1234567890abcdef), uint256(0xfedcba0987654321));
+        stage.add(hex"0000000000", StageMaker.unlit());
+        stage.sun(StageMaker.units(1, 2, 3), 0xffffff);
+        return (stage.scene, behind);
     }
 
     /// @notice A scene of two objects of one model, which has room for more.

@@ -51,14 +51,14 @@ def test_errors_are_found_in_the_code() -> None:
 
 
 @pytest.mark.parametrize(
-    "contract", ["Engine", "Renderer", "Original", "Genesis", "PngEncoder", "Studio", "IconsCollection"]
+    "contract", ["Engine", "Renderer", "Original", "Genesis", "PngEncoder", "Studio", "IconsCollection", "Editions"]
 )
 def test_every_error_is_in_the_abi(contract: str) -> None:
     missing = {name for selector, name in raised(contract).items() if selector not in artifact(contract).errors}
     assert not missing
 
 
-@pytest.mark.parametrize("contract", ["Renderer", "Original", "Genesis", "Studio", "IconsCollection"])
+@pytest.mark.parametrize("contract", ["Renderer", "Original", "Genesis", "Studio", "IconsCollection", "Editions"])
 def test_every_error_of_a_scene_is_in_the_abi(contract: str) -> None:
     """Those of the interface, each with its parameters named."""
     scene = {

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from eth_abi.abi import decode
+from eth_abi.abi import decode, encode
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError, Texture
-from shackled.scene import is_closed, pack, pack_texture
+from shackled.artifacts import artifact
+from shackled.scene import decode as decode_scene
+from shackled.scene import is_closed, pack, pack_texture, unpack
+from shackled.scene._staging import Viewpoint, frame
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()
 ROOT = Path(__file__).resolve().parents[2]
 ONE = 1 << 32
+FULL = "full(uint256,uint256)"
 TRIANGLE = [(0, 0, 0, 1), (9, 0, 0, 2), (0, 9, 0, 3)]
 
 pytestmark = pytest.mark.skipif(
@@ -64,6 +69,8 @@ def made(
         ((1, 1), (1, 1)),
         ((60, 80), (60, 80)),
         ((70, 200), (60, 80)),
+        ((0, 0), (60, 80)),
+        ((59, 3), (60, 80)),
     ],
 )
 def test_any_mesh(world: World, probe: bytes, room: tuple[int, int], count: tuple[int, int]) -> None:
@@ -89,8 +96,6 @@ def test_any_mesh(world: World, probe: bytes, room: tuple[int, int], count: tupl
     [
         ((65536, 0), [], [], "ModelTooLarge"),
         ((0, 65536), [], [], "ModelTooLarge"),
-        ((2, 1), TRIANGLE, [], "TooManyVertices"),
-        ((3, 1), TRIANGLE, [(0, 1, 2), (0, 1, 2)], "TooManyFaces"),
         ((3, 1), TRIANGLE, [(0, 1, 3)], "NoSuchVertex"),
         ((3, 1), [(32768, 0, 0, 0)], [], "PositionOutOfRange"),
         ((3, 1), [(0, 0, -32769, 0)], [], "PositionOutOfRange"),
@@ -122,19 +127,21 @@ def refused(name: str) -> str:
     return f"{name}|0x" + call_data(f"{name}({kinds.get(name, 'uint256')})", *zeros)[:4].hex()
 
 
-def test_nothing_is_added_to_what_is_packed(world: World, probe: bytes) -> None:
-    with pytest.raises(RenderError, match=refused("TooManyVertices")):
-        world.run(probe, call_data("addAfterPacking()"))
+def test_what_is_packed_stays_when_more_is_added(world: World, probe: bytes) -> None:
+    packed, larger = ask(world, probe, ["bytes", "bytes"], "addAfterPacking()")
+    first, both = unpack(packed), unpack(larger)
+    assert is_closed(first)
+    assert (len(both.positions), len(both.faces)) == (16, 24)
+    assert (both.positions == np.tile(first.positions, (2, 1))).all()
+    assert (both.faces == np.concatenate([first.faces, first.faces + 8])).all()
 
 
-def test_a_box_is_closed(world: World, probe: bytes) -> None:
-    (packed,) = ask(world, probe, ["bytes"], "box()")
-    parts = split_mesh(packed)
-    mesh = Mesh(np.array(parts.positions) - 32768, parts.faces)
-    assert is_closed(mesh)
-    assert mesh.positions.min(axis=0).tolist() == [-10, -20, -30]
-    assert mesh.positions.max(axis=0).tolist() == [40, 50, 60]
-    assert set(parts.colors) == {0x102030}
+def test_a_mesh_grows_until_it_is_full(world: World, probe: bytes) -> None:
+    (packed,) = ask(world, probe, ["bytes"], FULL, 65535, 65535)
+    assert packed == bytes.fromhex("00ffffffff") + 65535 * bytes.fromhex("000100020003000004") + 65535 * bytes(6)
+    for counts, error in (((65536, 0), "TooManyVertices"), ((1, 65536), "TooManyFaces")):
+        with pytest.raises(RenderError, match=refused(error)):
+            world.run(probe, call_data(FULL, *counts))
 
 
 def test_a_scene(world: World, probe: bytes) -> None:
@@ -215,12 +222,134 @@ def test_opacities(world: World, probe: bytes, count: int) -> None:
 @pytest.mark.parametrize("spare", [(0, 0), (1, 1), (0, 9), (30, 40)])
 def test_two_objects_of_one_model(world: World, probe: bytes, spare: tuple[int, int]) -> None:
     """A model is packed for each: both have its mesh."""
-    (expected,) = ask(world, probe, ["bytes"], "box()")
+    expected, _ = ask(world, probe, ["bytes", "bytes"], "addAfterPacking()")
     (scene,) = ask(world, probe, [SCENE_STRUCT], "twoOfOne(uint256,uint256)", *spare)
     assert [o[0] for o in scene[6]] == [expected, expected]
 
 
-@pytest.mark.parametrize(("counts", "error"), [((2, 3, 0), "TooManyObjects"), ((1, 1, 5), "TooManyLights")])
-def test_no_room_for_more(world: World, probe: bytes, counts: tuple[int, int, int], error: str) -> None:
-    with pytest.raises(RenderError, match=refused(error)):
-        world.run(probe, call_data("scene(uint256,uint256,uint256)", *counts))
+def test_there_is_room_for_any_objects_and_four_lights(world: World, probe: bytes) -> None:
+    signature = "scene(uint256,uint256,uint256)"
+    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, 0, 30, 4)
+    assert [o[4][0] for o in scene[6]] == 15 * [1, 0]
+    assert len(scene[5]) == 4
+    with pytest.raises(RenderError, match=refused("TooManyLights")):
+        world.run(probe, call_data(signature, 1, 1, 5))
+
+
+def stepped(world: World, probe: bytes, order: str) -> Any:
+    return ask(world, probe, [SCENE_STRUCT], "steps(string)", order)[0]
+
+
+def test_the_sun_shines_until_other_light_is_added(world: World, probe: bytes) -> None:
+    """The default sun stands to the upper left of the viewer; it makes room for the first light."""
+    for order, (left, up, toward) in (("", (0, 1, 2)), ("l", (2, 1, 0))):
+        ((kind, direction, color),) = stepped(world, probe, order)[5]
+        assert (kind, color) == (0, 0xFFFFFF)
+        # seen from +x, left is +z
+        assert direction[left] * (-1 if not order else 1) > 0
+        assert 0 < direction[up] < direction[toward]
+    sun, spot = (0, (ONE, 2 * ONE, 3 * ONE), 0xFFFFFF), (1, (ONE, 2 * ONE, 3 * ONE), 0xFFFFFF)
+    for order, lights in {"s": (sun,), "ls": (sun,), "ss": (sun, sun), "sl": (sun,), "d": (), "ds": (sun,)}.items():
+        assert stepped(world, probe, order)[5] == lights
+    scene = stepped(world, probe, "t")
+    assert scene[5] == (spot,)
+    assert scene[7][:5] == b"\1\0\0\0\x28"
+    assert stepped(world, probe, "wts")[7].endswith(b"\n\0\0\0\1" + bytes(31) + b"\1")
+
+
+def test_one_of_several_objects_is_painted(world: World, probe: bytes) -> None:
+    """Objects may share a mesh; what is painted has its own from then on."""
+    scene = stepped(world, probe, "aaaPL")
+    colors = [unpack(o[0]).colors for o in scene[6]]
+    assert [{tuple(c) for c in each.tolist()} for each in colors] == [
+        {(0xAB, 0xCD, 0xEF)},
+        {(0x10, 0x20, 0x30)},
+        {(0x12, 0x34, 0x56)},
+    ]
+    assert len({(o[0][:5], o[0][-72:]) for o in scene[6]}) == 1
+
+
+def test_fractions(world: World, probe: bytes) -> None:
+    scene = stepped(world, probe, "af")
+    assert scene[6][0][4] == (2, ONE // 3, ONE // 100, 2 * ONE, 5)
+    assert scene[7] == b"\2\0\0\0\4\0\x20\0\0"
+
+
+@pytest.mark.parametrize(
+    ("order", "error", "kinds"),
+    [
+        ("P", "NoSuchObject", "uint256,uint256"),
+        ("L", "NoSuchObject", "uint256,uint256"),
+        ("f", "NoSuchObject", "uint256,uint256"),
+        ("r", "NoSuchObject", "uint256,uint256"),
+        ("pP", "MeshNotPacked", "uint256"),
+        ("dw", "NoLight", ""),
+        ("F", "NothingToFit", ""),
+        ("an", "NothingToFit", ""),
+        ("apF", "BoundsUnknown", "uint256"),
+        ("pr", "BoundsUnknown", "uint256"),
+        ("ar", "NoRoom", "uint256"),
+        ("v", "FieldOfViewOutOfRange", "int256"),
+        ("o", "HeightOutOfRange", "int256"),
+    ],
+)
+def test_steps_that_are_refused(world: World, probe: bytes, order: str, error: str, kinds: str) -> None:
+    selector = call_data(f"{error}({kinds})", *([0] * (kinds.count(",") + bool(kinds))))[:4].hex()
+    with pytest.raises(RenderError, match=f"error 0x{selector}"):
+        stepped(world, probe, order)
+
+
+def test_scenes_from_elsewhere_go_on(world: World, probe: bytes) -> None:
+    """There is no room in memory behind their objects and lights, and nothing there is overwritten."""
+    given = stepped(world, probe, "aass")
+    scene, behind = ask(world, probe, [SCENE_STRUCT, "bytes"], f"continued({SCENE_STRUCT})", given)
+    assert behind == (0x1234567890ABCDEF).to_bytes(32, "big") + (0xFEDCBA0987654321).to_bytes(32, "big")
+    assert scene[:5] == given[:5]
+    assert scene[5] == given[5] + given[5][:1]
+    assert scene[6][:2] == given[6]
+    assert scene[6][2][0] == bytes(5)
+
+
+@pytest.mark.parametrize("tenths", [0, 500, 225])
+@pytest.mark.parametrize("toward", [(0, 0, 1), (1, 2, 3), (-3, -2, -1), (0, 1, 0)])
+def test_cameras_fit_objects(world: World, probe: bytes, tenths: int, toward: tuple[int, int, int]) -> None:
+    """They stand where `frame` of Python puts them, as near as all vertices fit the picture."""
+    random = np.random.default_rng(1)
+    meshes = [Mesh(random.integers(-300, 300, (9, 3)), [[0, 1, 2]]) for _ in range(3)]
+    packed = [pack(mesh) for mesh in meshes]
+    signature = "fitted(bytes[],int256,int256[3])"
+    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, [*packed, bytes(5)], tenths, list(toward))
+    # the last object has no vertices
+    scene = (*scene[:6], scene[6][:3], scene[7])
+    found = decode_scene(artifact("Renderer").selectors["render"] + encode([SCENE_STRUCT], [scene]))
+    camera = found.camera
+    points = np.concatenate([o.world_positions() for o in found.objects])
+    x, y, z = toward
+    view = Viewpoint(
+        math.degrees(math.atan2(x, z)),
+        math.degrees(math.atan2(y, math.hypot(x, z))),
+        projection="perspective" if tenths else "orthographic",
+        half_height=math.tan(math.radians(tenths / 20)) if tenths else 1.0,
+        aspect=1.5,
+    )
+    expected = frame(points, view)
+    assert camera.half_height == pytest.approx(expected.half_height, rel=1e-6)
+    if tenths:
+        assert camera.eye == pytest.approx(expected.eye, abs=0.01)
+    assert camera.target == pytest.approx(expected.target, abs=0.01)
+    direction = (camera.eye - camera.target) / np.linalg.norm(camera.eye - camera.target)
+    assert direction == pytest.approx(np.array(toward) / np.linalg.norm(toward), abs=1e-6)
+
+
+def test_objects_are_placed_in_boxes(world: World, probe: bytes) -> None:
+    """As large as they fit, in the middle; those whose mesh is stored by the bounds that are told."""
+    mesh = pack(Mesh([[0, 0, 0], [400, 0, 0], [0, 100, 300]], [[0, 1, 2]]))
+    room = [90, 10, -10, -10, 110, 70]
+    signature = "placed(bytes,int256[3][2],int256[6])"
+    (scene,) = ask(world, probe, [SCENE_STRUCT], signature, mesh, [[-10, 0, 0], [10, 10, 5]], room)
+    first, second = scene[6]
+    # turned about y by 90 degrees: 300 by 100 by 400 in 100 by 100 by 80
+    assert first[3] / ONE == pytest.approx(0.2)
+    assert np.array(first[1]) / ONE == pytest.approx([40 - 30, 60 - 10, 30 + 40], abs=1e-4)
+    assert second[3] / ONE == pytest.approx(5)
+    assert np.array(second[1]) / ONE == pytest.approx([40, 60 - 25, 30 - 12.5], abs=1e-4)

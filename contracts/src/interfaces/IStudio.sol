@@ -45,7 +45,8 @@ interface IStudio is StudioErrors {
     /// @return pointer Where it is kept.
     function storeMesh(bytes calldata data) external returns (address pointer);
 
-    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`.
+    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`. A scale, a camera or a material whose numbers were not multiplied by
+    /// 2^32 is refused.
     /// @return pointer Where it is kept.
     function storeScene(Scene calldata scene_) external returns (address pointer);
 
@@ -123,7 +124,8 @@ interface IStudio is StudioErrors {
     /// @notice The same with changes.
     function animateDataURI(address pointer, Spin calldata spin, Changes calldata changes) external view returns (string memory);
 
-    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
+    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact. As with the following, a
+    /// scale, a camera or a material whose numbers were not multiplied by 2^32 is refused.
     function drawPNG(Scene calldata scene_, uint256 scale) external view returns (bytes memory);
 
     /// @notice The same as a `data:` URI.

@@ -6,7 +6,7 @@ import {Vector} from "../math/Vector.sol";
 import {sqrt} from "../math/Roots.sol";
 import {Quaternion, Matrix} from "../math/Quaternion.sol";
 import {PackedMesh} from "../mesh/PackedMesh.sol";
-import {ANTIALIAS as ANTIALIAS_RECORD, Extensions} from "../scene/Extensions.sol";
+import {ANTIALIAS as ANTIALIAS_RECORD, addRecord} from "../scene/Records.sol";
 import {WIDE} from "../scene/Mesh.sol";
 import {Scene, Object} from "../scene/Scene.sol";
 import {checkPosition, checkRotation, checkScale, inRange} from "../scene/Checks.sol";
@@ -33,7 +33,7 @@ library SceneChanges {
         if (fields & BACKGROUND != 0) scene.background = changes.background;
         if (fields & INVERT != 0) scene.invert = changes.invert;
         if (fields & CANVAS != 0) scene.canvas = changes.canvas;
-        if (fields & ANTIALIAS != 0) scene.extensions = Extensions.added(scene.extensions, ANTIALIAS_RECORD, 0, "");
+        if (fields & ANTIALIAS != 0) scene.extensions = addRecord(scene.extensions, ANTIALIAS_RECORD, 0, "");
     }
 
     /// @notice What is computed with here must be within its bounds before; the renderer checks the rest.

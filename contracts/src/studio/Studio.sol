@@ -18,6 +18,7 @@ import {SceneChanges} from "./SceneChanges.sol";
 import {Spin} from "./Spin.sol";
 import {StudioErrors} from "./StudioErrors.sol";
 import {Turntable} from "./Turntable.sol";
+import {Units} from "./Units.sol";
 
 /// @title Studio: meshes and scenes kept on chain, and their pictures for every contract.
 /// @notice Anyone stores a mesh or a scene once, for the gas alone, and has a pointer to it for ever. There is no owner, nothing can be
@@ -61,9 +62,11 @@ contract Studio is WithRenderer, StudioErrors {
         if (created) emit MeshStored(pointer, msg.sender);
     }
 
-    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`.
+    /// @notice Stores a scene. Its meshes may be pointers: `meshAt`. A scale, a camera or a material whose numbers were not multiplied by
+    /// 2^32 is refused.
     /// @return pointer Where it is kept.
     function storeScene(Scene memory scene_) external returns (address pointer) {
+        Units.check(scene_);
         bool created;
         (pointer, created) = Kept.keep(abi.encodePacked(uint8(SCENE), LibZip.cdCompress(abi.encode(scene_))));
         if (created) emit SceneStored(pointer, msg.sender);
@@ -193,25 +196,26 @@ contract Studio is WithRenderer, StudioErrors {
         forward(address(turntable), abi.encodeCall(Turntable.animateDataURI, (scene(pointer, changes), spin)));
     }
 
-    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact.
+    /// @notice The picture of a scene that is not kept, as a PNG file; its meshes may be pointers and compact. As with the following, a
+    /// scale, a camera or a material whose numbers were not multiplied by 2^32 is refused.
     function drawPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
-        forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(opened(scene_)), scale)));
+        forward(address(encoder), abi.encodeCall(PngEncoder.encode, (renderer.render(given(scene_)), scale)));
     }
 
     /// @notice The same as a `data:` URI.
     function drawDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
-        forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(opened(scene_)), scale)));
+        forward(address(encoder), abi.encodeCall(PngEncoder.dataURI, (renderer.render(given(scene_)), scale)));
     }
 
     /// @notice The picture without its background, as a PNG file with an alpha channel. The scene is drawn twice: over black and over
     /// white.
     function drawTransparentPNG(Scene memory scene_, uint256 scale) external view returns (bytes memory) {
-        encodeTransparent(PngEncoder.encodeTransparent.selector, opened(scene_), scale);
+        encodeTransparent(PngEncoder.encodeTransparent.selector, given(scene_), scale);
     }
 
     /// @notice The same as a `data:` URI.
     function drawTransparentDataURI(Scene memory scene_, uint256 scale) external view returns (string memory) {
-        encodeTransparent(PngEncoder.transparentDataURI.selector, opened(scene_), scale);
+        encodeTransparent(PngEncoder.transparentDataURI.selector, given(scene_), scale);
     }
 
     /// @notice A scene or a mesh that is kept, as a binary glTF file, which viewers turn: see `GlbEncoder`, which takes scenes that are not
@@ -252,6 +256,13 @@ contract Studio is WithRenderer, StudioErrors {
 
     function decoded(bytes memory data) private view returns (Scene memory) {
         return opened(abi.decode(LibZip.cdDecompress(Meshes.rest(data)), (Scene)));
+    }
+
+    /// @dev A scene that a caller passes, for whom numbers without their unit are refused.
+    function given(Scene memory scene_) private view returns (Scene memory) {
+        opened(scene_);
+        Units.check(scene_);
+        return scene_;
     }
 
     function opened(Scene memory scene_) private view returns (Scene memory) {

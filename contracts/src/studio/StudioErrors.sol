@@ -26,4 +26,11 @@ interface StudioErrors is SceneErrors, MeshErrors, PngErrors, GlbErrors, Turntab
     error ColorOutOfRange(uint256 color);
     /// @notice The rotation is zero, or a part of it is larger than 2^16.
     error TurnOutOfRange();
+    /// @notice The scale of the object is so small that nothing of it can be seen. Lengths are Q32 numbers: for 1, pass 2^32 = 4294967296.
+    error ScaleLooksUnscaled(uint256 object, int256 scale);
+    /// @notice The eye is less than 2^-16 units from the target. Lengths are Q32 numbers: for (0, 0, 300), pass (0, 0, 300 * 2^32).
+    error CameraLooksUnscaled(int256 eyeX, int256 eyeY, int256 eyeZ);
+    /// @notice The largest coefficient of the object's material is below 2^-20, so that it is black. Coefficients are Q32 numbers: for 1,
+    /// pass 2^32 = 4294967296.
+    error MaterialLooksUnscaled(uint256 object, int256 coefficient);
 }

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+pragma solidity ^0.8.25;
+
+import {sinCosOfHalf} from "../math/Euler.sol";
+import {Fixed, ONE, ZERO} from "../math/Fixed.sol";
+import {Vector} from "../math/Vector.sol";
+import {PackedMesh} from "../mesh/PackedMesh.sol";
+import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {Camera, Canvas, Object, ORTHOGRAPHIC, PERSPECTIVE} from "../scene/Scene.sol";
+import {SceneErrors} from "../scene/SceneErrors.sol";
+import {Stage, StageMaker} from "./StageMaker.sol";
+
+/// @notice A box along the axes, told by two opposite corners.
+struct Box {
+    Vector low;
+    Vector high;
+}
+
+/// @title Framing: where the camera stands, what it sees, and objects fitted into boxes.
+library Framing {
+    /// @notice A field of view is above 0 and below 180 degrees (Q32).
+    error FieldOfViewOutOfRange(int256 degrees_);
+    /// @notice What an orthographic camera sees has a height above 0 (Q32).
+    error HeightOutOfRange(int256 height);
+    /// @notice No object has a vertex, or the direction from which they are to be seen is zero.
+    error NothingToFit();
+    /// @notice The mesh of the object is stored or compact, so that its bounds are not known here: pass them to `add`.
+    error BoundsUnknown(uint256 object);
+    /// @notice The object, or the room for it, has no size.
+    error NoRoom(uint256 object);
+
+    /// @dev The part of the picture that is used: 8 % are left free on each side.
+    int256 private constant USED = 92;
+    /// @dev The default near plane of an orthographic camera, which clips nothing.
+    int256 private constant BEHIND_ALL = -(1 << 58);
+    int256 private constant MAX = type(int256).max;
+
+    /// @dev The directions of a picture.
+    struct Axes {
+        Vector right;
+        Vector up;
+        Vector toward;
+    }
+
+    /// @notice Sets the camera, upright, at `eye`, looking at `target`. Its projection stays. What is nearer than a unit is not seen,
+    /// unless `fit` or an orthographic projection has set it so.
+    function look(Stage memory made, Vector memory eye, Vector memory target) internal pure {
+        Camera memory camera = made.scene.camera;
+        (camera.eye, camera.target, camera.up) = (eye, target, StageMaker.units(0, 1, 0));
+        lightFromLeft(made);
+    }
+
+    /// @notice Sets the vertical field of view of a perspective camera in whole degrees, 1..179; 50 if it is not set.
+    function fieldOfView(Stage memory made, int256 degrees_) internal pure {
+        fieldOfView(made, StageMaker.unit(degrees_));
+    }
+
+    /// @notice Sets the vertical field of view of a perspective camera in degrees, about 0.12 to 179.8.
+    function fieldOfView(Stage memory made, Fixed degrees_) internal pure {
+        if (degrees_.raw() <= 0 || degrees_.raw() >= 180 << 32) revert FieldOfViewOutOfRange(degrees_.raw());
+        Camera memory camera = made.scene.camera;
+        (Fixed sine, Fixed cosine) = sinCosOfHalf(degrees_.raw());
+        if (camera.projection != PERSPECTIVE) camera.near = ONE;
+        (camera.projection, camera.halfHeight) = (PERSPECTIVE, sine / cosine);
+    }
+
+    /// @notice Makes the camera orthographic: it shows so many whole units from top to bottom, wherever the eye is on its line of sight.
+    function orthographic(Stage memory made, int256 height) internal pure {
+        orthographic(made, StageMaker.unit(height));
+    }
+
+    /// @notice Makes the camera orthographic: it shows so many units from top to bottom, wherever the eye is on its line of sight.
+    function orthographic(Stage memory made, Fixed height) internal pure {
+        if (height.raw() <= 0) revert HeightOutOfRange(height.raw());
+        Camera memory camera = made.scene.camera;
+        (camera.projection, camera.halfHeight) = (ORTHOGRAPHIC, Fixed.wrap(height.raw() >> 1));
+        camera.near = Fixed.wrap(BEHIND_ALL);
+    }
+
+    /// @notice Moves the camera so that all objects that were added fill the picture but for a small margin. An orthographic camera sees as
+    /// much as it must. It counts vertices, not pixels: call it when all objects have their places.
+    /// @dev Each side of the picture is a plane through the eye that no vertex is beyond. How far the objects reach toward its normal says
+    /// where it lies, and those of opposite sides where they meet.
+    /// @param toward The direction from the objects to the eye, of any length: (0, 0, 1) is the front.
+    function fit(Stage memory made, Vector memory toward) internal pure {
+        Camera memory camera = made.scene.camera;
+        Axes memory axes = axesOf(toward);
+        Fixed aspect = aspectOf(made.scene.canvas);
+        Fixed tangent = camera.projection == ORTHOGRAPHIC ? ZERO : camera.halfHeight * StageMaker.percent(USED);
+        (Fixed x, Fixed width) = span(made, axes.right, axes.toward.scale(tangent * aspect));
+        (Fixed y, Fixed height) = span(made, axes.up, axes.toward.scale(tangent));
+        camera.target = axes.right.scale(x).add(axes.up.scale(y));
+        height = larger(width / aspect, height);
+        (Fixed z, Fixed depth) = span(made, axes.toward, StageMaker.units(0, 0, 0));
+        Fixed distance;
+        if (tangent.raw() == 0) {
+            // a line toward the eye fits any height
+            camera.halfHeight = height.raw() == 0 ? ONE : height / StageMaker.percent(USED);
+            distance = depth + ONE;
+        } else {
+            distance = height / tangent - z;
+            // a line toward the eye fits at any distance
+            if (!(distance > depth)) distance = depth + ONE;
+            // what is small is seen from near
+            camera.near = smaller(ONE, Fixed.wrap(distance.raw() / 1024 + 1));
+        }
+        camera.target = camera.target.add(axes.toward.scale(z));
+        (camera.eye, camera.up) = (camera.target.add(axes.toward.scale(distance)), axes.up);
+        lightFromLeft(made);
+    }
+
+    /// @notice Scales and moves the object that was added last so that it fills a box as far as its proportions let it, in the middle of
+    /// it. It is turned before: set its rotation first.
+    /// @param room Two opposite corners of the box, whichever.
+    function place(Stage memory made, Box memory room) internal pure {
+        uint256 count = made.scene.objects.length;
+        if (count == 0) revert StageMaker.NoSuchObject(0, 0);
+        Object memory object = made.scene.objects[count - 1];
+        (object.position, object.scale) = (StageMaker.units(0, 0, 0), ONE);
+        Fixed scale = Fixed.wrap(MAX);
+        Vector memory middle = StageMaker.units(0, 0, 0);
+        (middle.x, scale) = placed(made, StageMaker.units(1, 0, 0), room.high.x - room.low.x, scale);
+        (middle.y, scale) = placed(made, StageMaker.units(0, 1, 0), room.high.y - room.low.y, scale);
+        (middle.z, scale) = placed(made, StageMaker.units(0, 0, 1), room.high.z - room.low.z, scale);
+        if (scale.raw() == 0 || scale.raw() == MAX) revert NoRoom(count - 1);
+        object.scale = scale;
+        object.position = room.low.add(room.high).scale(Fixed.wrap(1 << 31)).sub(middle.scale(scale));
+    }
+
+    /// @notice Returns the box between two opposite corners, in whole units.
+    function box(int256 x0, int256 y0, int256 z0, int256 x1, int256 y1, int256 z1) internal pure returns (Box memory) {
+        return Box(StageMaker.units(x0, y0, z0), StageMaker.units(x1, y1, z1));
+    }
+
+    /// @notice Returns the box between two opposite corners, in whole units: x, y and z of each.
+    function box(int256[3] memory low, int256[3] memory high) internal pure returns (Box memory) {
+        return box(low[0], low[1], low[2], high[0], high[1], high[2]);
+    }
+
+    /// @dev The middle of the last object along an axis, and how large it may be: not larger than it fits into the room along this axis.
+    function placed(Stage memory made, Vector memory axis, Fixed room, Fixed most) private pure returns (Fixed middle, Fixed scale) {
+        uint256 index = made.scene.objects.length - 1;
+        (Fixed high, bool any) = reach(made, index, axis);
+        if (!any) revert NoRoom(index);
+        (Fixed low,) = reach(made, index, Vector(ZERO - axis.x, ZERO - axis.y, ZERO - axis.z));
+        middle = Fixed.wrap((high - low).raw() >> 1);
+        scale = most;
+        if (high + low > ZERO) scale = smaller(most, (room < ZERO ? ZERO - room : room) / (high + low));
+    }
+
+    /// @dev Width of the picture by its height.
+    function aspectOf(Canvas memory canvas) private pure returns (Fixed) {
+        if (canvas.width == 0 || canvas.height == 0) revert SceneErrors.CanvasSize(canvas.width, canvas.height);
+        return StageMaker.fraction(int256(canvas.width), int256(canvas.height));
+    }
+
+    /// @dev Where the default sun stands: to the upper left of the viewer.
+    function lightFromLeft(Stage memory made) private pure {
+        unchecked {
+            if (!made.hasDefaultSun()) return;
+            (Vector memory eye, Vector memory target) = (made.scene.camera.eye, made.scene.camera.target);
+            // coordinates of lights have the bound of those of eyes
+            int256 x = (eye.x.raw() - target.x.raw()) / 4;
+            int256 y = (eye.y.raw() - target.y.raw()) / 4;
+            int256 z = (eye.z.raw() - target.z.raw()) / 4;
+            int256 up = (x < 0 ? -x : x) + (z < 0 ? -z : z);
+            if (up | y == 0) return;
+            made.scene.lights[0].vector = Vector(Fixed.wrap(x - z / 2), Fixed.wrap(y + up * 3 / 4), Fixed.wrap(z + x / 2));
+        }
+    }
+
+    /// @dev The axes of a picture from there; upright, or, from straight above or below, with -z or z up.
+    function axesOf(Vector memory toward) private pure returns (Axes memory axes) {
+        if (toward.isZero()) revert NothingToFit();
+        axes.toward = toward.normalize();
+        axes.right = StageMaker.units(0, 1, 0).cross(axes.toward);
+        if (axes.right.isZero()) axes.right = StageMaker.units(1, 0, 0);
+        axes.right = axes.right.normalize();
+        axes.up = axes.toward.cross(axes.right);
+    }
+
+    /// @dev How far all objects reach toward axis + slope and toward slope - axis: half of the difference, and half of the sum.
+    function span(Stage memory made, Vector memory axis, Vector memory slope) private pure returns (Fixed middle, Fixed half) {
+        (Fixed up, Fixed down) = (reach(made, axis.add(slope)), reach(made, slope.sub(axis)));
+        return (Fixed.wrap((up - down).raw() >> 1), Fixed.wrap((up + down).raw() >> 1));
+    }
+
+    /// @dev How far any object reaches in a direction from the origin, times the length of the direction.
+    function reach(Stage memory made, Vector memory direction) private pure returns (Fixed most) {
+        unchecked {
+            uint256 count = made.scene.objects.length;
+            bool found;
+            for (uint256 k; k != count; ++k) {
+                (Fixed each, bool any) = reach(made, k, direction);
+                if (any && (!found || each > most)) (most, found) = (each, true);
+            }
+            if (!found) revert NothingToFit();
+        }
+    }
+
+    /// @dev How far an object reaches in a direction, and whether it has vertices.
+    function reach(Stage memory made, uint256 index, Vector memory direction) private pure returns (Fixed most, bool any) {
+        Object memory object = made.scene.objects[index];
+        // in the axes of the mesh
+        Vector memory d = object.rotation.toMatrix().transposedTimes(direction).scale(object.scale);
+        (most, any) = reachOfMesh(made, object.mesh, index, d);
+        most = most + direction.dot(object.position);
+    }
+
+    /// @dev The same of a mesh: of the bounds that were told, or else of its vertices.
+    function reachOfMesh(Stage memory made, bytes memory mesh, uint256 index, Vector memory d) private pure returns (Fixed, bool) {
+        if (made.isOwn() && index < made.bounds.length) {
+            Box memory box_ = made.bounds[index];
+            if (!box_.low.isZero() || !box_.high.isZero()) {
+                return (larger(d.x * box_.low.x, d.x * box_.high.x) + larger(d.y * box_.low.y, d.y * box_.high.y)
+                        + larger(d.z * box_.low.z, d.z * box_.high.z), true);
+            }
+        }
+        if (mesh.length == 0 || uint8(mesh[0]) > NORMALS + WIDE) revert BoundsUnknown(index);
+        return PackedMesh.reach(mesh, d);
+    }
+
+    function larger(Fixed a, Fixed b) private pure returns (Fixed) {
+        return a > b ? a : b;
+    }
+
+    function smaller(Fixed a, Fixed b) private pure returns (Fixed) {
+        return a < b ? a : b;
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {NORMALS, WIDE} from "../scene/Mesh.sol";
+import {Camera, Material, Object, Scene, PERSPECTIVE, UNLIT} from "../scene/Scene.sol";
+import {StudioErrors} from "./StudioErrors.sol";
+
+/// @notice Finds numbers that were not multiplied by 2^32: those that a renderer draws as nothing, and that nobody means. Scenes are told
+/// in Q32 numbers, of which 1 is 2^-32.
+library Units {
+    // Below: scales, coefficients and distances from the eye to the target that are taken for numbers without their unit.
+    int256 private constant SMALL_SCALE = 1 << 10;
+    int256 private constant SMALL_COEFFICIENT = 1 << 12;
+    int256 private constant SMALL_DISTANCE = 1 << 16;
+
+    /// @notice Reverts if a number of the scene has no effect but for a unit that is missing. The bounds are left to the renderer.
+    function check(Scene memory scene) internal pure {
+        unchecked {
+            Camera memory camera = scene.camera;
+            (int256 x, int256 y, int256 z) = (camera.eye.x.raw(), camera.eye.y.raw(), camera.eye.z.raw());
+            int256 distance = largest(x - camera.target.x.raw(), y - camera.target.y.raw(), z - camera.target.z.raw());
+            // an orthographic camera only has a direction
+            if (camera.projection == PERSPECTIVE && distance != 0 && distance < SMALL_DISTANCE) {
+                revert StudioErrors.CameraLooksUnscaled(x, y, z);
+            }
+            for (uint256 k; k != scene.objects.length; ++k) {
+                Object memory object = scene.objects[k];
+                int256 scale = object.scale.raw();
+                if (scale > 0 && scale < SMALL_SCALE && isUnseen(object, camera)) revert StudioErrors.ScaleLooksUnscaled(k, scale);
+                Material memory material = object.material;
+                int256 most = largest(material.ambient.raw(), material.diffuse.raw(), material.specular.raw());
+                if (most != 0 && most < SMALL_COEFFICIENT && material.shading != UNLIT) {
+                    revert StudioErrors.MaterialLooksUnscaled(k, most);
+                }
+            }
+        }
+    }
+
+    /// @dev Whether the largest mesh of this format would be smaller than a pixel of the largest canvas, which has 2^11 rows.
+    function isUnseen(Object memory object, Camera memory camera) private pure returns (bool) {
+        unchecked {
+            bytes memory mesh = object.mesh;
+            bool isShort = mesh.length != 0 && uint8(mesh[0]) <= NORMALS + WIDE && uint8(mesh[0]) & WIDE == 0;
+            int256 extent = object.scale.raw() << (isShort ? 16 : 24);
+            int256 halfHeight = camera.halfHeight.raw();
+            if (camera.projection == PERSPECTIVE) {
+                halfHeight = halfHeight * largest(
+                    object.position.x.raw() - camera.eye.x.raw(),
+                    object.position.y.raw() - camera.eye.y.raw(),
+                    object.position.z.raw() - camera.eye.z.raw()
+                ) >> 32;
+            }
+            return extent << 10 < halfHeight;
+        }
+    }
+
+    /// @dev The largest of the magnitudes.
+    function largest(int256 x, int256 y, int256 z) private pure returns (int256 most) {
+        unchecked {
+            most = x < 0 ? -x : x;
+            if (y > most || -y > most) most = y < 0 ? -y : y;
+            if (z > most || -z > most) most = z < 0 ? -z : z;
+        }
+    }
+}
