@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -98,7 +97,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Started]:
         yield started
 
 
-def open_mint(browser: Any, server: Started, chain: Chain | None) -> Any:
+def open_mint(browser: Any, server: Started, chain: Any) -> Any:
     page = browser.new_context().new_page()
     if chain is not None:
         page.expose_function("answer", chain.answer)
@@ -245,11 +244,33 @@ def test_without_a_wallet(browser: Any, server: Started) -> None:
     assert "no wallet" in page.inner_text("#takeaway")
 
 
-def test_what_no_collection_has_is_not_offered(browser: Any, server: Started, tmp_path: Path) -> None:
-    page = open_mint(browser, server, Chain())
+def test_what_no_collection_has_becomes_an_edition(browser: Any, server: Started) -> None:
+    """On a chain that has the collection to which anybody adds; on another one the page says that it has not."""
+    pytest.importorskip("pyrevm", reason="a chain with state needs it")
+    from creator.edition_chain import EditionChain
+
+    chain = EditionChain(deployed=False)
+    page = open_mint(browser, server, chain)
     page.click("#takeaway [aria-label=Close]")
     page.click("[data-tab=common]")
     page.click("[data-name='piece-teapot']")
     page.wait_for_function("() => document.querySelector('[data-text=title]').textContent.includes('teapot')")
     page.click("text=Download")
-    page.wait_for_function("() => !document.querySelector('#takeaway').textContent.includes('Mint')")
+    page.wait_for_function("() => !document.querySelector('#takeaway').textContent.includes('Mint with')")
+    page.click("text=Make an edition with <b>Toy</b> wallet")
+    words = words_of(page, "Not minted")
+    assert "a development chain has no collection of editions at 0x" in words
+    chain.deploy()
+    page.fill("input[name=name]", 'A "pot"')
+    page.fill("input[name=price]", "1 ether")
+    page.fill("input[name=supply]", "3")
+    page.click("text=Make an edition with <b>Toy</b> wallet")
+    assert "edition 0 of Shackled Editions, token 0 is yours" in words_of(page, "Added")
+    assert chain.collection("editionAt", 0)[1:4] == (10**18, 3, 1)
+    assert chain.collection("editionAt", 0)[9] == 'A "pot"'
+    # wrong fields are told, and nothing is asked
+    before = len(chain.sent)
+    page.fill("input[name=royalty]", "90")
+    page.click("text=Make an edition with <b>Toy</b> wallet")
+    page.wait_for_selector(".toast.alert >> text=the royalty must be 0 to 10 percent")
+    assert len(chain.sent) == before

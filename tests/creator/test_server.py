@@ -34,11 +34,11 @@ from shackled.creator import (
     Visitors,
     first_source,
     make_app,
-    open_in_browser,
     unpack_upload,
 )
 from shackled.errors import InputError
 from shackled.scene import decode
+from shackled.serving import open_in_browser
 from shackled.web import asset
 
 

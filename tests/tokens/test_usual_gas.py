@@ -26,6 +26,8 @@ def test_the_usual_gas_of_each_function() -> None:
     pointer = store_scene(s.studio, icon_scene("icons/lightning"))
     listed = {s.alice: 20} | {account(f"listed {number}"): 2 for number in range(99)}
     price = list(ICONS.values())[1][3]
+    editions = s.world.deploy("Editions", s.studio)
+    editions.send("add", "One", pointer, 4, price, 9, 500, 1, sender=s.bob)
     calls: list[tuple[Contract, str, tuple[Any, ...], str, int]] = [
         (s.genesis, "mint", (1,), s.alice, PRICE),
         (s.genesis, "mint", (1,), s.alice, PRICE),
@@ -41,6 +43,9 @@ def test_the_usual_gas_of_each_function() -> None:
         (s.genesis, "withdraw", (account("treasury"),), s.owner, 0),
         (s.genesis, "transferOwnership", (s.bob,), s.owner, 0),
         (s.genesis, "acceptOwnership", (), s.bob, 0),
+        (editions, "mint", (0, 2), s.alice, 2 * price),
+        (editions, "withdraw", ([0], account("treasury")), s.bob, 0),
+        (editions, "close", (0,), s.bob, 0),
         (new, "add", ("Lightning", pointer, 4, price, 100, 1), s.owner, 0),
         (new, "seal", (), s.owner, 0),
         (new, "setPhase", (PUBLIC,), s.owner, 0),

@@ -55,7 +55,7 @@ from ._upload import clean_name
 from ._web.actions import ACTIONS, act
 from ._web.live import ABSENCE, Visitors, live
 from ._web.page import KEYS
-from ._web.server import first_source, make_app, open_in_browser, serve, unpack_upload
+from ._web.server import first_source, make_app, serve, unpack_upload
 from ._web.visitor import DRAFT, Visitor
 
 __all__ = [
@@ -131,7 +131,6 @@ __all__ = [
     "live",
     "make_app",
     "make_file",
-    "open_in_browser",
     "orbit_of",
     "pan",
     "places",

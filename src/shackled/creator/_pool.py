@@ -14,6 +14,8 @@ from dataclasses import replace
 from typing import Any
 
 from ..errors import InputError
+from ..tokens import EditionTerms
+from ._edition import EditionCalls
 from ._picture import Comparison, File, Frame, StagePicture, Upload
 from ._queue import PoolError, Progress, Queue
 from ._scene import Facts
@@ -126,6 +128,12 @@ class Pool:
             queue, visitor, f"take {kind}", "take", state, kind, scale, stored, link, uploads=state.source
         )
         return file
+
+    async def edition(self, visitor: str, state: State, terms: EditionTerms) -> EditionCalls:
+        """Return the transactions that store the scene and add it as an edition. terms: without the scene."""
+        queue = self._slow if await self._pixels(visitor, state) > LARGE else self._live
+        calls: EditionCalls = await self._ask(queue, visitor, "edition", "edition", state, terms, uploads=state.source)
+        return calls
 
     # ---- long work ----
 

@@ -15,7 +15,9 @@ from ..errors import RenderError
 from ..gas import render_call
 from ..image import decode_bmp
 from ..scene import Scene, fit_factor, full_turn, resize, simplify_scene
+from ..tokens import EditionTerms
 from ..workers import report_progress
+from ._edition import EditionCalls, edition_calls
 from ._picture import Comparison, File, Frame, StagePicture, by_trying, gif, places, png
 from ._programs import Subject
 from ._scene import Facts, arranged, describe
@@ -166,6 +168,10 @@ class Tasks:
         source, facts = self._open(state.source)
         subject = Subject(state, facts, source, self.scene(state), stored, link)
         return make_file(kind, subject, self._chain(), scale)
+
+    def edition(self, state: State, terms: EditionTerms) -> EditionCalls:
+        """Return the transactions that store the scene and add it as an edition."""
+        return edition_calls(self.scene(state), terms, self._chain())
 
     def scene(self, state: State) -> Scene:
         """Return the scene that is rendered."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 from ..chain import GAS_LEFT, Connection, describe_revert
 from ..errors import ChainError, InputError, NodeError, OutOfGasError, RevertError
@@ -15,6 +15,7 @@ from ._contract import Contract
 from ._metadata import Metadata, read_token_uri
 from ._reverts import PHASES
 
+Read = TypeVar("Read")
 #: Maximum number of concurrent requests.
 MAX_REQUESTS = 6
 
@@ -41,6 +42,8 @@ KINDS = {
     ),
     "icons": CollectionKind("icons", "Shackled Icons", "IconsCollection", hidden=False, terms=()),
 }
+#: The collection to which anybody adds scenes: it has neither an owner nor a sale.
+EDITIONS = CollectionKind("editions", "Shackled Editions", "Editions", hidden=False, terms=())
 
 
 @dataclass(frozen=True)
@@ -104,8 +107,13 @@ class Collection:
     def tokens(self, numbers: Iterable[int] | None = None) -> Iterator[Token]:
         """Yield tokens by their numbers, in order; by default all."""
         wanted = range(self.minted()) if numbers is None else numbers
+        yield from self.read_all(self.token, wanted)
+
+    @staticmethod
+    def read_all(read: Callable[[int], Read], numbers: Iterable[int]) -> Iterator[Read]:
+        """Yield what `read` returns of each number, in order; several are read concurrently."""
         with ThreadPoolExecutor(MAX_REQUESTS) as pool:
-            yield from pool.map(self.token, wanted)
+            yield from pool.map(read, numbers)
 
     def is_revealed(self, token: int) -> bool:
         """Return whether a token shows its picture."""
@@ -181,9 +189,12 @@ class Collection:
         return checksum_address(bytes.fromhex(value[2:]))
 
 
-def open_collection(connection: Connection, address: str) -> Collection:
-    """Return the collection at an address, of any known kind. Raises InputError if there is none."""
-    for kind in KINDS.values():
+def open_collection(connection: Connection, address: str, editions: bool = False) -> Collection:
+    """Return the collection at an address. Raises InputError if there is none.
+
+    editions: also accept the collection of editions, which has no sale.
+    """
+    for kind in (*KINDS.values(), *([EDITIONS] if editions else [])):
         try:
             if Contract(connection, kind.contract, address).call("name") == kind.title:
                 return Collection(connection, kind, address)

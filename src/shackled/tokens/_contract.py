@@ -15,6 +15,7 @@ from ._reverts import explained
 USUAL_GAS = {
     "acceptOwnership": 8_000,
     "add": 135_000,
+    "close": 15_000,
     "mint": 65_000,
     "mintReserve": 65_000,
     "mintWithProof": 60_000,

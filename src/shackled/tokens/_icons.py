@@ -50,6 +50,11 @@ class CollectionIcon:
         """Number of tokens that can still be sold."""
         return self.supply - self.reserve - self.sold
 
+    @property
+    def traits(self) -> dict[str, Any]:
+        """The attributes of its tokens."""
+        return {"Icon": self.name, "Supply": self.supply}
+
     def document(self) -> dict[str, Any]:
         """Return the icon for JSON, with the price in ether."""
         return {

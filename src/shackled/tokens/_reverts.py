@@ -46,7 +46,17 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "AlreadySealed": lambda v: "the set of icons is fixed for ever: none can be added",
     "NoIcons": lambda v: "a collection without icons cannot be sealed",
     "UnknownIcon": lambda v: f"there is no icon {v['icon']}: there are {v['icons']}",
-    "NameLength": lambda v: f"the name of an icon has 1 to {v['longest']} bytes, not {v['length']}",
+    "NameLength": lambda v: f"a name has 1 to {v['longest']} bytes, not {v['length']}",
+    "NoSupply": lambda v: "an edition needs a supply of 1 token or more",
+    "UnknownEdition": lambda v: f"there is no edition {v['edition']}: there are {v['editions']}",
+    "TooManyEditions": lambda v: f"the collection is full: it has {v['editions']:,} editions",
+    "NotTheArtist": lambda v: (
+        f"only its artist {v['artist']} may do this with edition {v['edition']}, not {v['account']}"
+    ),
+    "AlreadyClosed": lambda v: f"edition {v['edition']} is closed: no more tokens of it can be minted",
+    "DrawingOutOfGas": lambda v: (
+        f"drawing the scene {v['scene']} takes more than {v['gasLimit']:,} gas, or more than the transaction has"
+    ),
     "NothingKept": lambda v: f"no scene is stored at {v.get('scene', v.get('pointer'))}",
     "NotAScene": lambda v: f"the data stored at {v['pointer']} are not a scene",
     "BlockToCome": lambda v: f"block {v['blockNumber']:,} is not mined yet",

@@ -15,8 +15,9 @@ from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
 from ..image import decode_bmp
 from ..studio import STUDIO, stored_codes
-from ._collection import Collection, CollectionKind
-from ._icons import icon_at
+from ._collection import EDITIONS, Collection, CollectionKind
+from ._editions import Edition, edition_at
+from ._icons import CollectionIcon, icon_at
 from ._immutables import immutable_places, immutable_values
 from ._launch import CollectionTerms, creation_code, parts_of
 from ._metadata import Metadata, read_token_uri, shrink
@@ -63,6 +64,12 @@ def check_collection_code(collection: Collection) -> None:
     Raises VerificationError if a byte differs.
     """
     connection, kind = collection.connection, collection.kind
+    if kind is EDITIONS:
+        # it has no terms, so its code is the same everywhere
+        (*_, expected) = parts_of(kind.contract, itself=True)
+        if connection.code(bytes.fromhex(collection.address[2:])) != expected.code:
+            raise VerificationError("its code differs from the compiled contract")
+        return
     runtime = artifact(kind.contract).runtime
     code = connection.code(bytes.fromhex(collection.address[2:]))
     immutable_values(code, runtime)
@@ -104,7 +111,7 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
         uri = collection.token_uri(token) if uri is None else uri
         metadata = read_token_uri(uri)
         if not collection.kind.hidden:
-            return Check(f"{what}, {metadata.name}", _icon_failure(collection, token, metadata, local))
+            return Check(f"{what}, {metadata.name}", _scene_failure(collection, token, metadata, local))
         if not collection.is_revealed(token):
             block = collection.contract.call("blockOf", collection.round_of(token))
             expected = local.ask("GenesisMetadata", "hiddenURI", token, block)
@@ -129,18 +136,21 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
         return Check(what, str(error))
 
 
-def _icon_failure(collection: Collection, token: int, metadata: Metadata, local: EmbeddedChain) -> str:
-    """Return what is wrong with a token of an icon, whose picture is computed here from the stored bytes."""
-    icon = icon_at(collection, collection.contract.call("iconOf", token))
-    for pointer, code in stored_codes(
-        collection.connection, local.address(STUDIO), bytes.fromhex(icon.scene[2:])
-    ).items():
+def _scene_failure(collection: Collection, token: int, metadata: Metadata, local: EmbeddedChain) -> str:
+    """Return what is wrong with a token of an icon or edition, whose picture is computed here from the stored bytes."""
+    kind: CollectionIcon | Edition
+    if collection.kind is EDITIONS:
+        kind = edition_at(collection, collection.contract.call("editionOf", token))
+    else:
+        kind = icon_at(collection, collection.contract.call("iconOf", token))
+    scene = bytes.fromhex(kind.scene[2:])
+    for pointer, code in stored_codes(collection.connection, local.address(STUDIO), scene).items():
         local.put(pointer, code)
-    picture = local.ask(STUDIO, "renderPNG(address,uint256)", icon.scene, icon.scale)
+    picture = local.ask(STUDIO, "renderPNG(address,uint256)", kind.scene, kind.scale)
     if metadata.picture != picture:
         return "its picture differs from that of its scene"
-    if metadata.traits != {"Icon": icon.name, "Supply": icon.supply}:
-        return "its traits differ from those of its icon"
+    if metadata.traits != kind.traits or metadata.name != f"{kind.name} #{token}":
+        return "its name or its traits differ from those of its scene"
     return ""
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
-from ._collection import MAX_REQUESTS, Collection, Token
+from ._collection import Collection, Token
 from ._metadata import Metadata
 
 
@@ -77,8 +76,7 @@ def read_views(collection: Collection) -> Iterator[TokenView]:
         metadata = collection.metadata(number)
         return view_of(collection, collection.token(number), metadata)
 
-    with ThreadPoolExecutor(MAX_REQUESTS) as pool:
-        yield from pool.map(read, range(collection.minted()))
+    yield from collection.read_all(read, range(collection.minted()))
 
 
 def shorten(address: str) -> str:

@@ -93,6 +93,32 @@ contract Refuser {
     }
 }
 
+/// @notice Calls once more what it was told whenever ether arrives, until that fails.
+contract Greedy {
+    address public target;
+    bytes public data;
+    uint256 public again;
+
+    function execute(address to, bytes calldata what) external payable {
+        (target, data) = (to, what);
+        (bool done, bytes memory answer) = to.call{value: msg.value}(what);
+        if (!done) {
+            assembly {
+                revert(add(answer, 0x20), mload(answer))
+            }
+        }
+    }
+
+    receive() external payable {
+        (bool done,) = target.call(data);
+        if (done) ++again;
+    }
+
+    function onERC721Received(address, address, uint256, bytes calldata) external pure returns (bytes4) {
+        return Greedy.onERC721Received.selector;
+    }
+}
+
 /// @notice A contract that knows nothing of tokens.
 contract Deaf {
     function execute(address to, bytes calldata what) external payable {

@@ -6,6 +6,7 @@ import typer
 
 from .allow_list import allow_list, permit
 from .deploy import demo, deploy
+from .edition import edition
 from .icons import add, seal
 from .owner import hand_over, phase, royalty, take_over, withdraw
 from .sale import mint, reveal, transfer
@@ -30,5 +31,6 @@ token.command()(royalty)
 token.command("hand-over")(hand_over)
 token.command("take-over")(take_over)
 token.command()(demo)
+token.add_typer(edition, name="edition")
 
 __all__ = ["token"]

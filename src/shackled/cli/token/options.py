@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from ...chain import AddressBook
 from ...errors import InputError
 from ...ethereum import checksum_address
-from ...tokens import KINDS
+from ...tokens import EDITIONS, KINDS
 from ..chain_options import NodeOptions, PayerOptions, parse_checksum_address
 from ..option import option
 from ..output import print_note
@@ -35,6 +35,8 @@ class CollectionOptions(NodeOptions):
         """Return the collection. InputError if there is none of that name or at that address."""
         from ...tokens import open_collection
 
+        if self.collection == EDITIONS.name:
+            raise InputError("editions have no such sale or owner: see shackled token edition --help")
         name, connection = self.collection, self.connect()
         if name.startswith("0x"):
             return open_collection(connection, parse_checksum_address(name, "--collection"))
@@ -52,6 +54,26 @@ class CollectionOptions(NodeOptions):
             raise InputError(
                 f"{error}, although the address book lists it: deploy it, or give --collection ADDRESS"
             ) from None
+
+
+@dataclass(frozen=True)
+class AnyCollectionOptions(CollectionOptions):
+    """Any collection, and the node: for what can be done with every token."""
+
+    collection: Annotated[
+        str,
+        option("-c --collection", "editions; genesis or icons, from the address book; or an ADDRESS.", "COLLECTION"),
+    ] = "genesis"
+
+    def open(self) -> Collection:
+        """Return the collection. InputError if there is none of that name or at that address."""
+        from ...tokens import open_collection, open_editions
+
+        if self.collection == EDITIONS.name:
+            return open_editions(self.connect())
+        if self.collection.startswith("0x"):
+            return open_collection(self.connect(), parse_checksum_address(self.collection, "--collection"), True)
+        return super().open()
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from ...ethereum import keccak256
 from ..chain_options import Json, parse_checksum_address, print_json, with_groups
 from ..option import option
 from ..output import print_line, print_note
-from .options import MAX_NUMBER, CollectionOptions, TokenPayerOptions
+from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
 
 if TYPE_CHECKING:
     from ...deploy import Receipt
@@ -126,7 +126,7 @@ def reveal(
 def transfer(
     token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
     to: Annotated[str, typer.Argument(help="The new owner.", metavar="ADDRESS")],
-    which: CollectionOptions,
+    which: AnyCollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:
     """Transfer a token to another account."""

@@ -16,13 +16,13 @@ from ...whole_file import check_output_file, write_output
 from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
 from ..option import option, parse_size
 from ..output import print_line, print_table
-from .options import MAX_NUMBER, PHASES, CollectionOptions
+from .options import MAX_NUMBER, PHASES, AnyCollectionOptions, CollectionOptions
 
 
 @with_groups
 def show(
     token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
-    which: CollectionOptions,
+    which: AnyCollectionOptions,
     output: Annotated[
         Path | None, option("-o --output", "File for the picture; in the token's own format, its very bytes.", "FILE")
     ] = None,
@@ -140,7 +140,7 @@ def picture(
 
 @with_groups
 def verify(
-    which: CollectionOptions,
+    which: AnyCollectionOptions,
     numbers: Annotated[list[int] | None, typer.Argument(help="Tokens; default: all.", metavar="[ID]...")] = None,
 ) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed here."""

@@ -17,6 +17,7 @@ from .._presets import PRESETS, apply_look, preset
 from .._scene import filled
 from .._state import Backdrop, Size, Source
 from . import dialogs
+from .edition import parse_terms
 from .visitor import Message, Visitor
 from .wallet import offer_of
 
@@ -263,6 +264,16 @@ async def _mint(visitor: Visitor, message: Message) -> None:
     visitor.job("mint", lambda: dialogs.mint_token(visitor, offer, number))
 
 
+async def _edition(visitor: Visitor, message: Message) -> None:
+    number = int(_number(message, "wallet"))
+    terms = parse_terms(message.get("fields"), visitor.state.source)
+    if not 0 <= number < len(visitor.wallets):
+        raise InputError("there is no such wallet")
+    if visitor.is_at("mint"):
+        raise InputError("a token is being minted: answer in your wallet, or wait until it is done")
+    visitor.job("mint", lambda: dialogs.make_edition(visitor, terms, number))
+
+
 ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {
     "orbit": partial(_drag, orbit.drag),
     "pan": partial(_drag, orbit.pan),
@@ -295,4 +306,5 @@ ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {
     "wallets": _wallets,
     "answer": _answer,
     "mint": _mint,
+    "edition": _edition,
 }

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import base64
+from collections.abc import Awaitable, Callable
 
 from ...errors import ShackledError
+from ...tokens import EditionTerms
 from .._link import LOCAL
 from .._pool import gif_pixels
 from .._scene import filled
 from .._state import Size
 from .._takeaway import MAX_PNG, SCALES
+from .edition import can_be_sold, mint_edition
 from .page import SNIPPETS, TURNTABLES, fragment
 from .visitor import Message, Visitor
-from .wallet import DeclinedError, Offer, Wallet, mint, offer_of
+from .wallet import DeclinedError, Offer, Tell, Wallet, mint, offer_of
 
 #: Number of characters of a snippet that are shown; copies are complete.
 SHOWN = 1500
@@ -103,29 +106,45 @@ async def compare(visitor: Visitor) -> None:
 
 async def show_offer(visitor: Visitor) -> None:
     """Show what can be minted, and with which wallets."""
-    offer = offer_of(visitor.state.source)
-    html = ""
-    if offer is not None:
-        html = fragment(
-            "offer",
-            words=offer.words,
-            wallets=visitor.wallets,
-            busy=visitor.is_at("mint"),
-            status=visitor.minting,
-        )
+    source = visitor.state.source
+    offer = offer_of(source)
+    html = fragment(
+        "mint",
+        offer="" if offer is None else offer.words,
+        edition=can_be_sold(source),
+        title=visitor.facts.title,
+        is_upload=source.kind == "upload",
+        wallets=visitor.wallets,
+        busy=visitor.is_at("mint"),
+        status=visitor.minting,
+    )
     await visitor.tell({"html": {"mint": html}})
 
 
 async def mint_token(visitor: Visitor, offer: Offer, number: int) -> None:
     """Mint a token. number: of the wallet."""
+    await _with_wallet(visitor, number, lambda wallet, tell: mint(offer, wallet, tell))
 
+
+async def make_edition(visitor: Visitor, terms: EditionTerms, number: int) -> None:
+    """Add the current picture as an edition. number: of the wallet."""
+    state = visitor.state
+
+    async def make(wallet: Wallet, tell: Tell) -> str:
+        await tell("Drawing the scene …")
+        return await mint_edition(await visitor.pool.edition(visitor.name, state, terms), wallet, tell)
+
+    await _with_wallet(visitor, number, make)
+
+
+async def _with_wallet(visitor: Visitor, number: int, work: Callable[[Wallet, Tell], Awaitable[str]]) -> None:
     async def tell(words: str) -> None:
         visitor.minting = words
         await visitor.tell({"texts": {"mint-words": words}})
 
     await visitor.tell({"attributes": {"mint-start": {"disabled": ""}}})
     try:
-        words = await mint(offer, Wallet(visitor.waiting, visitor.tell, number), tell)
+        words = await work(Wallet(visitor.waiting, visitor.tell, number), tell)
         await tell(words)
         await visitor.tell({"note": words})
     except DeclinedError:

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import errno
 import hashlib
 import io
 import json
 import re
 import socket
 import sys
-import threading
-import webbrowser
 import zipfile
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-import uvicorn
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.middleware.gzip import GZipMiddleware
@@ -32,12 +28,12 @@ from ..._load import locate
 from ...chain import open_node
 from ...datasets import Piece
 from ...errors import InputError, ShackledError
+from ...serving import LOCAL, SameOrigin, listen, run, url_of
 from ...web import asset
 from .._pool import Pool
 from .._state import Source
 from .live import MAX_MESSAGE, Visitors, live
 from .page import ASSETS, has_thumbnail, page
-from .security import LOCAL, SameOrigin
 from .visitor import Visitor, with_head
 
 #: What visitors see first, by default.
@@ -67,7 +63,7 @@ def serve(
     first = None if input is None else locate(input)
     if node is not None:
         open_node(node)  # raises the error; sends nothing yet
-    with _listen(host, port, fallback_port) as listening, suppress(KeyboardInterrupt):
+    with listen(host, port, fallback_port) as listening, suppress(KeyboardInterrupt):
         asyncio.run(_serve(first, listening, host, open_browser, node, names))
 
 
@@ -84,37 +80,10 @@ async def _serve(
         # the workers start while the page is made
         _, html = await asyncio.gather(pool.start(), asyncio.to_thread(page, pool.has_node))
         visitors = Visitors(pool, await first_source(pool, first))
-        config = uvicorn.Config(
-            make_app(visitors, html, host in LOCAL, (host, *names)),
-            log_level="warning",
-            timeout_graceful_shutdown=2,
-            ws="websockets-sansio",
-            ws_max_size=MAX_MESSAGE,
-            server_header=False,
-        )
-        address = f"http://{_in_address(host)}:{listening.getsockname()[1]}/"
-        server = uvicorn.Server(config)
-        watch = asyncio.create_task(_announce(server, address, browse))
-        try:
-            await server.serve(sockets=[listening])
-        finally:
-            watch.cancel()
+        app = make_app(visitors, html, host in LOCAL, (host, *names))
+        await run(app, listening, f"the Creator is at {url_of(host, listening)}", browse, ws_max_size=MAX_MESSAGE)
     finally:
         await pool.close()
-
-
-async def _announce(server: uvicorn.Server, address: str, browse: bool) -> None:
-    while not server.started:
-        await asyncio.sleep(0.01)
-    print(f"the Creator is at {address} (press Ctrl-C to end it)", flush=True)
-    if browse:
-        threading.Thread(target=open_in_browser, args=(address,), daemon=True).start()
-
-
-def open_in_browser(address: str) -> None:
-    """Open an address in the browser, or ask the user to do so."""
-    if not webbrowser.open(address):
-        print(f"no browser could be started: open {address} in one", file=sys.stderr, flush=True)
 
 
 async def first_source(pool: Pool, first: Path | Piece | None) -> Source:
@@ -292,34 +261,3 @@ def _download(data: bytes, name: str, media_type: str) -> Response:
     plain = re.sub(r"[^A-Za-z0-9._-]", "-", name)[:100] or "picture"
     headers = {"content-disposition": f'attachment; filename="{plain}"', "cache-control": "no-store"}
     return Response(data, media_type=media_type, headers=headers)
-
-
-def _listen(host: str, port: int | None, fallback: int) -> socket.socket:
-    """Return a listening socket. InputError if there can be none."""
-    try:
-        family = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0][0]
-    except OSError:
-        raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
-    if port is not None and port > 65535:
-        raise InputError(f"`port` must be from 1 to 65535, not {port}")
-    wanted = (fallback, 0) if port is None else (port,)
-    for number in wanted:
-        # with an explicit protocol, or asyncio would not set TCP_NODELAY
-        listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            listening.bind((host, number))
-        except OSError as error:
-            listening.close()
-            if error.errno == errno.EADDRNOTAVAIL:
-                raise InputError(f"`host` must be an address of this machine such as 127.0.0.1, not {host!r}") from None
-            if number == wanted[-1]:
-                reason = error.strerror or str(error)
-                raise InputError(f"port {number} of {host} cannot be used: {reason}; choose another `port`") from None
-            continue
-        return listening
-    raise AssertionError("unreachable: the last port was bound or refused")
-
-
-def _in_address(host: str) -> str:
-    return f"[{host}]" if ":" in host else "localhost" if host in ("0.0.0.0", "::") else host

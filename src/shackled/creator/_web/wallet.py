@@ -14,7 +14,7 @@ from ...artifacts import artifact
 from ...chain import AddressBook
 from ...datasets import require
 from ...errors import ChainError, InputError
-from ...ethereum import checksum_address, ether
+from ...ethereum import checksum_address, ether, to_hex
 from ...tokens import KINDS, PHASES, CollectionKind
 from .._state import Source
 
@@ -120,6 +120,36 @@ class Wallet:
         except ValueError:
             raise WalletError(f"the wallet answered {method} with {value!r:.60}, which is not bytes") from None
 
+    async def read(self, contract: str, address: str, function: str, *arguments: Any) -> Any:
+        """Call a function of a contract, by the name of its artifact; return its value, or a tuple of several."""
+        interface = artifact(contract).interface
+        call = {"to": address, "data": to_hex(interface.encode(function, *arguments))}
+        answer = await self.data("eth_call", call, "latest")
+        try:
+            return interface.decode(function, answer)
+        except ValueError as error:
+            raise WalletError(f"the collection could not be read: {error}") from None
+
+    async def account(self) -> str:
+        """Ask for an account of the visitor; return its address."""
+        accounts = await self.request("eth_requestAccounts")
+        if not isinstance(accounts, list) or not accounts or not isinstance(accounts[0], str):
+            raise WalletError("the wallet has no account")
+        return accounts[0]
+
+    async def send(self, transaction: dict[str, Any], tell: Tell) -> dict[str, Any]:
+        """Send a transaction, and return its receipt. WalletError if it failed, or takes too long."""
+        sent = await self.request("eth_sendTransaction", transaction)
+        await tell(f"Sent: {sent}. Waiting until it is included in a block …")
+        for _ in range(TRIES):
+            receipt = await self.request("eth_getTransactionReceipt", sent)
+            if isinstance(receipt, dict):
+                if receipt.get("status") != "0x1":
+                    raise WalletError("the transaction failed: the contract refused it")
+                return receipt
+            await asyncio.sleep(PAUSE)
+        raise WalletError(f"the transaction {sent} is not included in a block yet; check it later")
+
 
 @dataclass(frozen=True)
 class Offer:
@@ -158,9 +188,7 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
     InputError if it cannot be minted, WalletError if the wallet refuses.
     """
     await tell("Waiting for the wallet …")
-    accounts = await wallet.request("eth_requestAccounts")
-    if not isinstance(accounts, list) or not accounts or not isinstance(accounts[0], str):
-        raise WalletError("the wallet has no account")
+    account = await wallet.account()
     chain = await wallet.number("eth_chainId")
     if chain not in offer.places:
         chain = next(iter(offer.places))
@@ -177,15 +205,10 @@ async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
     sale = _Sale(offer, wallet, checksum_address(offer.places[chain]))
     data, price = await sale.order()
     await tell(f"The price is {ether(price)}. Confirm it in the wallet …")
-    transaction = {"from": accounts[0], "to": sale.address, "data": "0x" + data.hex(), "value": hex(price)}
-    sent = await wallet.request("eth_sendTransaction", transaction)
-    await tell(f"Sent: {sent}. Waiting until it is included in a block …")
-    for _ in range(TRIES):
-        receipt = await wallet.request("eth_getTransactionReceipt", sent)
-        if isinstance(receipt, dict):
-            return _minted(offer, receipt, sale.address)
-        await asyncio.sleep(PAUSE)
-    raise WalletError(f"the transaction {sent} is not included in a block yet; check it later")
+    transaction = {"from": account, "to": sale.address, "data": to_hex(data), "value": hex(price)}
+    tokens = minted_tokens(await wallet.send(transaction, tell), sale.address)
+    which = f": token {tokens[0]} of" if tokens else ", in"
+    return f"Minted{which} {offer.kind.title}, at {sale.address}"
 
 
 class _Sale:
@@ -224,19 +247,24 @@ class _Sale:
         raise InputError(f"there is no {require(name).title} in the collection")
 
     async def _read(self, function: str, *arguments: Any) -> Any:
-        call = {"to": self.address, "data": "0x" + self._interface.encode(function, *arguments).hex()}
-        answer = await self._wallet.data("eth_call", call, "latest")
-        try:
-            return self._interface.decode(function, answer)
-        except ValueError as error:
-            raise WalletError(f"the collection could not be read: {error}") from None
+        return await self._wallet.read(self._offer.kind.contract, self.address, function, *arguments)
 
 
-def _minted(offer: Offer, receipt: dict[str, Any], address: str) -> str:
-    if receipt.get("status") != "0x1":
-        raise WalletError("the transaction failed: the collection refused it")
-    for log in receipt.get("logs", ()):
-        topics = log.get("topics", ())
-        if str(log.get("address", "")).lower() == address.lower() and len(topics) == 4 and topics[0] == TRANSFER:
-            return f"Minted: token {int(topics[3], 16)} of {offer.kind.title}, at {address}"
-    return f"Minted, in {offer.kind.title} at {address}"
+def minted_tokens(receipt: dict[str, Any], address: str) -> list[int]:
+    """Return the tokens of a collection that a receipt names. WalletError if its events are not valid."""
+    return [topics[3] for topics in events(receipt, address, TRANSFER)]
+
+
+def events(receipt: dict[str, Any], address: str, kind: str) -> list[list[int]]:
+    """Return the four topics of each event of a contract in a receipt. kind: the first topic."""
+    found = []
+    try:
+        for log in receipt.get("logs") or ():
+            topics = log["topics"]
+            if log["address"].lower() == address.lower() and len(topics) == 4 and topics[0] == kind:
+                found.append([int(topic, 16) for topic in topics])
+                if not all(0 <= topic < 1 << 256 for topic in found[-1]):
+                    raise ValueError(topics)
+    except (AttributeError, KeyError, TypeError, ValueError):
+        raise WalletError("the transaction succeeded, but the wallet returned an invalid receipt of it") from None
+    return found

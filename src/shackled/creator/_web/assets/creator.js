@@ -12,7 +12,7 @@ const $$ = (selector, within = document) => [...within.querySelectorAll(selector
 const keys = JSON.parse(document.body.dataset.keys);
 const local = new Local({ send: wire.send, paint, prepared: (is) => { $("#picture").dataset.ready = is; } });
 // messages after which no picture follows
-const still = ["takeaway", "wallets", "stages", "answer", "node", "gif", "stop-gif", "mint"];
+const still = ["takeaway", "wallets", "stages", "answer", "node", "gif", "stop-gif", "mint", "edition"];
 const send = (message) => {
   if (still.includes(message.do)) local.end();
   else local.leave();
@@ -184,7 +184,7 @@ document.addEventListener("click", (event) => {
   if (file && !file.href.startsWith("blob:")) { event.preventDefault(); take(file.href); }
   if (!button) return;
   const { dataset } = button;
-  if (dataset.do && !send(JSON.parse(dataset.do))) toast("The server does not respond", "alert");
+  if (dataset.do && !send({ ...JSON.parse(dataset.do), ...fields(button) })) toast("The server does not respond", "alert");
   if (dataset.close !== undefined) button.closest("dialog")?.close();
   if (dataset.open) document.getElementById(dataset.open).showModal();
   if (dataset.copy) copy(snippet(`/take/${visitor}/${dataset.copy}`));
@@ -192,6 +192,12 @@ document.addEventListener("click", (event) => {
   if (dataset.themeToggle !== undefined) setTheme(dark() ? "light" : "dark");
   if (dataset.tab) tab(dataset.tab);
 });
+
+// what is typed beside a button: the inputs of its fieldset that have names, unless they are controls of the picture
+function fields(button) {
+  const inputs = $$("input[name]:not([data-path])", button.closest("fieldset") ?? button);
+  return inputs.length ? { fields: Object.fromEntries(inputs.map(({ name, value }) => [name, value])) } : {};
+}
 
 // download a file, or show the error: a plain link would save the error as the file
 async function take(url) {

@@ -1,0 +1,202 @@
+"""shackled token edition: scenes that anybody adds to one collection"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ...checks import number
+from ...ethereum import amount, ether, parse_ether
+from ...tokens import OPEN
+from ...values import plural
+from ..chain_options import Json, NodeOptions, parse_checksum_address, print_json, with_groups
+from ..option import option
+from ..output import print_line, print_table
+from .options import MAX_NUMBER, TokenPayerOptions
+from .sale import minted_numbers
+
+if TYPE_CHECKING:
+    from ...tokens import Collection
+
+edition = typer.Typer(no_args_is_help=True, help="Add scenes of your own to the collection Editions, and mint them.")
+
+Number = Annotated[int, typer.Argument(help="Number of the edition.", metavar="EDITION", min=0, max=MAX_NUMBER)]
+
+
+@dataclass(frozen=True)
+class EditionsOptions(NodeOptions):
+    """The collection of editions that a command uses, and the node."""
+
+    collection: Annotated[
+        str | None,
+        option("-c --collection", "Address of the collection. Default: the same on every chain.", "ADDRESS"),
+    ] = None
+
+    def open(self) -> Collection:
+        """Return the collection. InputError if it is not on the chain."""
+        from ...tokens import open_editions
+
+        address = None if self.collection is None else parse_checksum_address(self.collection, "--collection")
+        return open_editions(self.connect(), address)
+
+
+@edition.command()
+@with_groups
+def add(
+    pointer: Annotated[
+        str, typer.Argument(help="Address of the stored scene, from `shackled mint`.", metavar="POINTER")
+    ],
+    name: Annotated[str, typer.Argument(help="Name of the edition, 1 to 64 bytes.", metavar="NAME")],
+    which: EditionsOptions,
+    payer: TokenPayerOptions,
+    price: Annotated[str, option("--price", "Price of a token, in ether; 0 is possible.", "ETHER")],
+    supply: Annotated[int | None, option("--supply", "Maximum number of tokens. Default: no limit.", "N")] = None,
+    royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5,
+    copies: Annotated[int, option("--copies", "Tokens that you receive at once, for nothing, 0 to 100.", "N")] = 1,
+    scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
+    as_json: Json = False,
+) -> None:
+    """Add a scene as an edition, of which anybody can mint tokens. Nothing of it can be changed later."""
+    from ...studio import STUDIO, stored_codes
+    from ...tokens import EditionTerms, add_gas, added_edition, address_of, parts_of
+
+    terms = EditionTerms(
+        name=name,
+        scene=parse_checksum_address(pointer, "the pointer"),
+        price=parse_ether(price, "--price"),
+        supply=OPEN if supply is None else supply,
+        royalty=round(100 * number(royalty, "--royalty", 0, 10)),
+        copies=copies,
+        scale=scale,
+    )
+    collection = which.open()
+    studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
+    # fails before anything is asked if the scene cannot be drawn
+    gas = add_gas(terms, stored_codes(collection.connection, studio, bytes.fromhex(terms.scene[2:])))
+    tokens = "any number of tokens" if supply is None else plural(supply, "token")
+    title = f"add {name}, {tokens} at {ether(terms.price)}; this can never be changed"
+    receipt = payer.send(collection, title, "add", *terms.arguments, gas=gas)
+    added = added_edition(collection, receipt, str(payer.signer.address), terms)
+    numbers = minted_numbers(receipt, collection.address)
+    if as_json:
+        print_json(added.document() | {"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas})
+        return
+    print_line(f"edition {added.number}: {added.name}; {receipt.gas:,} gas")
+    if numbers:
+        print_line(f"yours: {', '.join(f'#{each}' for each in numbers)}")
+    print_line(f"anybody can mint it: shackled token edition mint {added.number}")
+
+
+@edition.command()
+@with_groups
+def mint(
+    edition: Number,
+    which: EditionsOptions,
+    payer: TokenPayerOptions,
+    quantity: Annotated[int, typer.Argument(help="Number of tokens, 1 to 100.", metavar="N", min=1, max=100)] = 1,
+    as_json: Json = False,
+) -> None:
+    """Mint tokens of an edition. The price is printed first."""
+    from ...tokens import edition_at, edition_mint_call
+
+    collection = which.open()
+    chosen = edition_at(collection, edition)
+    call = edition_mint_call(chosen, quantity)
+    left = "" if chosen.supply == OPEN else f", {chosen.left} left"
+    title = f"mint {quantity} of {chosen.name} by {chosen.artist}{left}"
+    receipt = payer.send(collection, title, call.function, *call.arguments, value=call.value)
+    numbers = minted_numbers(receipt, collection.address)
+    if as_json:
+        print_json({"tokens": numbers, "transaction": receipt.hash, "gas": receipt.gas, "wei": call.value})
+        return
+    names = ", ".join(f"#{each}" for each in numbers)
+    print_line(f"minted {names}; {receipt.gas:,} gas, transaction {receipt.hash}")
+    print_line(f"look at it: shackled token show {numbers[0] if numbers else 'ID'} -c editions -o FILE.png")
+
+
+@edition.command("list")
+@with_groups
+def list_(
+    which: EditionsOptions,
+    artist: Annotated[str | None, option("--artist", "Only the editions of this account.", "ADDRESS")] = None,
+    as_json: Json = False,
+) -> None:
+    """List the editions, with what their artists can withdraw."""
+    from ...tokens import editions_of
+
+    account = None if artist is None else parse_checksum_address(artist, "--artist")
+    collection = which.open()
+    found = editions_of(collection, account)
+    if as_json:
+        print_json(
+            {
+                "address": collection.address,
+                "chain_id": collection.connection.chain_id,
+                "editions": [each.document() for each in found],
+            }
+        )
+        return
+    tokens = plural(sum(each.minted for each in found), "token")
+    print_line(f"{collection.name} at {collection.address}: {plural(len(found), 'edition')}, {tokens}")
+    rows = [
+        (
+            str(each.number),
+            each.name,
+            amount(each.price),
+            each.limit,
+            str(each.minted),
+            "closed" if each.closed else "sold out" if not each.left else "open",
+            amount(each.proceeds),
+            each.artist,
+            each.scene,
+        )
+        for each in found
+    ]
+    if rows:
+        print_table(("edition", "name", "ether", "supply", "minted", "sale", "to withdraw", "artist", "scene"), rows)
+
+
+@edition.command()
+@with_groups
+def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> None:
+    """End the minting of an edition, for ever. For its artist."""
+    from ...tokens import edition_at
+
+    collection = which.open()
+    chosen = edition_at(collection, edition)
+    title = f"close {chosen.name} with {plural(chosen.minted, 'token')}, for ever"
+    receipt = payer.send(collection, title, "close", edition)
+    print_line(f"edition {edition} is closed; {receipt.gas:,} gas")
+
+
+@edition.command()
+@with_groups
+def withdraw(
+    which: EditionsOptions,
+    payer: TokenPayerOptions,
+    editions: Annotated[
+        list[int] | None, typer.Argument(help="Editions; default: all of yours.", metavar="[EDITION]...", min=0)
+    ] = None,
+    to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
+) -> None:
+    """Withdraw what the tokens of your editions have cost."""
+    from ...tokens import edition_at, editions_of, withdraw_gas
+
+    account = str(payer.signer.address)
+    receiver = account if to is None else parse_checksum_address(to, "--to")
+    collection = which.open()
+    if editions:
+        found = [edition_at(collection, each) for each in dict.fromkeys(editions)]
+    else:
+        found = [each for each in editions_of(collection, account) if each.proceeds]
+    total = sum(each.proceeds for each in found)
+    if not total:
+        print_line("there is nothing to withdraw")
+        return
+    numbers = [each.number for each in found]
+    title = f"send {ether(total)} of {plural(len(found), 'edition')} to {receiver}"
+    gas = withdraw_gas(collection, numbers, receiver)
+    receipt = payer.send(collection, title, "withdraw", numbers, receiver, gas=gas)
+    print_line(f"{ether(total)} sent to {receiver}; {receipt.gas:,} gas")

@@ -1,0 +1,240 @@
+"""Editions: scenes that anybody adds to one collection, each a limited or open number of tokens."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..artifacts import artifact
+from ..chain import Connection
+from ..deploy import Receipt, local_chain
+from ..errors import InputError, NodeError, OutOfGasError, RenderError, VerificationError
+from ..ethereum import amount, checksum_address, ether, intrinsic_gas, keccak256
+from ..studio import STUDIO
+from ._collection import EDITIONS, Collection
+from ._contract import USUAL_GAS
+from ._icons import SCALE
+from ._launch import MAX_ROYALTY
+from ._metadata import MAX_LENGTH
+from ._minting import MintCall
+
+#: The supply of an edition without a limit.
+OPEN = 2**32 - 1
+#: The largest number of tokens of a call.
+MOST_AT_ONCE = 100
+MAX_NAME = 64
+MAX_SCALE = 8
+#: Bytes of the JSON of a token without its picture, at most.
+DOCUMENT = 1_500
+#: Gas of `add` that depends on the chain: counters and balances that are new or not, each copy, and the rest.
+ADD_GAS, COPY_GAS = 30_000, 3_000
+#: Gas of `withdraw` for each edition but the first.
+WITHDRAW_GAS = 8_000
+ADDED = b"EditionAdded(uint256,address,address,string,uint256,uint256,uint256,uint256)"
+
+
+@dataclass(frozen=True)
+class EditionTerms:
+    """What an artist says of a new edition; nothing of it can be changed later.
+
+    name: 1 to 64 bytes. scene: address of the stored scene. price: of a token, in wei. supply: maximum number of
+    tokens, `OPEN` for no limit. royalty: in hundredths of a percent. copies: number of tokens that the artist receives
+    at once, for nothing. scale: side of the square that each pixel becomes.
+    """
+
+    name: str
+    scene: str
+    price: int
+    supply: int = OPEN
+    royalty: int = 500
+    copies: int = 1
+    scale: int = SCALE
+
+    def __post_init__(self) -> None:
+        """Raise InputError if the contract would refuse the terms."""
+        try:
+            length = len(self.name.encode())
+        except UnicodeEncodeError:
+            raise InputError("the name of an edition is not valid Unicode text") from None
+        checks = (
+            (1 <= length <= MAX_NAME, f"the name of an edition needs 1 to {MAX_NAME} bytes, not {length}"),
+            (0 <= self.price < 1 << 96, f"the price must be below 2^96 wei, not {ether(self.price)}"),
+            (1 <= self.supply <= OPEN, f"the supply must be 1 to {OPEN:,} tokens, not {self.supply}"),
+            (
+                0 <= self.royalty <= MAX_ROYALTY,
+                f"royalties can be 0 to {MAX_ROYALTY / 100:g} %, not {self.royalty / 100:g} %",
+            ),
+            (
+                0 <= self.copies <= min(self.supply, MOST_AT_ONCE),
+                f"the artist can receive 0 to {min(self.supply, MOST_AT_ONCE)} copies, not {self.copies}",
+            ),
+            (1 <= self.scale <= MAX_SCALE, f"the scale must be 1 to {MAX_SCALE}, not {self.scale}"),
+        )
+        for holds, message in checks:
+            if not holds:
+                raise InputError(message)
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The arguments of `add`."""
+        return self.name, self.scene, self.scale, self.price, self.supply, self.royalty, self.copies
+
+
+@dataclass(frozen=True)
+class Edition:
+    """An edition on a chain. settled: number of minted tokens for which nothing is due to the artist any more."""
+
+    number: int
+    artist: str
+    scene: str
+    name: str
+    price: int
+    supply: int
+    minted: int
+    settled: int
+    closed: bool
+    royalty: int
+    scale: int
+
+    @property
+    def left(self) -> int:
+        """Number of tokens that can still be minted."""
+        return 0 if self.closed else self.supply - self.minted
+
+    @property
+    def proceeds(self) -> int:
+        """Ether that the artist can withdraw, in wei."""
+        return (self.minted - self.settled) * self.price
+
+    @property
+    def limit(self) -> str:
+        """The supply in words, as in the metadata of a token."""
+        return "open" if self.supply == OPEN else str(self.supply)
+
+    @property
+    def traits(self) -> dict[str, Any]:
+        """The attributes of its tokens."""
+        return {"Edition": self.number, "Artist": self.artist, "Supply": self.limit}
+
+    def document(self) -> dict[str, Any]:
+        """Return the edition for JSON, with amounts in ether. supply, left: null for no limit."""
+        is_open = self.supply == OPEN
+        return {
+            "edition": self.number,
+            "name": self.name,
+            "artist": self.artist,
+            "scene": self.scene,
+            "price": amount(self.price),
+            "supply": None if is_open else self.supply,
+            "minted": self.minted,
+            "left": None if is_open and not self.closed else self.left,
+            "closed": self.closed,
+            "royalty": self.royalty / 100,
+            "proceeds": amount(self.proceeds),
+        }
+
+
+def editions_address() -> str:
+    """Return the address of the collection, the same on every chain."""
+    return checksum_address(local_chain().address(EDITIONS.contract))
+
+
+def open_editions(connection: Connection, address: str | None = None) -> Collection:
+    """Return the collection of editions on a chain. address: None is the usual one. Raises InputError without it."""
+    collection = Collection(connection, EDITIONS, editions_address() if address is None else address)
+    if not connection.code(bytes.fromhex(collection.address[2:])):
+        raise InputError(
+            f"there is no collection of editions at {collection.address} on chain {connection.chain_id}: "
+            "run shackled deploy `contracts` Editions"
+        )
+    if collection.name != EDITIONS.title:
+        raise InputError(f"the contract at {collection.address} is not a collection of editions")
+    return collection
+
+
+def edition_at(collection: Collection, number: int) -> Edition:
+    """Return an edition by its number. Raises RevertError if there is none."""
+    found = collection.contract.call("editionAt", number)
+    artist, scene = (checksum_address(bytes.fromhex(found[place][2:])) for place in (0, 8))
+    return Edition(number, artist, scene, found[9], *found[1:8])
+
+
+def editions_of(collection: Collection, artist: str | None = None) -> list[Edition]:
+    """Return all editions, or those of an artist."""
+    count = collection.contract.call("editionCount")
+    if count >= 1 << 24:
+        raise NodeError(f"the {collection.connection.name} reports an impossible number of editions, {count:,}")
+    found = collection.read_all(lambda number: edition_at(collection, number), range(count))
+    return [each for each in found if artist in (None, each.artist)]
+
+
+def add_gas(terms: EditionTerms, codes: Mapping[bytes, bytes]) -> int:
+    """Return the gas of the transaction that adds an edition, which draws its picture, from drawing it here.
+
+    codes: code of the stored scene, by address. Raises RenderError if it cannot be drawn; InputError if it takes more
+    gas than the contract allows, or if marketplaces would not show so large a picture.
+    """
+    local, interface = local_chain(), artifact(EDITIONS.contract).interface
+    local.address(EDITIONS.contract)
+    for place, code in codes.items():
+        local.put(place, code)
+    limit = local.ask(EDITIONS.contract, "DRAWING_GAS")
+    request = artifact(STUDIO).interface.encode("renderDataURI(address,uint256)", terms.scene, terms.scale)
+    too_much = InputError(
+        f"drawing the scene takes more than the {limit:,} gas that an edition may take: choose a smaller size, fewer "
+        "triangles or no antialiasing"
+    )
+    try:
+        # a contract that runs out of gas cannot always say so: drawn with more, it can be told from other errors
+        picture = local.call(STUDIO, request, 16 * limit)
+    except OutOfGasError:
+        raise too_much from None
+    if picture.gas > limit:
+        raise too_much
+    length = (len(picture.output) + DOCUMENT) * 4 // 3
+    if length > MAX_LENGTH:
+        raise InputError(
+            f"the tokenURI would have {length:,} bytes, and marketplaces show no more than {MAX_LENGTH:,}: choose a "
+            "smaller size or scale"
+        )
+    data = interface.encode("add", *terms.arguments)
+    silent = interface.encode("add", *EditionTerms(**{**vars(terms), "copies": 0}).arguments)
+    try:
+        adding = local.call(EDITIONS.contract, silent)
+    except (OutOfGasError, RenderError):
+        # each call keeps back a 64th of the gas
+        raise too_much from None
+    return adding.gas + intrinsic_gas(data) + ADD_GAS + COPY_GAS * terms.copies
+
+
+def added_edition(collection: Collection, receipt: Receipt, artist: str, terms: EditionTerms) -> Edition:
+    """Return the edition that a transaction added, read from the chain.
+
+    Raises VerificationError if the receipt names none, or if what the node returns differs from the terms.
+    """
+    topic, place = f"0x{keccak256(ADDED).hex()}", int(collection.address, 16)
+    logs = [log for log in receipt.logs if int(log["address"], 16) == place and log["topics"][:1] == [topic]]
+    if len(logs) != 1 or len(logs[0]["topics"]) != 4:
+        raise VerificationError(f"the receipt of the transaction {receipt.hash} names no new edition")
+    edition = edition_at(collection, int(logs[0]["topics"][1], 16))
+    found = (edition.name, edition.scene, edition.scale, edition.price, edition.supply, edition.royalty)
+    if edition.artist != artist or found != terms.arguments[:-1]:
+        raise VerificationError(
+            f"edition {edition.number}, which the {collection.connection.name} says the transaction {receipt.hash} "
+            "added, is another one"
+        )
+    return edition
+
+
+def withdraw_gas(collection: Collection, editions: Sequence[int], to: str) -> int:
+    """Return the gas of the transaction that withdraws what tokens of these editions have cost."""
+    data = collection.contract.interface.encode("withdraw", editions, to)
+    return USUAL_GAS["withdraw"] + intrinsic_gas(data) + WITHDRAW_GAS * (len(editions) - 1)
+
+
+def edition_mint_call(edition: Edition, quantity: int) -> MintCall:
+    """Return the call that mints tokens. Raises InputError if it would be refused."""
+    if not 1 <= quantity <= MOST_AT_ONCE:
+        raise InputError(f"a call mints 1 to {MOST_AT_ONCE} tokens, not {quantity}")
+    return MintCall("mint", (edition.number, quantity), quantity * edition.price)

@@ -1,0 +1,167 @@
+"""Editions by the command line, from the deployment to the withdrawal, seen by web3.py; and nodes that lie."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as PillowImage
+
+from nodes import needs_anvil
+from proxies import Liar
+from shackled.artifacts import artifact
+from shackled.cli.app import run
+from shackled.deploy import local_chain
+from shackled.errors import InputError
+from shackled.ethereum import to_hex
+from shackled.tokens import EDITIONS, OPEN, EditionTerms, editions_address, parts_of
+from tokens.on_a_node import Node, Shackled
+
+OWNER, ALICE, BOB = range(3)
+PRICE = 10**16
+TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
+
+
+def pointer_of(said: Any) -> str:
+    found = re.search(r"pointer  (0x\w{40})", said.out)
+    assert found, said
+    return found[1]
+
+
+@needs_anvil
+def test_the_whole_way_of_editions(
+    node: Node,
+    tmp_path: Path,
+    shackled: Shackled,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """One test, since each step needs those before."""
+    monkeypatch.chdir(tmp_path)
+    Path("triangle.obj").write_text(TRIANGLE)
+    edition = ("token", "edition")
+    said = shackled(*edition, "list", expect=2)
+    assert "no collection of editions" in said.error
+    assert "shackled deploy --contracts Editions" in said.error
+    shackled("deploy", "--contracts", "Editions", "--yes", user=OWNER)
+    contract = node.contract("Editions", editions_address())
+    assert contract.functions.name().call() == EDITIONS.title
+    pointer = pointer_of(shackled("mint", "triangle.obj", "--licence", "MIT", "--size", 8, "--yes", user=ALICE))
+
+    # what cannot be drawn is told before anything is asked
+    said = shackled(*edition, "add", node.accounts[9], "Ghost", "--price", 0, "--yes", user=ALICE, expect=1)
+    assert said.error == f"shackled: nothing is stored at {node.accounts[9]}"
+    said = shackled(*edition, "add", pointer, "x" * 65, "--price", 0, "--yes", user=ALICE, expect=2)
+    assert said.error == "shackled: the name of an edition needs 1 to 64 bytes, not 65"
+    sale = ("--price", "0.01", "--supply", 3, "--royalty", 2.5, "--copies", 1, "--scale", 2, "--yes")
+    said = shackled(*edition, "add", pointer, 'A "triangle" \x1b[2J', *sale, user=ALICE)
+    assert "this can never be changed" in said.err
+    assert 'edition 0: A "triangle" ?[2J' in said.out
+    assert "yours: #0" in said.out
+    assert contract.functions.editionAt(0).call()[0] == node.accounts[ALICE]
+    open_sale = ("--price", "0", "--copies", 0, "--json", "--yes")
+    added = json.loads(shackled(*edition, "add", pointer, "Free", *open_sale, user=BOB).out)
+    assert (added["edition"], added["supply"], added["left"], added["tokens"]) == (1, None, None, [])
+
+    said = shackled(*edition, "mint", 0, 3, "--yes", user=BOB, expect=1)
+    assert said.error == "shackled: sold out: 3 wanted, 2 left"
+    said = shackled(*edition, "mint", 2, "--yes", user=BOB, expect=1)
+    assert said.error == "shackled: there is no edition 2: there are 2"
+    said = shackled(*edition, "mint", 0, 2, "--yes", user=BOB)
+    assert "it costs 0.02 ether and about" in said.err
+    assert "minted #1, #2" in said.out
+    shackled(*edition, "mint", 1, "--yes", user=ALICE)
+    owners = [contract.functions.ownerOf(number).call() for number in range(4)]
+    assert owners == [node.accounts[user] for user in (ALICE, BOB, BOB, ALICE)]
+
+    # what can be read of it
+    listed = json.loads(shackled(*edition, "list", "--json").out)["editions"]
+    assert [each["name"] for each in listed] == ['A "triangle" \x1b[2J', "Free"]
+    assert [(each["minted"], each["proceeds"], each["royalty"]) for each in listed] == [(3, "0.02", 2.5), (1, "0", 5)]
+    said = shackled(*edition, "list", "--artist", node.accounts[ALICE])
+    assert "sold out" in said.out
+    assert "Free" not in said.out
+    shown = json.loads(shackled("token", "show", 3, "-c", "editions", "-o", "free.png", "--json").out)
+    assert shown["traits"] == {"Edition": 1, "Artist": node.accounts[BOB], "Supply": "open"}
+    with PillowImage.open("free.png") as picture:
+        assert picture.size == (32, 32)
+        assert len(np.unique(np.asarray(picture).reshape(-1, 3), axis=0)) > 1
+    said = shackled("token", "verify", "-c", "editions")
+    assert said.out.count("ok ") == len(parts_of("Editions")) + 1 + 4
+    assert "WRONG" not in said.out
+    shackled("token", "transfer", 3, node.accounts[BOB], "-c", editions_address(), "--yes", user=ALICE)
+    assert contract.functions.ownerOf(3).call() == node.accounts[BOB]
+    said = shackled("token", "phase", "public", "-c", "editions", "--yes", user=OWNER, expect=2)
+    assert "shackled token edition --help" in said.error
+
+    # nodes that lie: about the edition that was added, about its price, about gas
+    def lied(lies: dict[str, Any], *arguments: Any, user: int, expect: int = 1) -> str:
+        with Liar(lies).before(node.url) as url:
+            code = run([*map(str, (*edition, *arguments)), "--rpc", url, "--private-key-env", node.keys[user]])
+        said = capsys.readouterr()
+        assert (code, "Traceback" in said.err) == (expect, False), said
+        return said.err.strip().splitlines()[-1]
+
+    def renumbered(receipt: Any, _: Any) -> Any:
+        for log in (receipt or {}).get("logs", ()):
+            log["topics"][1] = "0x" + "00" * 32
+        return receipt
+
+    def dearer(answer: str, parameters: Any) -> str:
+        selector = to_hex(artifact("Editions").interface.encode("editionAt", 0))
+        return answer.replace(f"{PRICE:064x}", f"{2 * PRICE:064x}") if parameters[0]["data"] == selector else answer
+
+    count = contract.functions.editionCount().call()
+    told = lied({"eth_getTransactionReceipt": renumbered}, "add", pointer, "Mine", *open_sale, user=BOB)
+    assert "edition 0, which the node" in told
+    assert told.endswith("is another one")
+    assert contract.functions.editionCount().call() == count + 1
+    many = {"eth_estimateGas": lambda gas, _: hex(1000 * int(gas, 16))}
+    assert "more than 10 times as much" in lied(many, "add", pointer, "Mine", *open_sale, user=BOB)
+    shackled(*edition, "add", pointer, "Dear", *sale, user=BOB)
+    told = lied({"eth_call": dearer}, "mint", 0, 1, "--yes", user=ALICE)
+    assert told == "shackled: the price is 0.01 ether, but 0.02 ether were sent"
+    assert contract.functions.totalSupply().call() == 5
+
+    # the artist has the ether, and closes
+    said = shackled(*edition, "withdraw", 0, "--yes", user=BOB, expect=1)
+    assert "only its artist" in said.error
+    before = node.balance(node.accounts[9])
+    said = shackled(*edition, "withdraw", "--to", node.accounts[9], "--yes", user=ALICE)
+    assert "0.02 ether sent" in said.out
+    assert node.balance(node.accounts[9]) - before == 2 * PRICE
+    assert node.balance(editions_address()) == 0
+    assert "nothing to withdraw" in shackled(*edition, "withdraw", "--yes", user=ALICE).out
+    shackled(*edition, "close", 1, "--yes", user=BOB)
+    said = shackled(*edition, "mint", 1, "--yes", user=ALICE, expect=1)
+    assert said.error == "shackled: edition 1 is closed: no more tokens of it can be minted"
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"name": ""}, "1 to 64 bytes, not 0"),
+        ({"name": "é" * 33}, "1 to 64 bytes, not 66"),
+        ({"name": "\ud800"}, "not valid Unicode"),
+        ({"price": 2**96}, "below 2^96 wei"),
+        ({"price": -1}, "below 2^96 wei"),
+        ({"supply": 0}, "supply must be 1 to"),
+        ({"supply": OPEN + 1}, "supply must be 1 to"),
+        ({"royalty": 1001}, "0 to 10 %, not 10.01 %"),
+        ({"copies": 101}, "0 to 100 copies, not 101"),
+        ({"supply": 2, "copies": 3}, "0 to 2 copies, not 3"),
+        ({"scale": 9}, "scale must be 1 to 8"),
+    ],
+)
+def test_terms_are_checked_before_anything_is_sent(change: dict[str, Any], words: str) -> None:
+    terms: dict[str, Any] = {"name": "One", "scene": "0x" + "12" * 20, "price": 1} | change
+    with pytest.raises(InputError, match=re.escape(words)):
+        EditionTerms(**terms)
+
+
+def test_the_address_is_the_same_everywhere() -> None:
+    assert bytes.fromhex(editions_address()[2:]) == local_chain().address("Editions")
