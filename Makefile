@@ -88,6 +88,8 @@ unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 
 build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web, make build/npm
 	$(BIN)/python tools/build_contracts.py
+	$(BIN)/python tools/library.py
+	$(BIN)/python tools/build_contracts.py --group library
 	$(BIN)/python tools/build_package.py
 	$(BIN)/python tools/build_web.py
 
@@ -110,6 +112,7 @@ bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of 
 	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python -m benchmarks.antialiasing
 	$(BIN)/python -m benchmarks.shadows
+	$(BIN)/python -m benchmarks.seeds
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
@@ -119,6 +122,7 @@ paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/res
 pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
+	$(BIN)/python -m docs.draw_building
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----

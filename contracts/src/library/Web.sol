@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
+import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
+import {Genesis} from "../genesis/Genesis.sol";
+import {Studio} from "../studio/Studio.sol";
+import {Item} from "./Item.sol";
+import {Library} from "./Library.sol";
+
+/// @notice A parameter of a request, or a header of an answer (ERC-5219).
+struct KeyValue {
+    string key;
+    string value;
+}
+
+/// @title Web: pictures at web3:// addresses that read well, such as web3://ADDRESS/icons/crown.png.
+/// @notice Source: ERC-4804 and ERC-6860 (web3:// addresses), ERC-5219 (requests).
+///
+/// /                       a page with links to all of it
+/// /icons/crown.png        an icon; as a model /icons/crown.glb
+/// /objects/teapot.png     a common object; as a model /objects/teapot.glb
+/// /genesis/12.png         the piece of the seed keccak256("shackled-12"); or of a seed, 0x and 64 digits
+///
+/// Pictures have 512 x 512 pixels; ?scale=1 to 8 makes each pixel of 128 x 128 a square of so many.
+contract Web {
+    using Bytes for bytes;
+    using Strings for string;
+    using Strings for uint256;
+
+    uint256 private constant DEFAULT_SCALE = 4;
+    /// @dev How many pieces the page shows.
+    uint256 private constant PIECES = 12;
+    /// @dev What the page begins with.
+    string private constant HEAD =
+        '<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+        "<title>Shackled</title><style>body{font:15px system-ui;margin:2rem auto;max-width:70rem;padding:0 1rem;"
+        "color:#16181d;background:#f4f3ef}a{display:inline-block;width:128px;margin:0 12px 12px 0;color:inherit;text-decoration:none}"
+        "img{display:block;width:128px;height:128px;border-radius:8px;image-rendering:pixelated}p{color:#5d616a}</style>"
+        "<h1>Shackled</h1><p>Pictures of 3D scenes, drawn by contracts. Add ?scale=1 to 8, or .glb in place of .png for a model.</p>";
+    /// @dev Nothing that is shown can change, but what is not stored yet can be stored.
+    string private constant CACHE = "public, max-age=31536000, immutable";
+
+    /// @notice What has a name.
+    Library public immutable items;
+    /// @notice What draws the items.
+    Studio public immutable studio;
+    /// @notice What makes pieces of seeds, and draws them.
+    Genesis public immutable genesis;
+
+    /// @notice The address has no code.
+    error NoContract(address contract_);
+
+    constructor(Library items_, Studio studio_, Genesis genesis_) {
+        check(address(items_));
+        check(address(studio_));
+        check(address(genesis_));
+        (items, studio, genesis) = (items_, studio_, genesis_);
+    }
+
+    /// @notice ERC-4804: requests come as ERC-5219 has it.
+    function resolveMode() external pure returns (bytes32) {
+        return "5219";
+    }
+
+    /// @notice Answers a request of a browser.
+    /// @param resource The parts of the path.
+    /// @param params What follows the question mark.
+    /// @return statusCode 200; 400 for a wrong parameter, 404 for a path where nothing is.
+    /// @return body The file, or the reason as text.
+    /// @return headers The media type, and for how long the file can be kept.
+    function request(string[] calldata resource, KeyValue[] calldata params)
+        external
+        view
+        returns (uint16 statusCode, string memory body, KeyValue[] memory headers)
+    {
+        if (resource.length == 0 || (resource.length == 1 && bytes(resource[0]).length == 0)) {
+            return answer("text/html", page(), "no-cache");
+        }
+        if (resource.length != 2) return refused(404, "There is nothing at this path. The page / lists all pictures.");
+        uint256 scale = DEFAULT_SCALE;
+        for (uint256 k; k != params.length; ++k) {
+            bytes memory value = bytes(params[k].value);
+            if (!params[k].key.equal("scale")) continue;
+            if (value.length != 1 || value[0] < "1" || value[0] > "8") return refused(400, "scale must be a number from 1 to 8.");
+            scale = uint8(value[0]) - 48;
+        }
+        (string memory name, string memory kind) = split(resource[1]);
+        bool isPng = kind.equal("png");
+        if (resource[0].equal("genesis") && isPng) return ofGenesis(name, scale);
+        bool isIcon = resource[0].equal("icons");
+        if ((isIcon || resource[0].equal("objects")) && (isPng || kind.equal("glb"))) return ofItem(name, isIcon, isPng, scale);
+        return refused(404, "Paths are /icons/NAME.png, /objects/NAME.png, the same with .glb, and /genesis/SEED.png.");
+    }
+
+    function ofItem(string memory name, bool isIcon, bool isPng, uint256 scale)
+        private
+        view
+        returns (uint16, string memory, KeyValue[] memory)
+    {
+        try items.find(name) returns (Item memory item) {
+            if (item.isIcon != isIcon) return refused(404, isIcon ? "That is an object, not an icon." : "That is an icon: /icons/.");
+            if (!items.isStored(name)) return refused(404, "That is not stored on this chain yet: shackled library store.");
+            if (isPng) return found("image/png", string(studio.renderPNG(item.scene, scale)));
+            return found("model/gltf-binary", string(studio.glb(item.scene)));
+        } catch {
+            return refused(404, "There is nothing of that name. The page / lists all names.");
+        }
+    }
+
+    function ofGenesis(string memory name, uint256 scale) private view returns (uint16, string memory, KeyValue[] memory) {
+        (bool isSeed, uint256 seed) = name.tryParseHexUint();
+        if (bytes(name).length != 66 || bytes(name)[1] != "x") {
+            (isSeed, seed) = name.tryParseUint();
+            seed = uint256(keccak256(bytes(string.concat("shackled-", seed.toString()))));
+        }
+        if (!isSeed || bytes(name).length == 0) return refused(404, "A piece has a number, or a seed of 0x and 64 hexadecimal digits.");
+        try genesis.render(bytes32(seed)) returns (bytes memory bitmap) {
+            return found("image/png", string(studio.encoder().encode(bitmap, scale)));
+        } catch {
+            return refused(404, "This seed has no piece, or the call has too little gas.");
+        }
+    }
+
+    /// @dev The page with links to everything.
+    function page() private view returns (string memory html) {
+        html = HEAD;
+        string[] memory names = items.names();
+        bool isIcon;
+        for (uint256 k; k != names.length; ++k) {
+            bool wasIcon = isIcon;
+            isIcon = items.find(names[k]).isIcon;
+            if (k == 0 || isIcon != wasIcon) html = string.concat(html, isIcon ? "<h2>Icons</h2>" : "<h2>Objects</h2>");
+            string memory path = string.concat(isIcon ? "/icons/" : "/objects/", names[k]);
+            string memory absent = string.concat("<p>", names[k], ": not stored on this chain yet</p>");
+            html = string.concat(html, items.isStored(names[k]) ? tile(path, names[k]) : absent);
+        }
+        html = string.concat(html, "<h2>Genesis</h2>");
+        for (uint256 k; k != PIECES; ++k) html = string.concat(html, tile(string.concat("/genesis/", k.toString()), k.toString()));
+    }
+
+    function tile(string memory path, string memory name) private pure returns (string memory) {
+        return string.concat('<a href="', path, '.png"><img src="', path, '.png?scale=1" alt="" loading="lazy">', name, "</a>");
+    }
+
+    /// @dev A name and what stands behind its last dot.
+    function split(string memory text) private pure returns (string memory name, string memory kind) {
+        bytes memory all = bytes(text);
+        uint256 dot = all.length;
+        for (uint256 k; k != all.length; ++k) if (all[k] == ".") dot = k;
+        if (dot == all.length) return (text, "");
+        return (string(all.slice(0, dot)), string(all.slice(dot + 1)));
+    }
+
+    function found(string memory kind, string memory body) private pure returns (uint16, string memory, KeyValue[] memory) {
+        return answer(kind, body, CACHE);
+    }
+
+    function answer(string memory kind, string memory body, string memory cache)
+        private
+        pure
+        returns (uint16, string memory, KeyValue[] memory headers)
+    {
+        headers = new KeyValue[](2);
+        (headers[0], headers[1]) = (KeyValue("Content-Type", kind), KeyValue("Cache-Control", cache));
+        return (200, body, headers);
+    }
+
+    function refused(uint16 code, string memory why) private pure returns (uint16, string memory, KeyValue[] memory headers) {
+        headers = new KeyValue[](1);
+        headers[0] = KeyValue("Content-Type", "text/plain");
+        return (code, why, headers);
+    }
+
+    function check(address contract_) private view {
+        if (contract_.code.length == 0) revert NoContract(contract_);
+    }
+}

@@ -1,0 +1,117 @@
+"""shackled library"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..errors import InputError
+from ..ethereum import checksum_address
+from .chain_options import (
+    NodeOptions,
+    PayerOptions,
+    print_json,
+    print_price,
+    print_step,
+    wallet_calls,
+    with_groups,
+    write_calls,
+)
+from .option import option
+from .output import print_line, print_note, print_table
+
+library = typer.Typer(no_args_is_help=True, help="Icons and common objects by name, stored once for every contract.")
+
+
+@library.command("list")
+@with_groups
+def list_(
+    node: NodeOptions,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of a table.")] = False,
+) -> None:
+    """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
+    from ..library import items
+
+    stored: dict[str, bool] = {}
+    if node.rpc is not None:
+        connection = node.connect()
+        stored = {each.name: all(connection.code(part.pointer) for part in each.transactions) for each in items()}
+    found = [
+        {
+            "name": each.name,
+            "piece": each.piece,
+            "triangles": each.scene.triangles,
+            "low": each.low.tolist(),
+            "high": each.high.tolist(),
+            "bytes": each.size,
+            "gas": each.gas,
+            "meshes": [checksum_address(mesh) for mesh in each.meshes],
+            "pointer": checksum_address(each.pointer),
+            **({"stored": stored[each.name]} if stored else {}),
+        }
+        for each in items()
+    ]
+    if as_json:
+        print_json({"items": found})
+        return
+    head = ["name", "triangles", "size", "bytes", "gas", "pointer", *(["stored"] if stored else [])]
+    print_table(head, [_row(each) for each in found])
+
+
+def _row(item: dict[str, Any]) -> list[str]:
+    sides = " x ".join(f"{high - low:,}" for low, high in zip(item["low"], item["high"], strict=True))
+    row = [item["name"], f"{item['triangles']:,}", sides, f"{item['bytes']:,}", f"{item['gas']:,}", item["pointer"]]
+    return [*row, "yes" if item["stored"] else "no"] if "stored" in item else row
+
+
+@library.command()
+@with_groups
+def store(
+    node: NodeOptions,
+    payer: PayerOptions,
+    names: Annotated[list[str] | None, typer.Argument(help="Items; without any, all.", metavar="[NAME]...")] = None,
+    calldata: Annotated[
+        Path | None,
+        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+    ] = None,
+    as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
+) -> None:
+    """Store items on a chain for ever, for every contract. What is stored already is skipped; the price comes first."""
+    from ..deploy import current_fees
+    from ..library import chosen_items
+    from ..tokens import SceneToStore, plan_storage
+    from ..tokens import store as send
+
+    node.check()
+    payer.check()
+    wanted = chosen_items(names or ())
+    connection = node.connect()
+    plan = plan_storage(
+        connection, [SceneToStore(each.name, each.scene) for each in wanted], current_fees(connection, payer.max_wei)
+    )
+    if plan.pointers != tuple(checksum_address(each.pointer) for each in wanted):
+        raise InputError("the Studio of this chain is not that of this version: see `shackled deploy`")
+    gas = 0
+    if plan.missing or plan.parts.missing:
+        if plan.parts.missing:
+            print_note(f"deploying {', '.join(s.name for s in plan.parts.missing)} first: {plan.parts.gas:,} gas")
+        count = len({each.name for each in plan.missing})
+        print_note(f"storing {count} of {len(wanted)} items: {plan.gas:,} gas; it cannot be undone")
+        print_price([*plan.parts.quotes, *plan.quotes])
+        if calldata is not None:
+            parts = {f"{each.name}, {each.transaction.what}": each.quote for each in plan.missing}
+            write_calls(calldata, connection.chain_id, wallet_calls(plan.parts) | parts, as_json)
+            return
+        transactor = payer.transactor(connection)
+        payer.confirm(transactor)
+        gas = sum(receipt.gas for receipt in send(plan, transactor, print_step))
+    else:
+        print_note("all of it is stored already: nothing was sent")
+    pointers = {each.name: pointer for each, pointer in zip(wanted, plan.pointers, strict=True)}
+    if as_json:
+        print_json({"chain_id": connection.chain_id, "studio": plan.studio, "gas": gas, "pointers": pointers})
+        return
+    for name, pointer in pointers.items():
+        print_line(f"{name:16} {pointer}")

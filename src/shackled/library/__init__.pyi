@@ -1,0 +1,3 @@
+from ._items import Item, chosen_items, items
+
+__all__ = ["Item", "chosen_items", "items"]

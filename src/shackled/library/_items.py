@@ -1,0 +1,100 @@
+"""The items of the library: what each one is made of, and where the Studio stores it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..datasets import pieces
+from ..datasets.common import models
+from ..deploy import deployments
+from ..errors import InputError
+from ..scene import Material, Scene, fit
+from ..studio import STUDIO, StoreTransaction, store_scene
+from ..tokens import token_scene
+
+#: Built-in pieces that show something else than one solid object, or no object that a scene would be made of.
+LEFT_OUT = {"cornell-box", "first-render", "wireframe-cube", "wireframe-icosphere"}
+
+
+@dataclass(frozen=True, eq=False)
+class Item:
+    """A model of the library.
+
+    name: in the library. piece: of the dataset. scene: that is stored. transactions: that store its meshes, then the
+    scene. materials: of each mesh. low, high: the bounds of all meshes together, (3,) int64.
+    """
+
+    name: str
+    piece: str
+    scene: Scene
+    transactions: tuple[StoreTransaction, ...]
+    materials: tuple[Material, ...]
+    low: NDArray[np.int64]
+    high: NDArray[np.int64]
+
+    @property
+    def is_icon(self) -> bool:
+        """Return whether it is an icon."""
+        return self.piece.startswith("icons/")
+
+    @property
+    def pointer(self) -> bytes:
+        """Return the address of the scene."""
+        return self.transactions[-1].pointer
+
+    @property
+    def meshes(self) -> list[bytes]:
+        """Return the addresses of the meshes."""
+        return [each.pointer for each in self.transactions[:-1]]
+
+    @property
+    def gas(self) -> int:
+        """Return the gas of the transactions that store it."""
+        return sum(each.gas for each in self.transactions)
+
+    @property
+    def size(self) -> int:
+        """Return how many bytes are stored."""
+        return sum(each.size for each in self.transactions)
+
+
+@cache
+def items() -> tuple[Item, ...]:
+    """Return all items, icons first; it takes some seconds."""
+    studio = deployments([STUDIO])[-1].address
+    fetched = set(models())
+    found = [*pieces("icons"), *(piece for piece in pieces("common") if piece.name not in fetched | LEFT_OUT)]
+    return tuple(_item(piece.name, token_scene(piece), studio) for piece in found)
+
+
+def chosen_items(names: Iterable[str]) -> list[Item]:
+    """Return items by their names, all for none. InputError for a name that is not in the library."""
+    known = {each.name: each for each in items()}
+    wanted = list(dict.fromkeys(names))
+    for name in wanted:
+        if name not in known:
+            raise InputError(f"there is no {name!r} in the library; its items are {', '.join(known)}")
+    return [known[name] for name in wanted] or list(known.values())
+
+
+def _item(piece: str, scene: Scene, studio: bytes) -> Item:
+    transactions = store_scene(scene, studio)
+    fitted = fit(scene).objects
+    # so that one box holds all meshes as they are
+    assert all(np.array_equal(each.position, fitted[0].position) and each.scale == fitted[0].scale for each in fitted)
+    points = np.concatenate([each.mesh.positions for each in fitted])
+    assert len(transactions) == len(fitted) + 1, f"{piece} has parts, or two objects of one mesh"
+    return Item(
+        name=piece.rpartition("/")[2],
+        piece=piece,
+        scene=scene,
+        transactions=tuple(transactions),
+        materials=tuple(each.material for each in fitted),
+        low=np.floor(points.min(axis=0)).astype(np.int64),
+        high=np.ceil(points.max(axis=0)).astype(np.int64),
+    )

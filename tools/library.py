@@ -1,0 +1,94 @@
+"""Write contracts/src/library/Shelf.sol, the table of the library on chain.
+
+    python tools/library.py            writes it
+    python tools/library.py --check    writes nothing; fails if it is not up to date
+
+The table has the addresses at which the Studio keeps the items, which are made of their bytes and the address of the
+Studio: run it after tools/build_contracts.py whenever the Studio has changed, then compile the group "library".
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from shackled.library import Item, items
+from shackled.scene import SHADINGS
+
+ROOT = Path(__file__).resolve().parent.parent
+SHELF = ROOT / "contracts" / "src" / "library" / "Shelf.sol"
+#: Digits of a line.
+WIDTH = 120
+IS_ICON = 0x80
+
+
+def row(item: Item) -> bytes:
+    """Return the row of an item, as Library.sol says."""
+    name = item.name.encode()
+    numbers = [*item.low, *item.high]
+    meshes = b"".join(
+        pointer
+        + bytes(
+            [
+                SHADINGS[each.shading],
+                *(round(100 * part) for part in (each.ambient, each.diffuse, each.specular)),
+                round(each.shininess),
+            ]
+        )
+        for pointer, each in zip(item.meshes, item.materials, strict=True)
+    )
+    return (
+        bytes([len(name)])
+        + name
+        + bytes([(IS_ICON if item.is_icon else 0) | len(item.meshes)])
+        + item.pointer
+        + b"".join(int(value).to_bytes(2, "big", signed=True) for value in numbers)
+        + item.scene.triangles.to_bytes(2, "big")
+        + meshes
+    )
+
+
+def source() -> str:
+    """Return the source with the table of all items."""
+    rows = "".join(_literal(row(item).hex(), item.name) for item in items())
+    return f"""// SPDX-License-Identifier: MIT
+pragma solidity 0.8.37;
+
+// Written by tools/library.py.
+
+/// @notice The table of the library: a row for each item, as Library.sol says.
+library Shelf {{
+    /// @notice How many items there are.
+    uint256 internal constant COUNT = {len(items())};
+
+    function table() internal pure returns (bytes memory) {{
+        return
+{rows.rstrip()};
+    }}
+}}
+"""
+
+
+def _literal(digits: str, name: str) -> str:
+    lines = [digits[at : at + WIDTH] for at in range(0, len(digits), WIDTH)]
+    return f"            // {name}\n" + "".join(f'            hex"{line}"\n' for line in lines)
+
+
+def main() -> int:
+    """Write or check the table."""
+    parser = argparse.ArgumentParser(description="Write the table of the library on chain.")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail if it is not up to date")
+    check = parser.parse_args().check
+    text = source()
+    if check and SHELF.read_text("utf-8") != text:
+        print("contracts/src/library/Shelf.sol is not up to date: run tools/library.py", file=sys.stderr)
+        return 1
+    if not check:
+        SHELF.write_text(text, "utf-8", newline="\n")
+        print(f"{SHELF.relative_to(ROOT)}: {len(items())} items")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
