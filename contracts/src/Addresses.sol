@@ -12,12 +12,12 @@ library Addresses {
     address internal constant ANTIALIASED_FRAGMENT_ENGINE = 0x670718e190aA67528134c65EC6C9BC097a31D1bc;
     address internal constant EFFECTS_ENGINE = 0x221BD61D9c9609392891B7f07A8cAb6ECDC1f30e;
     address internal constant EFFECTS = 0xD292e1096b5e64589e95345124bF149a73CFfE11;
-    address internal constant RENDERER = 0x822AB45598411Fc4c5e193ADe427fAC7971BFF75;
-    address internal constant ORIGINAL = 0x44075ADA7f7aac453d3c0F246107dC6f170c81E0;
-    address internal constant GENESIS = 0x92CF5EFAfB0636BA4e8ACf86bE0CCbbE1Acf98a0;
-    address internal constant PNG_ENCODER = 0x1f8059e3E3bCe2bF238Ed669FA4B8aC318628Df1;
-    address internal constant TURNTABLE = 0xbD745d76AD8364EdDBDA3EC0Ee27202f49053a68;
-    address internal constant GLB_ENCODER = 0xE41aFF7484BA7bf49fAf857Dc49c1b52A5bB78db;
-    address internal constant STUDIO = 0x92387C87be93087b5aDA5E2f017a519B70732511;
-    address internal constant GENESIS_METADATA = 0xc73e72912a2291fbDF01cf19bE650A6702994842;
+    address internal constant RENDERER = 0x3a4Ce0Fb14b7B882015b6Ae173A73F51b3d2C08F;
+    address internal constant ORIGINAL = 0xb43e2f4aE55a140347A62a2c97Dc3b8c2412d4F3;
+    address internal constant GENESIS = 0x7bDB96a46969Cf487eFd8e73c7d5df0Db4745003;
+    address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
+    address internal constant TURNTABLE = 0x9fe10CA7597Fc6Bc26C10e78ad87E2DDe48F8717;
+    address internal constant GLB_ENCODER = 0x1a839Be185c1924644175712A16a34E19341160d;
+    address internal constant STUDIO = 0x01416fA42cE066371c16CE4D7463fdeE71654ee8;
+    address internal constant GENESIS_METADATA = 0x312a22d0c76EF1E3A7f3d72a532211c70E240Bfb;
 }

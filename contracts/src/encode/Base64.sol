@@ -62,8 +62,9 @@ library Base64 {
             let text := EACH_A
             for {} lt(data, last) { data := add(data, 96) } {
                 let change := xor(mload(data), mload(add(data, 24)))
-                change := or(change, xor(mload(add(data, 32)), mload(add(data, 56))))
-                change := or(change, xor(mload(add(data, 40)), mload(add(data, 64))))
+                if iszero(change) {
+                    change := or(xor(mload(add(data, 32)), mload(add(data, 56))), xor(mload(add(data, 40)), mload(add(data, 64))))
+                }
                 switch change
                 case 0 {
                     let bits := shr(64, mload(data))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
+import {Fixed} from "../math/Fixed.sol";
+import {Vector} from "../math/Vector.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 
 // Bytes of the parts of a mesh; a vertex without a normal, its coordinates of 16 bits.
@@ -41,6 +43,28 @@ library PackedMesh {
                 mstore(add(high, shl(5, axis)), most)
             }
         }
+    }
+
+    /// @notice The largest product of a vertex with a direction, and whether there are vertices, all of them.
+    function reach(bytes memory mesh, Vector memory direction) internal pure returns (Fixed most, bool any) {
+        (uint256 begin, uint256 end, uint256 size, uint256 stride) = vertices(mesh);
+        if (begin >= end) return (most, false);
+        (int256 x, int256 y, int256 z) = (direction.x.raw(), direction.y.raw(), direction.z.raw());
+        int256 best = type(int256).min;
+        assembly ("memory-safe") {
+            // bits of a coordinate, which stands uppermost in the word that begins with it
+            let bits := shl(3, size)
+            let cut := sub(256, bits)
+            for {} lt(begin, end) { begin := add(begin, stride) } {
+                let word := mload(begin)
+                let value := mul(x, sar(cut, word))
+                word := shl(bits, word)
+                value := add(value, mul(y, sar(cut, word)))
+                value := add(value, mul(z, sar(cut, shl(bits, word))))
+                if sgt(value, best) { best := value }
+            }
+        }
+        return (Fixed.wrap(best), true);
     }
 
     /// @notice Where the vertices are.

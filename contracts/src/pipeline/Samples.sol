@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {BEYOND_BYTE_85, BEYOND_CARRY, BEYOND_SIGN} from "./ExactSpans.sol";
-import {BLUE_Q10_AT, GREEN_Q10_AT, HALF_85, HALF_85_Q10, ONES_85, RED_Q10_AT} from "./ExactSpans.sol";
+import {BLUE_Q10_AT, GREEN_Q10_AT, HALF_85_Q10, ONES_85, RED_Q10_AT} from "./ExactSpans.sol";
 import "./Registers.sol";
 
 // Fragments of four samples: see SampleRasterizer. In each lane of a pixel stand a depth and a colour; what is nearer replaces both. Where

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {BOTTOM_AT, CONSTANT_AT, LAST_EDGE, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
+import {BOTTOM_AT, LAST_EDGE, ROW_MASK, TOP_AT, X_AT, Y_AT} from "../shadows/Receivers.sol";
 import "./Registers.sol";
 
 // The samples of a row that are in the shadow: a word of four lanes for each pixel, of which the highest bit of each is set where more

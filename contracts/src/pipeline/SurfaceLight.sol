@@ -2,7 +2,7 @@
 pragma solidity 0.8.37;
 
 import {Gamma} from "../math/Gamma.sol";
-import {TONE_FILMIC, TONE_GAMMA} from "../scene/EffectRecords.sol";
+import {TONE_FILMIC, TONE_GAMMA} from "../scene/Records.sol";
 import {FragmentLight} from "./FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "./Registers.sol";
@@ -33,14 +33,14 @@ uint256 constant FILMIC_3 = 3 << 16;
 uint256 constant FILMIC_14 = 14 << 32;
 /// @dev The end of the lanes of a colour.
 uint256 constant LANES_END = 3 * 56;
-/// @dev What a lane of ALBEDO_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to
+/// @dev What a lane of COLOR_0 has besides its colour: 2^24; what brings lanes above 255, Q10, to bit 18; the bits that a colour of 0 to
 /// 255 has not.
 uint256 constant ALBEDO_BIAS = 0x10000000000000100000000000001000000;
 uint256 constant ALBEDO_SLACK = 0x3ff000000000003ff000000000003ff;
 uint256 constant BEYOND_ALBEDO = 0xfffc0000000000fffc0000000000fffc0000;
 
 library SurfaceLight {
-    /// @notice The colour where the accumulator and the ray are these: signed lanes of 85 bits, Q10, not kept below 255.
+    /// @notice The colour where the accumulator and the ray are these.
     /// @param attribute The accumulator of barycentric coordinates.
     /// @param x, y As for FragmentLight.
     /// @return color Three bytes, blue uppermost.
@@ -200,8 +200,7 @@ library SurfaceLight {
     function rimAt() private pure returns (uint256 strength) {
         unchecked {
             uint256 normalRay = load(FRAGMENT_NORMAL_RAY);
-            uint256 length = load(FRAGMENT_NORMAL_LENGTH);
-            length *= load(FRAGMENT_RAY_LENGTH);
+            uint256 length = load(FRAGMENT_NORMAL_LENGTH) * load(FRAGMENT_RAY_LENGTH);
             uint256 part;
             assembly ("memory-safe") {
                 // 1 - N.V, where V = -ray

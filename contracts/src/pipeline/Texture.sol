@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {TEXTURE_BILINEAR, TEXTURE_CLAMP, TEXTURE_COLOR_BITS, TEXTURE_HEADER, UV_SIZE} from "../scene/EffectRecords.sol";
+import {TEXTURE_COLOR_BITS, TEXTURE_HEADER, UV_SIZE} from "../scene/EffectRecords.sol";
+import {TEXTURE_BILINEAR, TEXTURE_CLAMP} from "../scene/Records.sol";
 import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "./Registers.sol";

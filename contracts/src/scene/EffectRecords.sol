@@ -1,8 +1,24 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ANTIALIAS, Extensions, RECORD_HEADER} from "./Extensions.sol";
+import {Extensions} from "./Extensions.sol";
 import {openMesh} from "./Mesh.sol";
+import {
+    ANTIALIAS,
+    FOG,
+    GROUND,
+    HEMISPHERE,
+    RECORD_HEADER,
+    RIM,
+    SHADOW,
+    SHADOWS_TURNED,
+    TEXTURE_BILINEAR,
+    TEXTURE_CLAMP,
+    TEXTURE_OF,
+    TONE,
+    TONE_FILMIC,
+    TONE_GAMMA
+} from "./Records.sol";
 import {Scene} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -29,15 +45,6 @@ import {SceneErrors} from "./SceneErrors.sol";
 //
 // What they do is told in SurfaceLight, Texture and Ground.
 
-uint256 constant HEMISPHERE = 4;
-uint256 constant RIM = 5;
-uint256 constant FOG = 6;
-uint256 constant TONE = 7;
-uint256 constant TEXTURE_OF = 8;
-uint256 constant OPACITIES_OF = 9;
-uint256 constant SHADOW = 10;
-uint256 constant GROUND = 11;
-
 uint256 constant HEMISPHERE_SIZE = 6;
 uint256 constant RIM_SIZE = 4;
 uint256 constant FOG_SIZE = 19;
@@ -48,12 +55,6 @@ uint256 constant MAX_RIM_POWER = 16;
 int256 constant MAX_FOG_DISTANCE = 1 << 58;
 /// @dev Q16.
 uint256 constant MAX_EXPOSURE = 64 << 16;
-/// @dev Flags of a TONE: the filmic curve; light is added up in linear values, of which colours are decoded and encoded as sRGB.
-uint256 constant TONE_FILMIC = 1;
-uint256 constant TONE_GAMMA = 2;
-/// @dev Flags of a TEXTURE: colours are interpolated; beyond the border its colours go on.
-uint256 constant TEXTURE_BILINEAR = 1;
-uint256 constant TEXTURE_CLAMP = 2;
 /// @dev Bytes before the palette; bits of a texel that is a colour; bytes of a pair of coordinates; 2^bits of all bits that a texel may
 /// have.
 uint256 constant TEXTURE_HEADER = 4;
@@ -62,12 +63,6 @@ uint256 constant UV_SIZE = 6;
 uint256 constant BITS_ALLOWED = 0x1000116;
 /// @dev The greatest radius of a GROUND, 2^26 units, Q32.
 uint256 constant MAX_FADE = 1 << 58;
-
-/// @dev Which faces of culled objects cast shadows: all; those turned away from the light, enough where all such objects together are
-/// closed; those turned to it.
-uint256 constant SHADOWS_ALL = 1;
-uint256 constant SHADOWS_AVERSE = 2;
-uint256 constant SHADOWS_TURNED = 3;
 
 library EffectRecords {
     /// @notice Checks all records of effects.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {ANTIALIAS, LONG_KINDS, OPACITY_OF, RECORD_HEADER, SPOT} from "./Records.sol";
 import {Scene, POINT} from "./Scene.sol";
 import {SceneErrors} from "./SceneErrors.sol";
 
@@ -21,14 +22,6 @@ import {SceneErrors} from "./SceneErrors.sol";
 //
 // Kind and index, taken together as one number, ascend strictly. What is not there has its default: there is one way only to say a thing.
 
-uint256 constant SPOT = 1;
-uint256 constant OPACITY_OF = 2;
-uint256 constant ANTIALIAS = 3;
-
-/// @dev The first kind of which sizes are told in words.
-uint256 constant LONG_KINDS = 8;
-
-uint256 constant RECORD_HEADER = 5;
 uint256 constant SPOT_SIZE = 40;
 uint256 constant OPACITY_SIZE = 4;
 
@@ -88,37 +81,6 @@ library Extensions {
 
     function inRange(int256 value) private pure returns (bool) {
         return value >= -MAX_COORDINATE && value <= MAX_COORDINATE;
-    }
-
-    /// @notice The records in memory with one more, which replaces one of the same kind and index.
-    function added(bytes memory records, uint256 kind, uint256 index, bytes memory content) internal pure returns (bytes memory more) {
-        unchecked {
-            // in words, for kinds from LONG_KINDS on
-            uint256 size = content.length >> (kind < LONG_KINDS ? 0 : 5);
-            bytes memory record = abi.encodePacked(uint8(kind), uint16(index), uint16(size), content);
-            uint256 key = kind << 16 | index;
-            // where the record belongs, and where those after it begin
-            (uint256 place, uint256 next) = (0, 0);
-            while (next < records.length) {
-                uint256 header;
-                assembly ("memory-safe") {
-                    header := shr(216, mload(add(add(records, 32), next)))
-                }
-                if (header >> 16 > key) break;
-                uint256 end = next + RECORD_HEADER + ((header & 0xffff) << (header >> 32 < LONG_KINDS ? 0 : 5));
-                if (end > records.length) revert SceneErrors.ExtensionCutOff(next);
-                next = end;
-                if (header >> 16 < key) place = next;
-            }
-            more = new bytes(place + record.length + records.length - next);
-            assembly ("memory-safe") {
-                let target := add(more, 32)
-                mcopy(target, add(records, 32), place)
-                target := add(target, place)
-                mcopy(target, add(record, 32), mload(record))
-                mcopy(add(target, mload(record)), add(add(records, 32), next), sub(mload(records), next))
-            }
-        }
     }
 
     /// @return record The first record of a scene.

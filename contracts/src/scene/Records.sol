@@ -3,8 +3,8 @@ pragma solidity ^0.8.25;
 
 import {SceneErrors} from "./SceneErrors.sol";
 
-// Records for `Scene.extensions`, made in memory, with the numbers that `Extensions.sol` and `EffectRecords.sol` explain. They stand here
-// once more, since contracts outside cannot import those: they need a compiler for newer EVMs.
+// The numbers of the records of `Scene.extensions`, which `Extensions.sol` and `EffectRecords.sol` explain, and records made in memory.
+// Contracts outside import this file, whatever the EVM that they are compiled for.
 
 uint256 constant SPOT = 1;
 uint256 constant OPACITY_OF = 2;
@@ -37,7 +37,7 @@ uint256 constant SHADOWS_AVERSE = 2;
 uint256 constant SHADOWS_TURNED = 3;
 
 /// @notice The records in memory with one more, which replaces one of the same kind and index.
-/// @dev As `Extensions.added`, but without MCOPY, which compilers for older EVMs do not know.
+/// @dev Without MCOPY, which older EVMs do not have.
 function addRecord(bytes memory records, uint256 kind, uint256 index, bytes memory content) pure returns (bytes memory more) {
     unchecked {
         // in words, for kinds from LONG_KINDS on

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
+import {load, loadSigned, store} from "../pipeline/Memory.sol";
 import {BESIDE, BUCKETS, CUBE, EVERYWHERE, Frame, LightSpace, PLACE_BUCKETS, SIDE_AT} from "./LightSpace.sol";
 
 // Faces in the space of the light, and which of them may shade a face.

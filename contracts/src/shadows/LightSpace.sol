@@ -7,7 +7,7 @@ import {sqrt} from "../math/Roots.sol";
 import {Vector, normalize} from "../math/Vector.sol";
 import {Mesh} from "../scene/Mesh.sol";
 import {Light, Object, POINT} from "../scene/Scene.sol";
-import {load, loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
+import {loadSigned, store, storeSigned} from "../pipeline/Memory.sol";
 
 // The space of the light. z points toward a directional light, and from a point light to what casts shadows. Its origin is the middle of
 // what casts shadows, or the point light. The farthest place that casts a shadow has coordinates of 20 bits, with the sign.

@@ -3,9 +3,8 @@ pragma solidity 0.8.37;
 
 import {ZERO} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
-import {Matrix} from "../math/Quaternion.sol";
-import {GROUND, OPACITIES_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/EffectRecords.sol";
-import {Extensions, OPACITY_OF} from "../scene/Extensions.sol";
+import {Extensions} from "../scene/Extensions.sol";
+import {GROUND, OPACITIES_OF, OPACITY_OF, SHADOW, SHADOWS_ALL, SHADOWS_TURNED} from "../scene/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Object, Scene, CULL_BACKFACES, FLAT, UNLIT, WIREFRAME} from "../scene/Scene.sol";
 import {Indices} from "../pipeline/Indices.sol";
@@ -14,7 +13,7 @@ import {Transform} from "../uniforms/Transform.sol";
 import {View} from "../uniforms/View.sol";
 import {ADDRESS_MASK, CASTER_SIZE, FACE_ENTRY, FACE_RECORD_SIZE, FACE_SIDE, Faces, PLANES_SIZE} from "./Faces.sol";
 import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
-import {CHAINS, COVERED, LAST_EDGE, MISSED, RECEIVER_SIZE, Receiver, Receivers} from "./Receivers.sol";
+import {CHAINS, COVERED, LAST_EDGE, MISSED, Receiver, Receivers} from "./Receivers.sol";
 import "../pipeline/Registers.sol";
 
 // Which parts of which faces one light does not reach.

@@ -4,10 +4,11 @@ pragma solidity 0.8.37;
 import {Gamma} from "../math/Gamma.sol";
 import {Matrix} from "../math/Quaternion.sol";
 import {Vector} from "../math/Vector.sol";
+import {EffectRecords} from "../scene/EffectRecords.sol";
+import {Extensions} from "../scene/Extensions.sol";
 import {
-    EffectRecords, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
-} from "../scene/EffectRecords.sol";
-import {ANTIALIAS, Extensions, RECORD_HEADER} from "../scene/Extensions.sol";
+    ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, RECORD_HEADER, RIM, SHADOW, TEXTURE_OF, TONE, TONE_GAMMA
+} from "../scene/Records.sol";
 import {Light, Material, Object, Scene, UNLIT} from "../scene/Scene.sol";
 import {Lights} from "./Lights.sol";
 import {MeshSpace} from "./MeshSpace.sol";

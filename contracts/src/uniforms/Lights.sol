@@ -3,7 +3,8 @@ pragma solidity 0.8.37;
 
 import {Fixed} from "../math/Fixed.sol";
 import {Vector, normalize} from "../math/Vector.sol";
-import {Extensions, SPOT, SPOT_SIZE, RECORD_HEADER} from "../scene/Extensions.sol";
+import {Extensions, SPOT_SIZE} from "../scene/Extensions.sol";
+import {RECORD_HEADER, SPOT} from "../scene/Records.sol";
 import {Light, Scene, POINT} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../pipeline/Registers.sol";

@@ -3,8 +3,8 @@ pragma solidity 0.8.37;
 
 import {Matrix} from "../math/Quaternion.sol";
 import {Object, Rectangle, Scene, UNLIT, WIREFRAME} from "../scene/Scene.sol";
-import {ANTIALIAS, Extensions, OPACITY_OF, OPACITY_SIZE, OPAQUE, RECORD_HEADER} from "../scene/Extensions.sol";
-import {OPACITIES_OF} from "../scene/EffectRecords.sol";
+import {Extensions, OPACITY_SIZE, OPAQUE} from "../scene/Extensions.sol";
+import {ANTIALIAS, OPACITIES_OF, OPACITY_OF, RECORD_HEADER} from "../scene/Records.sol";
 import {Mesh, openMesh} from "../scene/Mesh.sol";
 import {Lights} from "./Lights.sol";
 import {Materials} from "./Materials.sol";
