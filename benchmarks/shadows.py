@@ -13,8 +13,9 @@ from statistics import fmean
 from attrs import evolve
 from tools.pages import ROOT, update
 
-from shackled import Ground, Scene, load, render
+from shackled import Camera, Ground, Light, Material, Object, Scene, load, render
 from shackled.datasets import pieces
+from shackled.datasets.common.shapes import sphere
 
 PAGE = ROOT / "docs" / "shadows.md"
 
@@ -27,7 +28,19 @@ def groups() -> dict[str, list[Scene]]:
         "the same, flat": [load(name, size=128, shading="flat") for name in models],
         "28 icons": [load(piece.name) for piece in pieces("icons")],
         "Genesis 0 to 23": [load(f"genesis/{number}") for number in range(24)],
+        "a point light amid six spheres": [amid_spheres()],
     }
+
+
+def amid_spheres() -> Scene:
+    """Return a scene with a point light in the middle of six spheres of 504 triangles each."""
+    places = [(4, 0, 0), (-4, 0, 0), (0, 4, 0), (0, -4, 0), (0, 0, 4), (0, 0, -4)]
+    ball = sphere(21, 13)
+    return Scene(
+        camera=Camera(eye=(14, 8, 18), target=(0, 0, 0)),
+        lights=[Light("point", (0, 0, 0))],
+        objects=[Object(ball, position=place, material=Material(shading="flat")) for place in places],
+    )
 
 
 def table(scenes: dict[str, list[Scene]]) -> str:

@@ -63,6 +63,8 @@ def take(seeds: int = SEEDS) -> Figures:
         price = list(ICONS.values())[1][3]
         s.icons.send("mint", 1, 1, sender=s.bob, value=price)
         figures["mint 1 icon"] = s.icons.send("mint", 1, 1, sender=s.alice, value=price).gas
+    with s.world.attempt():
+        figures |= editions(s)
     s.mint(5)
     with s.world.attempt():
         figures["transfer, the first of 5"] = s.genesis.send("transferFrom", s.alice, s.bob, 1, sender=s.alice).gas
@@ -75,6 +77,24 @@ def take(seeds: int = SEEDS) -> Figures:
     s.reveal(0)
     figures["tokenURI, what the collection adds"] = added(s)
     figures |= token_uris(s, seeds)
+    return figures
+
+
+def editions(s: Stage) -> Figures:
+    """Measure the collection to which anybody adds scenes."""
+    contract = s.world.deploy("Editions", s.studio)
+    figures = {"deploy Editions": contract.gas}
+    for number, name in enumerate(("lightning", "crown")):
+        pointer = store_scene(s.studio, icon_scene(f"icons/{name}"))
+        receipt = contract.send("add", name, pointer, 4, PRICE, 100, 500, 1, sender=s.owner)
+        figures[f"add an edition and mint 1, the {name}"] = receipt.gas
+        figures[f"tokenURI of an edition, the {name}"] = contract.gas_of("tokenURI", number)
+    for quantity in (1, 5):
+        with s.world.attempt():
+            receipt = contract.send("mint", 0, quantity, sender=s.alice, value=quantity * PRICE)
+            figures[f"mint {quantity} of an edition"] = receipt.gas
+            figures["withdraw of an edition"] = contract.send("withdraw", [0], s.owner, sender=s.owner).gas
+    figures["close an edition"] = contract.send("close", 0, sender=s.owner).gas
     return figures
 
 

@@ -37,6 +37,8 @@ EXTRA_OF = {
     "creator": "creator",
     "parallel/_cluster.py": "cluster",
     "scene/_simplify.py": "simplify",
+    "preview/_server.py": "creator",
+    "serving/": "creator",
     "web/_widget.py": "jupyter",
 }
 

@@ -5,7 +5,7 @@
 
 `npm pack` and `npm publish` in build/npm take it from there. The folder contains the sources of contracts/src, the
 files of contracts/npm, docs/contract-authors.md as README, and what is made of the compiled contracts: artifacts, ABIs
-with types, addresses, and the X
+with types, addresses, and the code for the Foundry fixture.
 """
 
 from __future__ import annotations

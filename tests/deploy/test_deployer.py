@@ -75,6 +75,7 @@ def test_addresses_come_from_the_code() -> None:
 
 def test_the_contracts_that_are_deployed(wanted: list[Deployment]) -> None:
     assert [each.name for each in wanted] == list(STANDARD)
+    assert {"Studio", "PngEncoder", "Library"} < set(STANDARD)
     local = local_chain()
     for each in wanted:
         assert each.address == local.address(each.name)

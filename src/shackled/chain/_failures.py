@@ -22,7 +22,7 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
-from ..ethereum import decode_error, to_hex
+from ..ethereum import Errors, decode_error, to_hex
 from ..untrusted import plain
 
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
@@ -224,11 +224,14 @@ def revert_error(data: bytes, gas_limit: int) -> ChainError:
     return out_of_gas(gas_limit) if description == "OutOfGas()" else RenderError(f"the contract refused: {description}")
 
 
-def describe_revert(data: bytes) -> str:
-    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)"."""
+def describe_revert(data: bytes, errors: Errors | None = None) -> str:
+    """Write the data of a revert as text, such as "CanvasSize(width=0, height=17)".
+
+    errors: that it may be, by selector; None for those of the contracts of the package.
+    """
     if not data:
         return "the data of the call is not a scene that is encoded correctly"
-    found = decode_error(data, known_errors())
+    found = decode_error(data, known_errors() if errors is None else errors)
     if found is None:
         return f"error {to_hex(data[:68])}"
     name, values = found

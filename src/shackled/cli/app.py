@@ -21,8 +21,10 @@ from .deploy import deploy
 from .export import export
 from .gas import gas
 from .genesis import genesis
+from .library import library
 from .mint import mint
 from .option import with_options
+from .preview import preview
 from .render import render
 from .stages import stages
 from .token import token
@@ -44,7 +46,9 @@ app.command()(stages)
 app.command()(deploy)
 app.command()(mint)
 app.command()(creator)
+app.command()(preview)
 app.add_typer(datasets, name="datasets")
+app.add_typer(library, name="library")
 app.add_typer(token, name="token")
 
 

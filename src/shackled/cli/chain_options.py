@@ -189,17 +189,20 @@ def print_price(quotes: Sequence[Quote]) -> None:
     )
 
 
-def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote]) -> None:
+def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json: bool, **more: str) -> None:
     """Write transactions as JSON, so that a wallet can send them: the chain, and calls as in EIP-5792.
 
-    quotes: what each one is for, in the order in which they must be sent.
+    quotes: what each one is for, in the order in which they must be sent. as_json: also print it, with `more`.
     """
     calls = []
     for name, each in quotes.items():
         call, to = each.call, each.call.to
         fields = {"value": hex(call.value), "data": f"0x{call.data.hex()}", "gas": hex(each.gas)}
         calls.append({"name": name, "to": to and checksum_address(to), **fields})
-    write_output(path, (json.dumps({"chainId": hex(chain_id), "calls": calls}, indent=1) + "\n").encode())
+    document = {"chainId": hex(chain_id), "calls": calls}
+    write_output(path, (json.dumps(document, indent=1) + "\n").encode())
+    if as_json:
+        print_json({**more, **document})
     print_note(
         f"nothing was sent: {path} has {plural(len(calls), 'transaction')}, which any account can send in this order, "
         f"with {sum(each.gas for each in quotes.values()):,} gas in all"

@@ -33,8 +33,8 @@ def deploy(
         option(
             "--contracts",
             "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
-            "EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, "
-            "GenesisMetadata; without it, the first nine. Contracts that they call are added.",
+            "EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, Library, "
+            "Web, Editions, GenesisMetadata; without it, all but the last. Contracts that they call are added.",
             "NAMES",
         ),
     ] = None,
@@ -68,7 +68,7 @@ def deploy(
     if plan.missing:
         _print_plan(plan, connection, as_json)
         if calldata is not None:
-            write_calls(calldata, connection.chain_id, wallet_calls(plan))
+            write_calls(calldata, connection.chain_id, wallet_calls(plan), as_json)
             return
         transactor = payer.transactor(connection)
         transactor.on_delay = print_note

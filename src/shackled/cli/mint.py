@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..errors import InputError
 from ..image import FORMATS, one_of
 from .chain_options import (
     NodeOptions,
@@ -54,6 +55,10 @@ def mint(
     from ..scene import READERS
     from ..tokens import SceneToStore, licence_of, plan_storage, read_back, store, token_scene
 
+    if calldata is not None and output is not None:
+        raise InputError(
+            "--calldata sends nothing, so no chain can draw the picture that --output writes: leave one out"
+        )
     path = None if output is None else check_output(output)
     pixels = None if size is None else parse_size(size)
     source = locate(input)
@@ -86,8 +91,10 @@ def mint(
             parts = {
                 f"store part {number} of {each.name}": each.quote for number, each in enumerate(storage.missing, 1)
             }
-            write_calls(calldata, connection.chain_id, wallet_calls(storage.parts) | parts)
-            print_line(f"pointer  {pointer}")
+            calls = wallet_calls(storage.parts) | parts
+            write_calls(calldata, connection.chain_id, calls, as_json, pointer=pointer)
+            if not as_json:
+                print_line(f"pointer  {pointer}")
             return
         transactor = payer.transactor(connection)
         payer.confirm(transactor)
@@ -117,3 +124,4 @@ def mint(
     print_line(f"drawing  {drawing}" + ("" if path is None else f", in {path}"))
     print_line(f"in Solidity:  Studio({storage.studio}).renderDataURI({pointer}, 4)")
     print_line(f"command line: shackled token picture {pointer} -o FILE.png")
+    print_line(f"as tokens:    shackled token edition add {pointer} NAME --price ETHER")

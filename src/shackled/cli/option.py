@@ -14,8 +14,11 @@ from ..scene import INNER_ANGLE, LIGHT_KINDS, MAX_SIDE, WHITE, Light
 OPTIONS = {
     "address": "--address",
     "any_chain": "--any-chain",
+    "arg": "--arg",
     "chain": "--chain",
     "cluster": "--cluster",
+    "contract": "--contract",
+    "contracts": "--contracts",
     "gas_limit": "--gas-limit",
     "host": "--host",
     "jobs": "--jobs",
