@@ -25,7 +25,7 @@ from shackled.ethereum import word
 from shackled.evm import Instance, Status
 from shackled.image import decode_bmp
 from shackled.library import chosen_items, items
-from shackled.scene import encode_scene
+from shackled.scene import encode_scene, fit
 
 GAS = 1_000_000_000
 #: The first byte of a pointer to a mesh (contracts/src/mesh/Kinds.sol).
@@ -91,7 +91,7 @@ def test_objects_that_fit(chain: Chain, name: str) -> None:
     objects = chain.call("Library", "objects", name, 100 << 32)
     interface = artifact("Renderer").interface
     struct = interface.parameter_type("render")
-    (scene,) = decode_abi([struct], word(32) + encode_scene(item.scene))
+    (scene,) = decode_abi([struct], word(32) + encode_scene(fit(item.scene)))
     assert [each[0] for each in objects] == [bytes([POINTED]) + mesh for mesh in item.meshes]
     for (_, position, rotation, scale, material, flags), expected in zip(objects, scene[-2], strict=True):
         sides = (item.high - item.low) * scale / 2**32

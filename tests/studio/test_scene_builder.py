@@ -14,9 +14,8 @@ from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
+from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, unpack
 from shackled.scene import decode as decode_scene
-from shackled.scene import is_closed, pack, pack_texture, unpack
-from shackled.scene._staging import Viewpoint, frame
 from shackled.studio import scene_struct, split_mesh
 
 SCENE_STRUCT = scene_struct()

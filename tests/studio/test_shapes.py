@@ -15,9 +15,7 @@ from tools.examples import compile_example
 from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError
-from shackled.scene import is_closed, unpack
-from shackled.scene._mesh import vertex_normals
-from shackled.scene._packed_mesh import NORMAL_UNIT
+from shackled.scene import NORMAL_UNIT, is_closed, unpack, vertex_normals
 
 ROOT = Path(__file__).resolve().parents[2]
 CENTER = np.array([10, 20, 30])
@@ -61,7 +59,8 @@ def extent(mesh: Mesh) -> list[list[int]]:
 
 def said_of(name: str, kinds: str, *values: int) -> set[str]:
     """What is said of an error of a library and its values: its data, or its text if an artifact has such an error."""
-    return {f"error 0x{call_data(f'{name}({kinds})', *values).hex()}", f"{name}(count={values[0] if values else None})"}
+    decoded = {f"{name}({label}={values[0]})" for label in ("count", "size") if values}
+    return {f"error 0x{call_data(f'{name}({kinds})', *values).hex()}", *decoded}
 
 
 BOX = "box(int256[6])"

@@ -33,5 +33,5 @@ def pixels(uri: str) -> NDArray[np.uint8]:
 
 def traits(found: dict[str, Any]) -> dict[str, Any]:
     """The attributes by their names; each is a name with a value."""
-    assert all(set(each) == {"trait_type", "value"} for each in found["attributes"])
+    assert all(set(each) - {"display_type"} == {"trait_type", "value"} for each in found["attributes"])
     return {each["trait_type"]: each["value"] for each in found["attributes"]}

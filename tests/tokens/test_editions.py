@@ -233,7 +233,7 @@ def test_every_name_is_valid_json(shared: Show, name: str) -> None:
     with shared.world.attempt():
         shared.add(name=name, copies=1)
         found = document(shared.editions.call("tokenURI", 0))
-    assert list(found) == ["name", "description", "attributes", "image"]
+    assert list(found) == ["name", "description", "external_url", "attributes", "image"]
     assert found["name"] == f"{name} #0"
 
 

@@ -64,7 +64,7 @@ def test_the_traits_are_those_of_the_model(revealed: Stage) -> None:
         seed = s.genesis.call("seedOf", token)
         piece = generate(seed)
         found = document(s.genesis.call("tokenURI", token))
-        assert list(found) == ["name", "description", "attributes", "image"]
+        assert list(found) == ["name", "description", "external_url", "background_color", "attributes", "image"]
         assert found["name"] == f"Genesis #{token}"
         assert f" {INDEPENDENT} Seed 0x{seed.hex()}." in found["description"]
         assert traits(found) == {
@@ -125,7 +125,7 @@ def test_length_and_gas(revealed: Stage) -> None:
 
 def test_the_collection_speaks_of_itself(revealed: Stage) -> None:
     found = document(revealed.genesis.call("contractURI"))
-    assert list(found) == ["name", "symbol", "description", "image"]
+    assert list(found) == ["name", "symbol", "description", "banner_image", "image"]
     assert found["description"].endswith(f" {INDEPENDENT}")
     assert (found["name"], found["symbol"]) == ("Shackled Genesis", "SHKG")
     assert (found["name"], found["symbol"]) == tuple(revealed.genesis.call(each) for each in ("name", "symbol"))

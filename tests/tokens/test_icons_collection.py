@@ -361,7 +361,7 @@ def test_names_that_try_to_be_more(s: Stage, name: str) -> None:
     c.send("seal", sender=s.owner)
     c.send("mintReserve", 0, s.bob, 1, sender=s.owner)
     found = document(c.call("tokenURI", 0))
-    assert list(found) == ["name", "description", "attributes", "image"]
+    assert list(found) == ["name", "description", "external_url", "attributes", "image"]
     assert found["name"] == f"{name} #0"
     for said in (found, document(c.call("contractURI"))):
         assert said["description"].endswith(f" {INDEPENDENT}")

@@ -133,6 +133,32 @@ interface IEditions is StudioErrors {
     error TransferToZeroAddress();
     error URIQueryForNonexistentToken();
 
+    /// @notice The first token of the range is not before the last.
+    error InvalidQueryRange();
+
+    /// @param addr Who has the token.
+    /// @param startTimestamp Since when, in Unix time.
+    /// @param burned Never.
+    /// @param extraData The edition.
+    struct TokenOwnership {
+        address addr;
+        uint64 startTimestamp;
+        bool burned;
+        uint24 extraData;
+    }
+
+    /// @notice Who has a token and since when; all zero if there is no such token.
+    function explicitOwnershipOf(uint256 tokenId) external view returns (TokenOwnership memory);
+
+    /// @notice The same of several.
+    function explicitOwnershipsOf(uint256[] calldata tokenIds) external view returns (TokenOwnership[] memory);
+
+    /// @notice The tokens of an account. The gas grows with all tokens: it is meant for reading.
+    function tokensOfOwner(address owner) external view returns (uint256[] memory);
+
+    /// @notice The same among the tokens from `start` to before `stop`.
+    function tokensOfOwnerIn(address owner, uint256 start, uint256 stop) external view returns (uint256[] memory);
+
     /// @notice How many tokens there are, numbered from 0. None can be burned.
     function totalSupply() external view returns (uint256);
 

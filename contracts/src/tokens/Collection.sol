@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {ERC2981} from "@openzeppelin/contracts/token/common/ERC2981.sol";
 import {Sale} from "./Sale.sol";
 
@@ -20,6 +20,8 @@ struct Terms {
 /// @notice Royalties (ERC-2981), metadata of the collection (ERC-7572), news of changed metadata (ERC-4906), and ERC-165 for all of it.
 abstract contract Collection is Sale, ERC2981 {
     bytes4 internal constant ERC4906 = 0x49064906;
+    /// @dev `owner` and `transferOwnership`.
+    bytes4 internal constant ERC173 = 0x7f5828d0;
     uint96 internal constant HIGHEST_ROYALTY = 1000;
 
     /// @notice ERC-7572: the metadata of the collection has changed.
@@ -47,8 +49,9 @@ abstract contract Collection is Sale, ERC2981 {
     function contractURI() external view virtual returns (string memory);
 
     /// @inheritdoc ERC2981
-    function supportsInterface(bytes4 interfaceId) public view virtual override(ERC721A, ERC2981) returns (bool) {
-        return interfaceId == ERC4906 || ERC721A.supportsInterface(interfaceId) || ERC2981.supportsInterface(interfaceId);
+    function supportsInterface(bytes4 interfaceId) public view virtual override(ERC721A, IERC721A, ERC2981) returns (bool) {
+        return interfaceId == ERC4906 || interfaceId == ERC173 || ERC721A.supportsInterface(interfaceId)
+            || ERC2981.supportsInterface(interfaceId);
     }
 
     function royalize(address receiver, uint96 royalty) private {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721AQueryable} from "erc721a/contracts/extensions/ERC721AQueryable.sol";
 import {IERC2981} from "@openzeppelin/contracts/interfaces/IERC2981.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {IERC165} from "@openzeppelin/contracts/utils/introspection/IERC165.sol";
@@ -15,7 +16,7 @@ import {Utf8} from "./Utf8.sol";
 /// @title Editions: a collection to which anybody adds scenes, each of them an edition of tokens, limited or open.
 /// @notice There is no owner. Whoever adds a scene is its artist, and has no power over the editions of others. What an edition shows,
 /// costs and is called never changes; all that its artist can do later is to close it, and to withdraw what its tokens have cost.
-contract Editions is ERC721A, IERC2981, StudioErrors {
+contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
     using Strings for address;
     using Strings for uint256;
 
@@ -35,6 +36,9 @@ contract Editions is ERC721A, IERC2981, StudioErrors {
     /// @dev Of the picture of the collection: its side in pixels, and how many pixels each of them becomes.
     uint256 internal constant SIDE = 128;
     uint256 internal constant SCALE = 4;
+    /// @dev The sides of the collection's wide picture, in pixels.
+    uint256 internal constant BANNER_WIDTH = 256;
+    uint256 internal constant BANNER_HEIGHT = 64;
 
     /// @notice What keeps the scenes, and has them drawn.
     Studio public immutable studio;
@@ -216,7 +220,7 @@ contract Editions is ERC721A, IERC2981, StudioErrors {
 
     /// @notice The metadata of a token. They never change.
     /// @return A `data:` URI of JSON, the picture in it a PNG.
-    function tokenURI(uint256 tokenId) public view override returns (string memory) {
+    function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         uint256 edition = editionOf(tokenId);
         Edition storage it = editions[edition];
@@ -225,14 +229,16 @@ contract Editions is ERC721A, IERC2981, StudioErrors {
         string memory traits = string.concat(
             Json.trait("Edition", edition), ",", Json.trait("Artist", it.artist.toChecksumHexString()), ",", Json.trait("Supply", supply)
         );
-        show(Json.token(name_, DESCRIPTION, traits), drawing(it.scene, it.scale));
+        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
+        show(Json.token(name_, DESCRIPTION, fields, traits), drawing(it.scene, it.scale));
     }
 
     /// @notice ERC-7572: the metadata of the collection. Its picture is nobody's: the edges of a solid of eight faces.
     /// @return A `data:` URI of JSON.
     function contractURI() external view returns (string memory) {
-        bytes memory request = abi.encodeCall(Studio.drawDataURI, (Placeholder.scene(SIDE), SCALE));
-        show(Json.collection(name(), symbol(), DESCRIPTION), request);
+        string memory banner = studio.drawDataURI(Placeholder.scene(BANNER_WIDTH, BANNER_HEIGHT), SCALE);
+        bytes memory request = abi.encodeCall(Studio.drawDataURI, (Placeholder.scene(SIDE, SIDE), SCALE));
+        show(Json.collection(name(), symbol(), DESCRIPTION, banner), request);
     }
 
     /// @notice ERC-2981: the artist of the token's edition is to be paid a part of each resale.
@@ -242,7 +248,7 @@ contract Editions is ERC721A, IERC2981, StudioErrors {
     }
 
     /// @notice ERC-165.
-    function supportsInterface(bytes4 interfaceId) public view override(ERC721A, IERC165) returns (bool) {
+    function supportsInterface(bytes4 interfaceId) public view override(ERC721A, IERC721A, IERC165) returns (bool) {
         return interfaceId == type(IERC2981).interfaceId || super.supportsInterface(interfaceId);
     }
 
@@ -284,7 +290,7 @@ contract Editions is ERC721A, IERC2981, StudioErrors {
 
     // ---- ERC-721A takes ether where none is due ----
 
-    function approve(address to, uint256 tokenId) public payable override {
+    function approve(address to, uint256 tokenId) public payable override(ERC721A, IERC721A) {
         if (msg.value != 0) revert PaymentForNothing(msg.value);
         super.approve(to, tokenId);
     }

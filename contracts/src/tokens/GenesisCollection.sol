@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {forward} from "../encode/Forward.sol";
 import {Genesis} from "../genesis/Genesis.sol";
 import {Traits} from "../genesis/Piece.sol";
@@ -140,7 +140,7 @@ contract GenesisCollection is Collection, Rounds {
 
     /// @notice The metadata of a token; until its round is revealed with a picture that all such tokens share.
     /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
-    function tokenURI(uint256 tokenId) public view override returns (string memory) {
+    function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         uint256 round = roundOf(tokenId);
         forward(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Renderer} from "../Renderer.sol";
 import {Scene} from "../scene/Scene.sol";
@@ -16,6 +17,7 @@ import {Placeholder} from "./Placeholder.sol";
 /// @notice Without storage, an owner or a way to change; a contract of its own because together with the collection it would be larger than
 /// a contract may be.
 contract GenesisMetadata {
+    using Bytes for bytes;
     using Strings for uint256;
 
     string internal constant NAME = "Shackled Genesis";
@@ -26,6 +28,9 @@ contract GenesisMetadata {
 
     /// @dev The side of the square that each pixel of a picture becomes.
     uint256 internal constant SCALE = 4;
+    /// @dev The sides of the collection's wide picture, in pixels.
+    uint256 internal constant BANNER_WIDTH = 256;
+    uint256 internal constant BANNER_HEIGHT = 64;
 
     /// @notice What makes pieces of seeds, and pictures of pieces.
     Genesis public immutable genesis;
@@ -56,8 +61,15 @@ contract GenesisMetadata {
     /// @return A `data:` URI of JSON, the picture in it a PNG of 512 x 512 pixels.
     function tokenURI(uint256 tokenId, bytes32 drawn) external view returns (string memory) {
         (bytes32 seed, Piece memory piece) = pieceOf(drawn);
-        string memory description = string.concat(DESCRIPTION, " Seed ", uint256(seed).toHexString(32), ".");
-        show(Json.token(title(tokenId), description, list(piece.traits)), PieceScene.make(piece));
+        string memory digits = uint256(seed).toHexString(32);
+        uint256 color = piece.background.top;
+        if (piece.traits.invert) color ^= 0xffffff;
+        string memory fields = string.concat(
+            Json.field("external_url", Json.link(address(genesis), string.concat("/render/", digits, "?mime.content=image/bmp"))),
+            Json.field("background_color", hexadecimal(color))
+        );
+        string memory description = string.concat(DESCRIPTION, " Seed ", digits, ".");
+        show(Json.token(title(tokenId), description, fields, list(piece.traits)), PieceScene.make(piece));
     }
 
     /// @notice The metadata of a token whose seed is not drawn or not revealed yet: a picture that all such tokens share.
@@ -69,12 +81,13 @@ contract GenesisMetadata {
             blockNumber.toString(),
             " draws its seed, and anyone may reveal it after that."
         );
-        show(Json.token(title(tokenId), description, Json.trait("Revealed", false)), cover());
+        show(Json.token(title(tokenId), description, "", Json.trait("Revealed", false)), cover());
     }
 
     /// @notice The metadata of the collection, as ERC-7572 has it.
     function contractURI() external view returns (string memory) {
-        show(Json.collection(NAME, SYMBOL, DESCRIPTION), cover());
+        string memory banner = encoder.dataURI(renderer.render(Placeholder.scene(BANNER_WIDTH, BANNER_HEIGHT)), SCALE);
+        show(Json.collection(NAME, SYMBOL, DESCRIPTION, banner), cover());
     }
 
     function pieceOf(bytes32 drawn) private view returns (bytes32 seed, Piece memory piece) {
@@ -114,7 +127,12 @@ contract GenesisMetadata {
     }
 
     function cover() private pure returns (Scene memory) {
-        return Placeholder.scene(PieceScene.SIDE);
+        return Placeholder.scene(PieceScene.SIDE, PieceScene.SIDE);
+    }
+
+    /// @dev The six digits of a colour.
+    function hexadecimal(uint256 color) private pure returns (string memory) {
+        return string(bytes(color.toHexString(3)).slice(2));
     }
 
     /// @dev Ends the call with the `data:` URI of a document.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
@@ -48,6 +49,9 @@ contract IconsCollection is Collection, StudioErrors {
     uint256 internal constant FRAMES = 12;
     uint256 internal constant FRAME_SIDE = 64;
     uint256 internal constant FRAME_TIME = 100;
+    /// @dev The sides of the collection's wide picture, in pixels.
+    uint256 internal constant BANNER_WIDTH = 256;
+    uint256 internal constant BANNER_HEIGHT = 64;
 
     /// @notice What keeps the scenes, and has them drawn.
     Studio public immutable studio;
@@ -235,18 +239,22 @@ contract IconsCollection is Collection, StudioErrors {
 
     /// @notice The metadata of a token.
     /// @return A `data:` URI of JSON, the picture in it a PNG.
-    function tokenURI(uint256 tokenId) public view override returns (string memory) {
+    function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
         Icon storage it = icons[iconOf(tokenId)];
         string memory name_ = Strings.escapeJSON(it.name);
         string memory traits = string.concat(Json.trait("Icon", name_), ",", Json.trait("Supply", uint256(it.supply)));
-        show(Json.token(string.concat(name_, " #", tokenId.toString()), DESCRIPTION, traits), it);
+        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
+        show(Json.token(string.concat(name_, " #", tokenId.toString()), DESCRIPTION, fields, traits), it);
     }
 
     /// @inheritdoc Collection
     function contractURI() external view override returns (string memory) {
         if (icons.length == 0) Json.answer(Json.pictureless(name(), symbol(), DESCRIPTION));
-        show(Json.collection(name(), symbol(), DESCRIPTION), icons[0]);
+        Icon storage it = icons[0];
+        Changes memory wide;
+        (wide.fields, wide.canvas.width, wide.canvas.height) = (CANVAS, BANNER_WIDTH, BANNER_HEIGHT);
+        show(Json.collection(name(), symbol(), DESCRIPTION, studio.renderDataURI(it.scene, it.scale, wide)), it);
     }
 
     /// @dev Ends the call with the `data:` URI of a document.

@@ -6,6 +6,7 @@ import {Base64} from "../encode/Base64.sol";
 
 /// @title Json: what marketplaces and wallets read of a token. Text comes as it stands in JSON, escaped where it has to be.
 library Json {
+    using Strings for address;
     using Strings for uint256;
 
     /// @dev Bytes of what a `data:` URI of a document begins with; and of what ends a document behind its picture.
@@ -17,9 +18,9 @@ library Json {
         return string.concat('{"trait_type":"', kind, '","value":"', value, '"}');
     }
 
-    /// @notice A trait whose value is a number.
+    /// @notice A trait whose value is a number, shown as such: without a display type marketplaces show a rank.
     function trait(string memory kind, uint256 value) internal pure returns (string memory) {
-        return string.concat('{"trait_type":"', kind, '","value":', value.toString(), "}");
+        return string.concat('{"display_type":"number","trait_type":"', kind, '","value":', value.toString(), "}");
     }
 
     /// @notice A trait that is there or not.
@@ -27,15 +28,41 @@ library Json {
         return trait(kind, value ? "Yes" : "No");
     }
 
+    /// @notice A field that not every document has, such as `external_url`.
+    function field(string memory name, string memory value) internal pure returns (string memory) {
+        return string.concat('","', name, '":"', value);
+    }
+
+    /// @notice The web3:// address at which a contract answers a call (ERC-6860).
+    /// @param path The call and its arguments, as `/render/12?mime.content=image/bmp`.
+    function link(address target, string memory path) internal view returns (string memory) {
+        return string.concat("web3://", target.toHexString(), ":", block.chainid.toString(), path);
+    }
+
+    /// @notice The web3:// address of the picture of a scene that a studio keeps.
+    function picture(address studio, address scene, uint256 scale) internal view returns (string memory) {
+        return link(studio, string.concat("/renderPNG/", scene.toHexString(), "/", scale.toString(), "?mime.type=png"));
+    }
+
     /// @notice The metadata of a token up to its picture.
+    /// @param fields One after the other, of `field`.
     /// @param traits Separated by commas.
-    function token(string memory name, string memory description, string memory traits) internal pure returns (bytes memory) {
-        return abi.encodePacked('{"name":"', name, '","description":"', description, '","attributes":[', traits, '],"image":"');
+    function token(string memory name, string memory description, string memory fields, string memory traits)
+        internal
+        pure
+        returns (bytes memory)
+    {
+        return abi.encodePacked('{"name":"', name, '","description":"', description, fields, '","attributes":[', traits, '],"image":"');
     }
 
     /// @notice The metadata of a collection up to its picture, as ERC-7572 has it.
-    function collection(string memory name, string memory symbol, string memory description) internal pure returns (bytes memory) {
-        return abi.encodePacked(pictureless(name, symbol, description), '","image":"');
+    /// @param banner What is shown across the top of a page: a wide picture, as a `data:` URI.
+    function collection(string memory name, string memory symbol, string memory description, string memory banner)
+        internal
+        pure
+        returns (bytes memory)
+    {
+        return abi.encodePacked(pictureless(name, symbol, description), field("banner_image", banner), '","image":"');
     }
 
     /// @notice The metadata of a collection without a picture, but for their end.

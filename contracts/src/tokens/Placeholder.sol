@@ -15,9 +15,9 @@ library Placeholder {
         hex"000200000005" hex"000100020005" hex"000300010005" hex"000000030005";
 
     /// @notice The solid, turned a little.
-    /// @param side Of the picture, in pixels.
-    function scene(uint256 side) internal pure returns (Scene memory made) {
-        made.canvas = Canvas(side, side);
+    /// @param width Of the picture, in pixels; and so its height.
+    function scene(uint256 width, uint256 height) internal pure returns (Scene memory made) {
+        made.canvas = Canvas(width, height);
         made.camera.target.z = -ONE;
         made.camera.up.y = ONE;
         made.camera.halfHeight = Fixed.wrap(1 << 31);

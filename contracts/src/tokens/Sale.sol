@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
-import {ERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721A, IERC721A} from "erc721a/contracts/ERC721A.sol";
+import {ERC721AQueryable} from "erc721a/contracts/extensions/ERC721AQueryable.sol";
 import {Ownable} from "@openzeppelin/contracts/access/Ownable.sol";
 import {Ownable2Step} from "@openzeppelin/contracts/access/Ownable2Step.sol";
 import {EIP712} from "@openzeppelin/contracts/utils/cryptography/EIP712.sol";
@@ -22,7 +23,7 @@ struct Allowance {
 /// @notice Tokens are paid exactly, with neither change nor refund, and the ether stays here until the owner fetches it. An account on the
 /// allow-list is there by a Merkle proof or by a signature; both speak of how many tokens it may mint in all, so that neither is worth
 /// anything when it is shown twice.
-abstract contract Sale is ERC721A, Ownable2Step, EIP712 {
+abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     enum Phase {
         Closed,
         AllowList,
@@ -163,7 +164,7 @@ abstract contract Sale is ERC721A, Ownable2Step, EIP712 {
 
     // ---- ERC-721A takes ether where none is due ----
 
-    function approve(address to, uint256 tokenId) public payable override {
+    function approve(address to, uint256 tokenId) public payable override(ERC721A, IERC721A) {
         if (msg.value != 0) revert PaymentForNothing(msg.value);
         super.approve(to, tokenId);
     }

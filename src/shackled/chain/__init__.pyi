@@ -1,13 +1,23 @@
 from ._address_book import VARIABLE, AddressBook, book_path
 from ._chain import CallResult, Chain, ContractChain, Drawing, count_call, returned_bytes, returned_counts
 from ._connection import PATIENCE, Connection, quantity
-from ._embedded import DEFAULT_GAS_LIMIT, SENDER, EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain, pyrevm_error
+from ._embedded import (
+    CHAIN_ID,
+    DEFAULT_GAS_LIMIT,
+    SENDER,
+    EmbeddedChain,
+    PyEvmChain,
+    PyrevmChain,
+    RevmChain,
+    pyrevm_error,
+)
 from ._failures import describe_revert, out_of_gas, retry_after, revert_data, revert_error
 from ._node import GAS_LEFT, MAX_INIT_CODE, NodeChain, metered
 from ._opening import CHAINS, open_chain, open_node
 
 __all__ = [
     "CHAINS",
+    "CHAIN_ID",
     "DEFAULT_GAS_LIMIT",
     "GAS_LEFT",
     "MAX_INIT_CODE",

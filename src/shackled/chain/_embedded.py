@@ -25,6 +25,9 @@ from ._failures import out_of_gas, revert_error
 #: Enough for pictures of 2048 x 2048 pixels; bounds the time of a call, and its memory to 130 MB.
 DEFAULT_GAS_LIMIT = 30_000_000_000
 
+#: What CHAINID returns.
+CHAIN_ID = 1
+
 SENDER = bytes.fromhex("5ac61ed000000000000000000000000000000001")
 
 #: Zeros that pyrevm appends to the code of a contract that it creates.
@@ -246,7 +249,7 @@ class PyEvmChain(EmbeddedChain):
             mix_hash=Hash32(bytes(32)),
             gas_limit=DEFAULT_GAS_LIMIT,
             prev_hashes=(),
-            chain_id=1,
+            chain_id=CHAIN_ID,
             base_fee_per_gas=0,
             excess_blob_gas=0,
         )

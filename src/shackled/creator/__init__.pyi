@@ -1,4 +1,5 @@
 from ._controls import CONTROLS, GROUPS, MAX_OPACITIES, control, lamp_controls
+from ._edition import EditionCalls
 from ._history import (
     MAX_STEPS,
     History,
@@ -53,10 +54,12 @@ from ._takeaway import KINDS, make_file
 from ._tasks import Tasks
 from ._upload import clean_name
 from ._web.actions import ACTIONS, act
+from ._web.edition import mint_edition, parse_terms
 from ._web.live import ABSENCE, Visitors, live
 from ._web.page import KEYS
 from ._web.server import first_source, make_app, serve, unpack_upload
 from ._web.visitor import DRAFT, Visitor
+from ._web.wallet import Waiting, Wallet, WalletError
 
 __all__ = [
     "ABSENCE",
@@ -73,6 +76,7 @@ __all__ = [
     "PRESETS",
     "Backdrop",
     "Curve",
+    "EditionCalls",
     "Facts",
     "File",
     "ForbiddenError",
@@ -99,6 +103,9 @@ __all__ = [
     "Upload",
     "Visitor",
     "Visitors",
+    "Waiting",
+    "Wallet",
+    "WalletError",
     "act",
     "add_lamp",
     "apply_look",
@@ -131,8 +138,10 @@ __all__ = [
     "live",
     "make_app",
     "make_file",
+    "mint_edition",
     "orbit_of",
     "pan",
+    "parse_terms",
     "places",
     "preset",
     "remove_lamp",

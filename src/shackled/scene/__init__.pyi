@@ -49,7 +49,17 @@ from ._packed_texture import pack_texture, unpack_texture
 from ._rotation import euler, from_axis_angle, from_euler, multiply, rotate
 from ._scene import MAX_LIGHTS, MAX_SIDE, Scene
 from ._simplify import FORCEFUL, GENTLE, simplify, simplify_scene
-from ._staging import BACKGROUND, MESH_STAGING, is_closed, painted, painted_object, signed_volume, view_axes
+from ._staging import (
+    BACKGROUND,
+    MESH_STAGING,
+    Viewpoint,
+    frame,
+    is_closed,
+    painted,
+    painted_object,
+    signed_volume,
+    view_axes,
+)
 from ._texture import FILTERS, MAX_TEXTURE_SIDE, WRAPS, Texture
 from ._turning import FILLED, full_turn, middle, turn
 
@@ -124,6 +134,7 @@ __all__ = [
     "Shading",
     "Texture",
     "Tone",
+    "Viewpoint",
     "about",
     "checked_look",
     "components",
@@ -139,6 +150,7 @@ __all__ = [
     "fans",
     "fit",
     "fit_factor",
+    "frame",
     "from_axis_angle",
     "from_euler",
     "full_turn",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain import EmbeddedChain
+from ..chain import CHAIN_ID, EmbeddedChain
 from ..deploy import Deployer, deployment, local_chain
 from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
 from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
@@ -20,7 +21,7 @@ from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at
 from ._immutables import immutable_places, immutable_values
 from ._launch import CollectionTerms, creation_code, parts_of
-from ._metadata import Metadata, read_token_uri, shrink
+from ._metadata import Metadata, read_data_uri, read_token_uri, shrink
 
 #: The type of the EIP-712 domain of permissions.
 DOMAIN = b"EIP712Domain(string name,string version,uint256 chainId,address verifyingContract)"
@@ -125,7 +126,7 @@ def check_token(collection: Collection, token: int, local: EmbeddedChain, uri: s
         if seed != collection.contract.call("seedOf", token):
             return Check(what, "its seed does not follow from its block and its number")
         bmp = local.ask("Genesis", "render", seed)
-        if uri != local.ask("GenesisMetadata", "tokenURI", token, drawn):
+        if uri != _of_chain(local.ask("GenesisMetadata", "tokenURI", token, drawn), collection.connection.chain_id):
             return Check(what, "its tokenURI differs from the one computed here from its seed")
         return Check(what, "" if _same_picture(metadata.pixels, bmp) else "its picture differs from that of its seed")
     except OutOfGasError as error:
@@ -164,6 +165,13 @@ def draw(collection: Collection, token: int) -> tuple[bytes, str]:
     if block.get("mixHash") != to_hex(randomness):
         return drawn, f"the randomness of its round differs from that of block {block_number:,}"
     return drawn, ""
+
+
+def _of_chain(uri: str, chain_id: int) -> str:
+    """Return a `tokenURI` that was computed here as contracts on another chain return it: its link names the chain."""
+    media_type, content = read_data_uri(uri, "the metadata")
+    content = content.replace(f":{CHAIN_ID}/render/0x".encode(), f":{chain_id}/render/0x".encode())
+    return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
 
 
 def _same_picture(pixels: NDArray[np.uint8], bmp: bytes) -> bool:

@@ -1,0 +1,134 @@
+"""The fields of metadata that marketplaces read beside name, picture and traits, and the tokens of an account."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+pytest.importorskip("pyrevm", reason="a chain with state needs it")
+
+import numpy as np
+from attrs import evolve
+from numpy.typing import NDArray
+from PIL import Image as PillowImage
+from tools.tokens.stage import ICONS, Stage, icon_scene, stage, store_scene
+from tools.tokens.world import ETHER, Contract, Refused
+
+from shackled.datasets.genesis import seed_of
+from shackled.reference.genesis import generate
+from tokens.show import document, pixels
+
+ADDRESS = r"0x[0-9a-f]{40}"
+#: The types of arguments by the length of their text; others are numbers.
+ARGUMENTS: dict[int, tuple[str, Callable[[str], Any]]] = {
+    42: ("address", str),
+    66: ("bytes32", lambda text: bytes.fromhex(text[2:])),
+}
+
+
+@pytest.fixture(scope="module")
+def s() -> Stage:
+    """A token of each icon, and ten revealed ones of Genesis."""
+    s = stage()
+    s.mint(10)
+    s.reveal(0)
+    for icon, (_, _, _, price) in enumerate(ICONS.values()):
+        s.icons.send("mint", icon, 1, sender=s.alice, value=price)
+    return s
+
+
+@pytest.fixture(scope="module")
+def editions(s: Stage) -> Contract:
+    collection = s.world.deploy("Editions", s.studio)
+    scene = store_scene(s.studio, evolve(icon_scene("icons/ethereum"), width=32, height=24))
+    collection.send("add", "Ether", scene, 3, ETHER, 5, 0, 3, sender=s.bob)
+    return collection
+
+
+def follow(s: Stage, url: str) -> NDArray[np.uint8]:
+    """Return the picture at a web3:// address, called as ERC-6860 says of contracts without a mode of their own."""
+    match = re.fullmatch(rf"web3://({ADDRESS}):1/(\w+)((?:/[0-9a-fx]+)+)\?mime\.(?:type|content)=([\w/]+)", url)
+    assert match, url
+    contract = next(each for each in (s.generator, s.studio) if int(each.address, 16) == int(match[1], 16))
+    kinds, values = [], []
+    for part in match[3].split("/")[1:]:
+        kind, read = ARGUMENTS.get(len(part), ("uint256", int))
+        kinds.append(kind)
+        values.append(read(part))
+    content: bytes = contract.call(f"{match[2]}({','.join(kinds)})", *values)
+    with PillowImage.open(io.BytesIO(content), formats=["PNG" if match[4] == "png" else "BMP"]) as opened:
+        return np.asarray(opened.convert("RGB"))
+
+
+def test_the_link_of_a_token_leads_to_its_picture(s: Stage, editions: Contract) -> None:
+    for token in range(2):
+        found = document(s.icons.call("tokenURI", token))
+        assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"]))
+    found = document(editions.call("tokenURI", 2))
+    assert pixels(found["image"]).shape == (72, 96, 3)
+    assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"]))
+    for token in (0, 9):
+        found = document(s.genesis.call("tokenURI", token))
+        assert np.array_equal(follow(s, found["external_url"]), pixels(found["image"])[::4, ::4])
+
+
+def test_links_name_their_chain() -> None:
+    elsewhere = stage(chain_id=11155111)
+    found = document(elsewhere.metadata.call("tokenURI", 0, seed_of(0)))
+    assert re.match(rf"web3://{ADDRESS}:11155111/render/0x", found["external_url"])
+
+
+def test_the_colour_around_a_piece_is_that_of_its_background(s: Stage) -> None:
+    inverted = set()
+    for number in range(12):
+        seed = seed_of(number)
+        piece = generate(seed)
+        found = document(s.metadata.call("tokenURI", number, seed))
+        top = np.frombuffer(bytes.fromhex(found["background_color"]), np.uint8).astype(int)
+        assert len(top) == 3
+        # the first row is almost at the top of the gradient
+        row = pixels(found["image"])[0].astype(int)
+        assert np.abs(row - top).max(axis=1).min() <= 2
+        inverted.add(piece.invert)
+    assert len(inverted) == 2
+
+
+def test_numbers_are_shown_as_numbers(s: Stage, editions: Contract) -> None:
+    for uri in (s.genesis.call("tokenURI", 0), s.icons.call("tokenURI", 0), editions.call("tokenURI", 0)):
+        attributes = document(uri)["attributes"]
+        for each in attributes:
+            assert each.get("display_type") == ("number" if isinstance(each["value"], int) else None)
+        assert any("display_type" in each for each in attributes)
+
+
+def test_collections_have_a_banner(s: Stage, editions: Contract) -> None:
+    for collection in (s.genesis, s.icons, editions):
+        found = document(collection.call("contractURI"))
+        assert list(found) == ["name", "symbol", "description", "banner_image", "image"]
+        banner = pixels(found["banner_image"])
+        assert banner.shape == (256, 1024, 3)
+        # the object in the middle, and nothing at the ends
+        assert len(np.unique(banner[:, 384:640].reshape(-1, 3), axis=0)) > 20
+        assert banner[:, :64].std(axis=1).max() < 1
+
+
+def test_the_tokens_of_an_account(s: Stage, editions: Contract) -> None:
+    def tokens(collection: Contract, *range_: int, owner: str) -> tuple[Any, ...]:
+        return tuple(collection.call("tokensOfOwnerIn" if range_ else "tokensOfOwner", owner, *range_))
+
+    with s.world.attempt():
+        s.genesis.send("transferFrom", s.alice, s.bob, 4, sender=s.alice)
+        assert tokens(s.genesis, owner=s.alice) == (0, 1, 2, 3, 5, 6, 7, 8, 9)
+        assert tokens(s.genesis, owner=s.bob) == (4,)
+        assert tokens(s.genesis, owner=s.owner) == ()
+        assert tokens(s.genesis, 3, 6, owner=s.alice) == (3, 5)
+    assert tokens(s.icons, owner=s.alice) == (0, 1)
+    assert tokens(editions, owner=s.bob) == (0, 1, 2)
+    with pytest.raises(Refused, match="InvalidQueryRange"):
+        tokens(editions, 2, 2, owner=s.bob)
+    assert editions.call("explicitOwnershipOf", 1)[0] == s.bob
+    assert editions.call("explicitOwnershipOf", 3)[0] == "0x" + "00" * 20
