@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
@@ -49,3 +51,13 @@ def test_the_scene_of_a_token_is_that_of_its_piece() -> None:
 
 def test_the_documentation_has_them() -> None:
     assert icons.table(icons.recorded()) in icons.PAGE.read_text("utf-8"), f"run {COMMAND}"
+
+
+def test_models_would_not_fit_beside_all_pictures(measured: icons.Figures) -> None:
+    """docs/tokens.md gives this as a reason why tokens have no `animation_url`."""
+    motion = json.loads((icons.ROOT / "benchmarks" / "motion.json").read_text("utf-8"))
+    models = {name: motion[f"{name}: model: gas"] for name in measured}
+    shares = [100 * models[name] / each["plain"] for name, each in measured.items()]
+    assert [round(min(shares)), round(max(shares))] == [5, 30]
+    antialiased = {name: int(each["antialiased"]) for name, each in measured.items() if each["antialiased fits"]}
+    assert any(gas + models[name] > icons.LIMIT for name, gas in antialiased.items())
