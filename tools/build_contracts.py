@@ -185,10 +185,11 @@ def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
     maps = [_kept_maps(groups)]
     # a process for each group, and a thread that waits for it
     with ThreadPoolExecutor(os.cpu_count()) as threads:
+        functions = threads.submit(functions_of, groups)
         results = list(threads.map(build_group, groups))
-    for built, source_map in results:
+    for built, answer in results:
         files |= built
-        maps.append(source_map)
+        maps.append(source_maps(answer, functions.result()))
     files[SOURCE_MAPS] = merge_maps(maps)
     for name, text in files.items():
         if name.startswith((SOURCE_MAPS, STANDARD_INPUT)) and len(text) > MAX_INPUT_SIZE:
@@ -197,10 +198,10 @@ def build(groups: Sequence[str] = tuple(GROUPS)) -> dict[str, str]:
 
 
 def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
-    """Return the text of every artifact file of a group, by name, and its source maps."""
+    """Return the text of every artifact file of a group, by name, and the compiler's answer."""
     asked = standard_input(group)
     files = {input_name(group): _text(without_libraries(asked))}
-    answer = compile_with_maps(asked)
+    answer = run_compiler(_text(with_maps(asked)))
     for source, contracts in answer["contracts"].items():
         for name, output in contracts.items():
             metadata = json.loads(output["metadata"])
@@ -219,7 +220,7 @@ def build_group(group: str) -> tuple[dict[str, str], dict[str, Any]]:
                     "deployedBytecode": output["evm"]["deployedBytecode"]["object"],
                 }
             )
-    return files, json.loads(source_maps(answer))
+    return files, answer
 
 
 def input_name(group: str) -> str:
@@ -241,22 +242,29 @@ def without_libraries(request: dict[str, Any]) -> dict[str, Any]:
     return request | {"sources": sources}
 
 
-def compile_with_maps(asked: dict[str, Any]) -> dict[str, Any]:
-    """Compile with source maps and syntax trees, which verifiers of sources do not want.
-
-    The trees are asked for apart, before anything is compiled: together they take three times as long.
-    """
+def with_maps(asked: dict[str, Any]) -> dict[str, Any]:
+    """Return the request with source maps among the outputs, which verifiers of sources do not want."""
     more = ["evm.deployedBytecode.sourceMap", "evm.deployedBytecode.functionDebugData"]
     selection = {
         source: {contract: [*wanted, *more] for contract, wanted in contracts.items()}
         for source, contracts in asked["settings"]["outputSelection"].items()
     }
-    answer = run_compiler(_text(asked | {"settings": asked["settings"] | {"outputSelection": selection}}))
-    trees = {"stopAfter": "parsing", "outputSelection": {"*": {"": ["ast"]}}}
-    return answer | {"sources": run_compiler(_text(asked | {"settings": trees}))["sources"]}
+    return asked | {"settings": asked["settings"] | {"outputSelection": selection}}
 
 
-def source_maps(answer: dict[str, Any]) -> str:
+def functions_of(groups: Sequence[str]) -> dict[str, list[list[Any]]]:
+    """Return the functions of each source of these groups, as `_functions` does.
+
+    One run for all groups, which only parses: with the code, syntax trees would take three times as long.
+    """
+    sources = read_sources(contract for group in groups for contract in GROUPS[group]["contracts"])
+    settings = {"stopAfter": "parsing", "outputSelection": {"*": {"": ["ast"]}}}
+    asked = request(sources, {}, {}) | {"settings": settings}
+    trees = run_compiler(_text(asked))["sources"]
+    return {name: _functions(each["ast"], Path(name).stem) for name, each in trees.items()}
+
+
+def source_maps(answer: dict[str, Any], functions: dict[str, list[list[Any]]]) -> dict[str, Any]:
     """Return each contract's source map and the positions of its functions, and the functions of each source.
 
     As `shackled.gas.source_map` reads it. Places in sources are in bytes of UTF-8.
@@ -272,11 +280,11 @@ def source_maps(answer: dict[str, Any]) -> str:
             maps[name] = {"map": deployed["sourceMap"], "entries": entries}
             used |= {int(field) for field in re.findall(r"(?:^|;)\d*:\d*:(\d+)", deployed["sourceMap"])}
     sources = {
-        source["id"]: {"name": name, "functions": _functions(source["ast"], Path(name).stem)}
+        str(source["id"]): {"name": name, "functions": functions[name]}
         for name, source in answer["sources"].items()
         if source["id"] in used
     }
-    return json.dumps({"contracts": maps, "sources": sources}, sort_keys=True, separators=(",", ":")) + "\n"
+    return {"contracts": maps, "sources": sources}
 
 
 def _kept_maps(groups: Sequence[str]) -> dict[str, Any]:
