@@ -62,7 +62,7 @@ def fetch() -> Iterator[Fetch]:
         store(plan_storage(connection, [SceneToStore(crown.name, crown.scene)]), transactor)
 
         def get(address: str) -> Answer:
-            command = ["node", HERE / "fetch_web3.mjs", node.url, address.format(**hosts)]
+            command = ["node", str(HERE / "fetch_web3.mjs"), node.url, address.format(**hosts)]
             result = subprocess.run(command, capture_output=True, text=True)
             assert not result.returncode, result.stderr
             said = json.loads(result.stdout)
