@@ -124,6 +124,7 @@ pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
 	$(BIN)/python -m docs.draw_building
+	$(BIN)/python -m docs.draw_library
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----

@@ -108,17 +108,26 @@ def new_slots(deployed: Sequence[Deployment]) -> dict[str, int]:
     return count
 
 
-def deployment_table() -> str:
-    """Return the costs of the contracts that `shackled deploy` deploys, as a table in Markdown."""
+def deployment_costs() -> dict[str, Cost]:
+    """Return the costs of the contracts that `shackled deploy` deploys by default, by their names."""
     found = deployments()
     slots = new_slots(found)
-    costs = {f"`{each.name}`": transaction_cost(each.gas, len(each.code), slots[each.name]) for each in found}
-    return _table("contract", {**costs, f"**all {len(found)}**": total(costs.values())})
+    return {each.name: transaction_cost(each.gas, len(each.code), slots[each.name]) for each in found}
 
 
-def storing_table() -> str:
-    """Return the costs of storing the library and meshes of one's own, as a table in Markdown."""
-    costs = {each.name: storing_cost(each.transactions) for each in items()}
+def library_costs() -> dict[str, Cost]:
+    """Return the costs of storing the items of the library, by their names."""
+    return {each.name: storing_cost(each.transactions) for each in items()}
+
+
+def deployment_table(costs: dict[str, Cost]) -> str:
+    """Return the costs of contracts as a table in Markdown."""
+    rows = {f"`{name}`": cost for name, cost in costs.items()}
+    return _table("contract", {**rows, f"**all {len(costs)}**": total(costs.values())})
+
+
+def storing_table(costs: dict[str, Cost]) -> str:
+    """Return the costs of storing the library, and meshes of one's own, as a table in Markdown."""
     ordered = sorted(costs, key=lambda name: costs[name].gas)
     icons = [each.name for each in items() if each.is_icon]
     others = [each.name for each in items() if not each.is_icon]
@@ -154,9 +163,23 @@ def _table(what: str, rows: dict[str, Cost]) -> str:
     return "\n".join([*head, *(cost.row(name) for name, cost in rows.items())])
 
 
+def summary(cost: Cost) -> str:
+    """Return in words what everything costs together."""
+    return (
+        f"The contracts and the library together take {cost.gas / 1e6:.1f} million gas now,\n"
+        f"{cost.gas / 1e9:.3f} ether at 1 gwei, and {cost.repriced / 1e6:.1f} million after EIP-8037: "
+        f"{cost.repriced / cost.gas:.1f} times as much."
+    )
+
+
 def tables() -> dict[str, str]:
-    """Return the tables by the names of their marks in the page."""
-    return {"deployment": deployment_table(), "storing": storing_table()}
+    """Return the tables, and a summary, by the names of their marks in the page."""
+    deployed, stored = deployment_costs(), library_costs()
+    return {
+        "summary": summary(total([*deployed.values(), *stored.values()])),
+        "deployment": deployment_table(deployed),
+        "storing": storing_table(stored),
+    }
 
 
 def main() -> int:

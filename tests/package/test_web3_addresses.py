@@ -18,6 +18,7 @@ from PIL import Image as PillowImage
 from nodes import KEY, anvil, needs_anvil
 from shackled import load, render
 from shackled.chain import Connection
+from shackled.datasets.genesis import seed_of
 from shackled.deploy import Deployer, Transactor, deployments, environment_account
 from shackled.ethereum import checksum_address
 from shackled.library import chosen_items
@@ -95,9 +96,13 @@ def test_the_auto_mode(fetch: Fetch) -> None:
     (crown,) = chosen_items(["crown"])
     pointer = checksum_address(crown.pointer)
     check_picture(fetch(f"{{Studio}}/renderPNG/{pointer}/4?mime.type=png"), crown.scene, 4)
-    model = fetch(f"{{Studio}}/glb/{pointer}?mime.content=model/gltf-binary")
+    model = fetch(f"{{Studio}}/glb/{pointer}?mime.type=glb")
     assert model.headers == {"Content-Type": "model/gltf-binary"}
     assert model.body == fetch("{Web}/icons/crown.glb").body
+    seed = f"0x{seed_of(12).hex()}"
+    bitmap = fetch(f"{{Genesis}}/render/{seed}?mime.type=bmp")
+    assert bitmap.headers == {"Content-Type": "image/bmp"}
+    assert bitmap.body == render(load("genesis/12")).bmp
     # a string in place of bytes
     uri = fetch(f"{{Studio}}/renderDataURI/{pointer}/4").body.decode("ascii")
     assert base64.b64decode(uri.removeprefix("data:image/png;base64,")) == fetch("{Web}/icons/crown.png").body
