@@ -17,7 +17,12 @@ contract Pedestal {
         (items, studio) = (items_, studio_);
     }
 
-    /// @notice A PNG of 512 x 512 pixels as a data: URI.
+    /// @notice The picture of an item as it is stored, as a data: URI.
+    function portrait(string calldata name) external view returns (string memory) {
+        return studio.renderDataURI(items.find(name).scene, 4);
+    }
+
+    /// @notice A picture of 512 x 512 pixels as a data: URI.
     function image(string calldata name) external view returns (string memory) {
         return studio.drawDataURI(onPedestal(name), 4);
     }

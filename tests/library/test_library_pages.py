@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import re
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from docs.draw_library import COLUMNS, LABEL, SIDE, Shelf
 from eth_abi.abi import decode, encode
 from PIL import Image as PillowImage
 
+from shackled import render
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.library import chosen_items, items
@@ -88,6 +90,15 @@ def test_the_picture_of_the_example() -> None:
 
 
 @needs_compiler
+def test_a_portrait(shelf: Shelf) -> None:
+    (crown,) = chosen_items(["crown"])
+    contract, selectors = shelf.deploy(draw_library.EXAMPLE)
+    output = shelf.call(contract, selectors["portrait(string)"] + encode(["string"], ["crown"]))
+    png = base64.b64decode(decode(["string"], output)[0].removeprefix("data:image/png;base64,"), validate=True)
+    assert np.array_equal(draw_library.pixels(png)[::4, ::4], render(crown.scene).pixels)
+
+
+@needs_compiler
 def test_an_item_that_is_not_stored(shelf: Shelf) -> None:
     contract, selectors = shelf.deploy(draw_library.EXAMPLE)
     for name, message in (("coin", "NotStored(name=coin, pointer=0x"), ("gold", "UnknownName(name=gold)")):
@@ -115,8 +126,8 @@ def test_the_page_shows_the_code_of_the_example() -> None:
     page = (ROOT / "docs" / "library.md").read_text("utf-8")
     code = (ROOT / draw_library.EXAMPLE).read_text("utf-8")
     statements = {line.strip() for line in code.splitlines()}
-    shown = re.findall(r"^```solidity\n(.*?)^```", page.partition("\n## In a scene of your own\n")[2], re.M | re.S)
-    lines = [line.strip() for block in shown for line in block.splitlines()]
+    shown = re.findall(r"^```solidity\n(.*?)^```", page, re.M | re.S)
+    lines = [line.strip() for block in shown for line in block.splitlines() if line]
     assert len(lines) > 10
     assert not [line for line in lines if line not in statements]
 

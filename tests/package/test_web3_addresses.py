@@ -13,13 +13,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from docs import draw_library
 from PIL import Image as PillowImage
+from tools.examples import compile_example
 
 from nodes import KEY, anvil, needs_anvil
 from shackled import load, render
 from shackled.chain import Connection
 from shackled.datasets.genesis import seed_of
-from shackled.deploy import Deployer, Transactor, deployments, environment_account
+from shackled.deploy import Deployer, Deployment, Transactor, deployment, deployments, environment_account
 from shackled.ethereum import checksum_address
 from shackled.library import chosen_items
 from shackled.scene import Scene
@@ -31,6 +33,9 @@ pytestmark = [
     pytest.mark.skipif(
         not shutil.which("node") or not (HERE / "node_modules" / "web3protocol").is_dir(),
         reason="web3protocol is not installed: python tools/prepare.py hardhat",
+    ),
+    pytest.mark.skipif(
+        not (HERE.parents[1] / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
     ),
     needs_anvil,
 ]
@@ -48,10 +53,19 @@ class Answer:
 Fetch = Callable[[str], Answer]
 
 
+def deployed() -> list[Deployment]:
+    """The contracts, and that of the example."""
+    found = deployments(["Web"])
+    addresses = {each.name: each.address.rjust(32, b"\0") for each in found}
+    creation, _ = compile_example("examples/library/PedestalSite.sol")
+    arguments = addresses["Library"] + addresses["Studio"]
+    return [*found, deployment("PedestalSite", creation + arguments, list(addresses))]
+
+
 @pytest.fixture(scope="module")
 def fetch() -> Iterator[Fetch]:
     """Fetch addresses of a chain with the contracts and an icon; {Web} stands for an address and the chain."""
-    wanted = deployments(["Web"])
+    wanted = deployed()
     (crown,) = chosen_items(["crown"])
     hosts = {each.name: f"web3://{checksum_address(each.address)}:31337" for each in wanted}
     with anvil() as node, pytest.MonkeyPatch.context() as patch:
@@ -106,6 +120,19 @@ def test_the_auto_mode(fetch: Fetch) -> None:
     # a string in place of bytes
     uri = fetch(f"{{Studio}}/renderDataURI/{pointer}/4").body.decode("ascii")
     assert base64.b64decode(uri.removeprefix("data:image/png;base64,")) == fetch("{Web}/icons/crown.png").body
+
+
+def test_a_site_of_ones_own(fetch: Fetch) -> None:
+    answer = fetch("{PedestalSite}/crown")
+    assert (answer.status, answer.headers) == (200, {"Content-Type": "image/png"})
+    with (
+        PillowImage.open(io.BytesIO(answer.body)) as opened,
+        PillowImage.open(draw_library.FOLDER / "library-pedestal.png") as shown,
+    ):
+        crown = np.asarray(shown)[:128, 128 * draw_library.ON_PEDESTALS.index("crown") :][:, :128]
+        assert np.abs(np.asarray(opened)[::4, ::4].astype(int) - crown).mean() < 0.5
+    assert '<a href="/teapot">' in fetch("{PedestalSite}/").body.decode()
+    assert fetch("{PedestalSite}/gold").status == 404
 
 
 def test_what_is_not_there(fetch: Fetch) -> None:
