@@ -93,7 +93,7 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python tools/build_package.py
 	$(BIN)/python tools/build_web.py
 
-npm: $(DEV) $(NODE) $(HARDHAT) ## the npm package for contract authors, in build/npm, tried in projects of Foundry and Hardhat
+npm: $(DEV) $(NODE) $(HARDHAT) ## the npm package for contract authors, in build/npm, tried in projects of Foundry and Hardhat; web3:// addresses
 	$(BIN)/python tools/build_package.py
 	$(BIN)/pytest tests/package
 
@@ -107,12 +107,13 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 	$(BIN)/python -m benchmarks.icons
 	$(BIN)/python -m benchmarks.motion
 
-bench: $(DEV) ## measure: the tables of benchmarks/, those of the README and of docs/antialiasing.md
+bench: $(DEV) ## measure: the tables of benchmarks/, those of the README, of docs/antialiasing.md and docs/library.md
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.parallel
 	$(BIN)/python -m benchmarks.antialiasing
 	$(BIN)/python -m benchmarks.shadows
 	$(BIN)/python -m benchmarks.seeds
+	$(BIN)/python -m benchmarks.deployment
 	$(BIN)/python -m tools.readme
 
 paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/results, benchmarks/README.md
@@ -123,6 +124,7 @@ pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
 	$(BIN)/python -m docs.draw_building
+	$(BIN)/python -m docs.draw_library
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----

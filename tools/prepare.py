@@ -4,7 +4,7 @@
     python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
     python3 tools/prepare.py node       node_modules of contracts/ and web/: compilers, and a node for the tests
-    python3 tools/prepare.py hardhat    node_modules of tests/package: a Hardhat, to try the npm package with
+    python3 tools/prepare.py hardhat    node_modules of tests/package, to try the npm package and web3:// addresses
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
@@ -108,7 +108,7 @@ def prepare_node() -> None:
 def prepare_hardhat() -> None:
     """Install node_modules of tests/package, 370 MB; `make test` does without."""
     need_node()
-    say("installing Hardhat")
+    say("installing Hardhat and web3protocol")
     npm_install(PACKAGE_TESTS)
 
 

@@ -1,0 +1,142 @@
+"""web3:// addresses, opened on a node by web3protocol, the client of browsers and gateways."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from docs import draw_library
+from PIL import Image as PillowImage
+from tools.examples import compile_example
+
+from nodes import KEY, anvil, needs_anvil
+from shackled import load, render
+from shackled.chain import Connection
+from shackled.datasets.genesis import seed_of
+from shackled.deploy import Deployer, Deployment, Transactor, deployment, deployments, environment_account
+from shackled.ethereum import checksum_address
+from shackled.library import chosen_items
+from shackled.scene import Scene
+from shackled.tokens import SceneToStore, plan_storage, store
+
+HERE = Path(__file__).resolve().parent
+
+pytestmark = [
+    pytest.mark.skipif(
+        not shutil.which("node") or not (HERE / "node_modules" / "web3protocol").is_dir(),
+        reason="web3protocol is not installed: python tools/prepare.py hardhat",
+    ),
+    pytest.mark.skipif(
+        not (HERE.parents[1] / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
+    ),
+    needs_anvil,
+]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a browser gets."""
+
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+
+Fetch = Callable[[str], Answer]
+
+
+def deployed() -> list[Deployment]:
+    """The contracts, and that of the example."""
+    found = deployments(["Web"])
+    addresses = {each.name: each.address.rjust(32, b"\0") for each in found}
+    creation, _ = compile_example("examples/library/PedestalSite.sol")
+    arguments = addresses["Library"] + addresses["Studio"]
+    return [*found, deployment("PedestalSite", creation + arguments, list(addresses))]
+
+
+@pytest.fixture(scope="module")
+def fetch() -> Iterator[Fetch]:
+    """Fetch addresses of a chain with the contracts and an icon; {Web} stands for an address and the chain."""
+    wanted = deployed()
+    (crown,) = chosen_items(["crown"])
+    hosts = {each.name: f"web3://{checksum_address(each.address)}:31337" for each in wanted}
+    with anvil() as node, pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SIGNER", KEY)
+        connection = Connection(node.url)
+        transactor = Transactor(connection, environment_account("SIGNER"))
+        deployer = Deployer(connection)
+        deployer.execute(deployer.plan(wanted), transactor)
+        store(plan_storage(connection, [SceneToStore(crown.name, crown.scene)]), transactor)
+
+        def get(address: str) -> Answer:
+            command = ["node", str(HERE / "fetch_web3.mjs"), node.url, address.format(**hosts)]
+            result = subprocess.run(command, capture_output=True, text=True)
+            assert not result.returncode, result.stderr
+            said = json.loads(result.stdout)
+            return Answer(said["status"], said["headers"], base64.b64decode(said["body"], validate=True))
+
+        yield get
+
+
+def check_picture(answer: Answer, scene: Scene, scale: int) -> None:
+    assert (answer.status, answer.headers["Content-Type"]) == (200, "image/png")
+    with PillowImage.open(io.BytesIO(answer.body)) as opened:
+        assert np.array_equal(np.asarray(opened), render(scene).pixels.repeat(scale, 0).repeat(scale, 1))
+
+
+def test_pictures(fetch: Fetch) -> None:
+    (crown,) = chosen_items(["crown"])
+    check_picture(fetch("{Web}/icons/crown.png"), crown.scene, 4)
+    check_picture(fetch("{Web}/icons/crown.png?scale=2"), crown.scene, 2)
+    check_picture(fetch("{Web}/genesis/12.png"), load("genesis/12"), 4)
+
+
+def test_the_page(fetch: Fetch) -> None:
+    page = fetch("{Web}/")
+    assert (page.status, page.headers["Content-Type"]) == (200, "text/html")
+    assert '<a href="/icons/crown.png">' in page.body.decode()
+
+
+def test_the_auto_mode(fetch: Fetch) -> None:
+    """The function and its arguments stand in the path; the type of the file does, too."""
+    (crown,) = chosen_items(["crown"])
+    pointer = checksum_address(crown.pointer)
+    check_picture(fetch(f"{{Studio}}/renderPNG/{pointer}/4?mime.type=png"), crown.scene, 4)
+    model = fetch(f"{{Studio}}/glb/{pointer}?mime.type=glb")
+    assert model.headers == {"Content-Type": "model/gltf-binary"}
+    assert model.body == fetch("{Web}/icons/crown.glb").body
+    seed = f"0x{seed_of(12).hex()}"
+    bitmap = fetch(f"{{Genesis}}/render/{seed}?mime.type=bmp")
+    assert bitmap.headers == {"Content-Type": "image/bmp"}
+    assert bitmap.body == render(load("genesis/12")).bmp
+    # a string in place of bytes
+    uri = fetch(f"{{Studio}}/renderDataURI/{pointer}/4").body.decode("ascii")
+    assert base64.b64decode(uri.removeprefix("data:image/png;base64,")) == fetch("{Web}/icons/crown.png").body
+
+
+def test_a_site_of_ones_own(fetch: Fetch) -> None:
+    answer = fetch("{PedestalSite}/crown")
+    assert (answer.status, answer.headers) == (200, {"Content-Type": "image/png"})
+    with (
+        PillowImage.open(io.BytesIO(answer.body)) as opened,
+        PillowImage.open(draw_library.FOLDER / "library-pedestal.png") as shown,
+    ):
+        crown = np.asarray(shown)[:128, 128 * draw_library.ON_PEDESTALS.index("crown") :][:, :128]
+        assert np.abs(np.asarray(opened)[::4, ::4].astype(int) - crown).mean() < 0.5
+    assert '<a href="/teapot">' in fetch("{PedestalSite}/").body.decode()
+    assert fetch("{PedestalSite}/gold").status == 404
+
+
+def test_what_is_not_there(fetch: Fetch) -> None:
+    for path, status in (("/icons/nothing.png", 404), ("/icons/coin.png", 404), ("/icons/crown.png?scale=9", 400)):
+        answer = fetch("{Web}" + path)
+        assert (answer.status, answer.headers) == (status, {"Content-Type": "text/plain"})
+        assert answer.body.endswith(b".")
