@@ -55,7 +55,7 @@ def test_the_documentation_has_them() -> None:
 
 def test_models_would_not_fit_beside_all_pictures(measured: icons.Figures) -> None:
     """docs/tokens.md gives this as a reason why tokens have no `animation_url`."""
-    motion = json.loads((icons.ROOT / "benchmarks" / "motion.json").read_text("utf-8"))
+    motion = json.loads(icons.FILE.with_name("motion.json").read_text("utf-8"))
     models = {name: motion[f"{name}: model: gas"] for name in measured}
     shares = [100 * models[name] / each["plain"] for name, each in measured.items()]
     assert [round(min(shares)), round(max(shares))] == [5, 30]
