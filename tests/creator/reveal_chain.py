@@ -6,7 +6,7 @@ from typing import Any
 
 import rlp
 from tools.tokens.stage import Stage, stage
-from tools.tokens.world import ETHER, GAS, Refused, keccak
+from tools.tokens.world import ETHER, GAS, HISTORY, HISTORY_LENGTH, Refused, keccak
 
 ACCOUNT = "0x" + "a1" * 20
 #: Fields of the headers of the world, in order.
@@ -31,6 +31,8 @@ class RevealChain:
         self.refused = ""
         self.asked: list[str] = []
         self.sent: list[dict[str, str]] = []
+        #: Headers that differ from those of the world, by number.
+        self.headers: dict[int, bytes] = {}
         #: What nodes report as the latest block is this much behind.
         self.behind = READABLE - 2
         self.stage.world.fund(ACCOUNT, ETHER)
@@ -43,6 +45,14 @@ class RevealChain:
     def mine(self, missing: int) -> None:
         """Makes blocks until so many are missing."""
         self.stage.world.mine_to(self.block + READABLE - missing)
+
+    def change_header(self, **values: bytes) -> None:
+        """Give the block that determines the seed other fields."""
+        world, number = self.stage.world, self.block
+        fields = dict(zip(FIELDS, rlp.decode(world.header(number)), strict=True)) | values
+        self.headers[number] = rlp.encode(list(fields.values()))
+        slot = number % HISTORY_LENGTH
+        world.of(HISTORY).storage[slot] = int.from_bytes(keccak(self.headers[number]), "big")
 
     def answer(self, method: str, parameters: list[Any]) -> dict[str, Any]:
         """The answer to a request."""
@@ -65,7 +75,7 @@ class RevealChain:
 
     def eth_getBlockByNumber(self, number: str, whole: bool) -> Any:
         assert not whole
-        header = self.stage.world.header(int(number, 16))
+        header = self.headers.get(int(number, 16)) or self.stage.world.header(int(number, 16))
         block = {name: "0x" + value.hex() for name, value in zip(FIELDS, rlp.decode(header), strict=True)}
         # more than fits in a message to the server
         return block | {"hash": "0x" + keccak(header).hex(), "transactions": ["0x" + "ab" * 32] * 2000}

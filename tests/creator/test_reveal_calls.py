@@ -79,6 +79,23 @@ def test_the_page_waits_for_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
     assert reveal.later == ""
 
 
+def test_the_hash_of_the_block_gives_nothing(chain: RevealChain) -> None:
+    """On two chains whose blocks differ in all but the randomness, the same is revealed."""
+    outcomes = []
+    for other in (False, True):
+        with chain.stage.world.attempt():
+            if other:
+                chain.change_header(extraData=b"another block", gasUsed=b"\x01")
+            reveal = found(chain)
+            send(reveal, chain)
+            block_hash = chain.genesis.call("hashOf", chain.block)
+            outcomes.append((block_hash, reveal.randomness, chain.genesis.call("seedOf", 0)))
+    (first, *revealed), (second, *same) = outcomes
+    assert first != second
+    assert revealed == same
+    assert reveal.randomness == (chain.stage.world.randomness(chain.block),)
+
+
 def test_rounds_that_wait_are_told(chain: RevealChain) -> None:
     later = chain.genesis.call("currentRound")
     chain.stage.mint()
