@@ -13,12 +13,19 @@ pytest.importorskip("starlette", reason="the page needs starlette")
 
 from creator.edition_chain import ACCOUNT, EditionChain
 from shackled import render
-from shackled.creator._edition import EditionCalls
-from shackled.creator._state import Size, Source, State
-from shackled.creator._store import Limits
-from shackled.creator._tasks import Tasks
-from shackled.creator._web.edition import mint_edition, parse_terms
-from shackled.creator._web.wallet import Waiting, Wallet, WalletError
+from shackled.creator import (
+    EditionCalls,
+    Limits,
+    Size,
+    Source,
+    State,
+    Tasks,
+    Waiting,
+    Wallet,
+    WalletError,
+    mint_edition,
+    parse_terms,
+)
 from shackled.errors import InputError
 from shackled.tokens import OPEN, read_token_uri
 

@@ -14,8 +14,16 @@ from tools.tokens.world import HISTORY_LENGTH
 
 from creator.reveal_chain import RevealChain
 from shackled.artifacts import artifact
-from shackled.creator._web.reveal import Reveal, find_reveal, parse_collection, send_reveal
-from shackled.creator._web.wallet import DeclinedError, Waiting, Wallet, WalletError
+from shackled.creator import (
+    DeclinedError,
+    Reveal,
+    Waiting,
+    Wallet,
+    WalletError,
+    find_reveal,
+    parse_collection,
+    send_reveal,
+)
 from shackled.errors import InputError, NodeError
 from shackled.ethereum import encode_header
 

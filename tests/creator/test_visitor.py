@@ -12,8 +12,7 @@ import pytest
 
 pytest.importorskip("starlette", reason="the page needs starlette")
 
-from shackled.creator import ACTIONS, DRAFT, KEYS, Facts, Frame, Pool, Source, State, Visitor, act, describe
-from shackled.creator._web.reveal import Reveal
+from shackled.creator import ACTIONS, DRAFT, KEYS, Facts, Frame, Pool, Reveal, Source, State, Visitor, act, describe
 from shackled.datasets import require
 from shackled.errors import InputError, RenderError
 

@@ -1,4 +1,5 @@
 from ._controls import CONTROLS, GROUPS, MAX_OPACITIES, control, lamp_controls
+from ._edition import EditionCalls
 from ._history import (
     MAX_STEPS,
     History,
@@ -53,10 +54,13 @@ from ._takeaway import KINDS, make_file
 from ._tasks import Tasks
 from ._upload import clean_name
 from ._web.actions import ACTIONS, act
+from ._web.edition import mint_edition, parse_terms
 from ._web.live import ABSENCE, Visitors, live
 from ._web.page import KEYS
+from ._web.reveal import Reveal, find_reveal, parse_collection, send_reveal
 from ._web.server import first_source, make_app, serve, unpack_upload
 from ._web.visitor import DRAFT, Visitor
+from ._web.wallet import DeclinedError, Waiting, Wallet, WalletError
 
 __all__ = [
     "ABSENCE",
@@ -73,6 +77,8 @@ __all__ = [
     "PRESETS",
     "Backdrop",
     "Curve",
+    "DeclinedError",
+    "EditionCalls",
     "Facts",
     "File",
     "ForbiddenError",
@@ -87,6 +93,7 @@ __all__ = [
     "PoolError",
     "Pose",
     "Queue",
+    "Reveal",
     "Size",
     "Sky",
     "Source",
@@ -99,6 +106,9 @@ __all__ = [
     "Upload",
     "Visitor",
     "Visitors",
+    "Waiting",
+    "Wallet",
+    "WalletError",
     "act",
     "add_lamp",
     "apply_look",
@@ -114,6 +124,7 @@ __all__ = [
     "drag",
     "enter_sandbox",
     "filled",
+    "find_reveal",
     "first_source",
     "fit",
     "from_document",
@@ -131,13 +142,17 @@ __all__ = [
     "live",
     "make_app",
     "make_file",
+    "mint_edition",
     "orbit_of",
     "pan",
+    "parse_collection",
+    "parse_terms",
     "places",
     "preset",
     "remove_lamp",
     "reset_state",
     "reset_value",
+    "send_reveal",
     "serve",
     "set_value",
     "to_document",
