@@ -12,7 +12,7 @@ import pytest
 
 pytest.importorskip("starlette", reason="the page needs starlette")
 
-from shackled.creator import ACTIONS, DRAFT, KEYS, Facts, Frame, Pool, Source, State, Visitor, act, describe
+from shackled.creator import ACTIONS, DRAFT, KEYS, Facts, Frame, Pool, Reveal, Source, State, Visitor, act, describe
 from shackled.datasets import require
 from shackled.errors import InputError, RenderError
 
@@ -430,6 +430,45 @@ def test_what_a_wallet_was_asked_outlives_the_wire(monkeypatch: pytest.MonkeyPat
         assert outcomes == ["0x2"]
         visitor.leave(again.send)
 
+    play(story)
+
+
+def test_a_reveal_is_sent_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    look = {"do": "reveal", "wallet": 0, "fields": {"collection": "0x" + "c0" * 20}}
+
+    async def found(address: str, wallet: Any, number: int, tell: Any) -> Reveal:
+        return Reveal(number, 1, address, (), (), b"data", 95_000, "")
+
+    async def sent(reveal: Reveal, wallet: Any, tell: Any) -> str:
+        return str(await wallet.request("eth_sendTransaction", {}))
+
+    async def story(visitor: Visitor, pool: SlowPool, page: Page) -> None:
+        await act(visitor, {"do": "reveal-send"})
+        await act(visitor, look)
+        said = page.said("alert")
+        assert [words.partition(":")[0] for words in said] == [
+            "there is no transaction to send",
+            "there is no such wallet",
+        ]
+        await act(visitor, {"do": "wallets", "names": ["Toy"]})
+        await act(visitor, look)
+        await turn()
+        assert visitor.status["reveal"].startswith("Ready: the transaction below reveals")
+        await act(visitor, {"do": "wallets", "names": []})  # what a page says it has may change
+        await act(visitor, {"do": "reveal-send"})
+        await turn()
+        for message in ({"do": "reveal-send"}, look | {"wallet": 0}):
+            visitor.wallets = ["Toy"]
+            await act(visitor, message)
+            assert "tokens are being revealed: answer in your wallet" in page.said("alert")[-1]
+        (question,) = page.said("wallet")
+        await act(visitor, {"do": "answer", "id": question["id"], "result": "Revealed"})
+        await turn()
+        assert visitor.status["reveal"] == "Revealed"
+        assert visitor.reveal is None
+
+    monkeypatch.setattr("shackled.creator._web.dialogs.find_reveal", found)
+    monkeypatch.setattr("shackled.creator._web.dialogs.send_reveal", sent)
     play(story)
 
 

@@ -198,6 +198,40 @@ def test_a_chain_without_randomness_says_so(s: Stage, monkeypatch: pytest.Monkey
         s.reveal(0)
 
 
+#: Place of PREVRANDAO among the fields of a header.
+PREV_RANDAO = 13
+
+
+def changed(header: bytes, place: int) -> bytes:
+    """The header with another value of one field, in as many bytes; one without bytes gets some."""
+    fields = rlp.decode(header)
+    fields[place] = bytes(byte ^ 0x15 for byte in fields[place]) or b"\x07"
+    return bytes(rlp.encode(fields))
+
+
+def test_the_hash_of_the_block_is_no_part_of_the_seed(s: Stage) -> None:
+    """A proposer can try any number of hashes: headers that differ in any field but PREVRANDAO give the same seed."""
+    s.mint()
+    block = s.genesis.call("blockOf", 0)
+    s.world.mine_to(block + 300)
+    right = s.world.header(block)
+    hashes, seeds = set(), {}
+    for place in range(len(rlp.decode(right))):
+        header = changed(right, place)
+        with s.world.attempt():
+            # a chain on which this is the header of the block
+            s.world.of(HISTORY).storage[block % HISTORY_LENGTH] = int.from_bytes(keccak(header), "big")
+            assert s.genesis.call("hashOf", block) == keccak(header)
+            s.genesis.send("reveal", [0], [header])
+            randomness = s.genesis.call("randomnessOf", 0)
+            assert randomness == rlp.decode(header)[PREV_RANDAO] != keccak(header)
+            seeds[place] = s.genesis.call("seedOf", 0)
+        hashes.add(keccak(header))
+    assert len(hashes) == len(seeds) == 21
+    assert seeds.pop(PREV_RANDAO) != drawn(s, 0)
+    assert set(seeds.values()) == {drawn(s, 0)}
+
+
 def of_another_form() -> dict[str, bytes]:
     """Headers as no chain has them, whose hashes a chain could know all the same."""
     before: list[bytes | int] = [*[bytes(32)] * 2, bytes(20), *[bytes(32)] * 3]

@@ -57,9 +57,10 @@ from ._web.actions import ACTIONS, act
 from ._web.edition import mint_edition, parse_terms
 from ._web.live import ABSENCE, Visitors, live
 from ._web.page import KEYS
+from ._web.reveal import Reveal, find_reveal, parse_collection, send_reveal
 from ._web.server import first_source, make_app, serve, unpack_upload
 from ._web.visitor import DRAFT, Visitor
-from ._web.wallet import Waiting, Wallet, WalletError
+from ._web.wallet import DeclinedError, Waiting, Wallet, WalletError
 
 __all__ = [
     "ABSENCE",
@@ -76,6 +77,7 @@ __all__ = [
     "PRESETS",
     "Backdrop",
     "Curve",
+    "DeclinedError",
     "EditionCalls",
     "Facts",
     "File",
@@ -91,6 +93,7 @@ __all__ = [
     "PoolError",
     "Pose",
     "Queue",
+    "Reveal",
     "Size",
     "Sky",
     "Source",
@@ -121,6 +124,7 @@ __all__ = [
     "drag",
     "enter_sandbox",
     "filled",
+    "find_reveal",
     "first_source",
     "fit",
     "from_document",
@@ -141,12 +145,14 @@ __all__ = [
     "mint_edition",
     "orbit_of",
     "pan",
+    "parse_collection",
     "parse_terms",
     "places",
     "preset",
     "remove_lamp",
     "reset_state",
     "reset_value",
+    "send_reveal",
     "serve",
     "set_value",
     "to_document",

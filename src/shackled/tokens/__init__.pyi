@@ -25,7 +25,21 @@ from ._licence import allows, licence_of
 from ._metadata import MAX_LENGTH, Metadata, Trait, read_data_uri, read_token_uri, shrink
 from ._minting import mint_call
 from ._randomness import check_randomness
-from ._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE, hidden_rounds, latest_block, price_calls, reveal_calls
+from ._reveal import (
+    HEADERS_AT_ONCE,
+    KNOWN_BLOCKS_BEFORE,
+    ROUNDS_AT_ONCE,
+    TOKENS_AT_ONCE,
+    RevealCall,
+    Round,
+    checked_header,
+    hidden_rounds,
+    latest_block,
+    price_calls,
+    price_wallet_calls,
+    reveal_call,
+    reveal_calls,
+)
 from ._reverts import PHASES
 from ._storage import SceneToStore, plan_storage, read_back, store
 from ._verify import check_code, check_collection_code, check_token
@@ -41,7 +55,9 @@ __all__ = [
     "MAX_SCALE",
     "OPEN",
     "PHASES",
+    "ROUNDS_AT_ONCE",
     "SCALE",
+    "TOKENS_AT_ONCE",
     "USUAL_GAS",
     "ActionCost",
     "Collection",
@@ -51,6 +67,8 @@ __all__ = [
     "Edition",
     "EditionTerms",
     "Metadata",
+    "RevealCall",
+    "Round",
     "SceneToStore",
     "TokenView",
     "Trait",
@@ -64,6 +82,7 @@ __all__ = [
     "check_randomness",
     "check_sale",
     "check_token",
+    "checked_header",
     "chosen_pieces",
     "comparison",
     "development_accounts",
@@ -93,6 +112,7 @@ __all__ = [
     "plan_setup",
     "plan_storage",
     "price_calls",
+    "price_wallet_calls",
     "read_allow_list",
     "read_allowance",
     "read_back",
@@ -100,6 +120,7 @@ __all__ = [
     "read_token_uri",
     "read_view",
     "read_views",
+    "reveal_call",
     "reveal_calls",
     "run_demo",
     "shrink",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..deploy import Quote, Transactor, make_quotes
+from ..deploy import Call, Fees, Quote, Transactor, make_quotes
 from ..errors import InputError, NodeError
-from ..ethereum import encode_header
+from ..ethereum import encode_header, keccak256, to_hex
 from ._collection import Collection
 from ._contract import call_of, plan
 
@@ -32,6 +32,14 @@ class Round:
 
     number: int
     block: int
+
+    def missing_blocks(self, latest: int) -> int:
+        """Return how many blocks must follow the latest one until the round can be revealed.
+
+        Contracts read the hashes of earlier blocks only, and nodes simulate calls in the latest one: so one block must
+        follow that of the round.
+        """
+        return max(0, self.block + 1 - latest)
 
 
 def hidden_rounds(collection: Collection) -> list[Round]:
@@ -59,61 +67,105 @@ class RevealCall:
 
 
 def reveal_calls(collection: Collection, rounds: list[Round]) -> list[RevealCall]:
-    """Return the calls that reveal rounds whose blocks are mined, in order.
+    """Return the calls that reveal rounds whose blocks are not missing, in order.
 
-    If block hashes are no longer available on the chain, the first calls prove them.
+    If block hashes are no longer available on the chain, the first calls prove them. Every header is compared with the
+    hash that the collection has of its block, or proves. Raises NodeError or InputError if one differs.
     """
-    calls = list(_proofs(collection, [each.block for each in rounds if not _hash_known(collection, each.block)]))
+    hashes = {each.block: _hash_of(collection, each.block) for each in rounds}
+    calls = list(_proofs(collection, hashes))
     for first in range(0, len(rounds), ROUNDS_AT_ONCE):
         some = rounds[first : first + ROUNDS_AT_ONCE]
-        headers = [header_of(collection, each.block) for each in some]
-        calls.append(
-            RevealCall("reveal", ([each.number for each in some], headers), FIRST_GAS + REVEAL_GAS * len(some))
-        )
+        headers = [header_of(collection, each.block, hashes[each.block]) for each in some]
+        calls.append(reveal_call(some, headers))
     return calls
+
+
+def reveal_call(rounds: Sequence[Round], headers: list[bytes]) -> RevealCall:
+    """Return the call that reveals rounds by the headers of their blocks."""
+    return RevealCall("reveal", ([each.number for each in rounds], headers), FIRST_GAS + REVEAL_GAS * len(rounds))
 
 
 def price_calls(transactor: Transactor, collection: Collection, calls: Sequence[RevealCall]) -> list[Quote]:
     """Return the quotes of one or more calls. Raises RevertError, with an explanation, if the first would revert."""
-    first, *rest = calls
-    contract = collection.contract
+    first, contract = calls[0], collection.contract
     quote = plan(transactor, contract, first.function, *first.arguments, gas=first.gas)
-    later = [
-        call_of(contract.interface, contract.address, each.function, *each.arguments, gas=each.gas) for each in rest
-    ]
+    later = _transactions(collection, calls[1:])
     return [quote, *make_quotes(transactor.connection, later, quote.fees, [quote], transactor.address)]
 
 
-def header_of(collection: Collection, number: int) -> bytes:
-    """Return the RLP header of a block, checked against its hash."""
-    block = collection.connection.block(number)
+def price_wallet_calls(collection: Collection, calls: Sequence[RevealCall], fees: Fees) -> list[Quote]:
+    """Return the quotes of one or more calls that some wallet will send, so without an account.
+
+    Raises RevertError, with an explanation, if the first would revert.
+    """
+    first = calls[0]
+    collection.contract.call(first.function, *first.arguments)
+    return make_quotes(collection.connection, _transactions(collection, calls), fees)
+
+
+def header_of(collection: Collection, number: int, expected: bytes) -> bytes:
+    """Return the RLP header of a block from the node. Raises as `checked_header`. expected: the hash of the block."""
+    connection = collection.connection
+    return checked_header(connection.block(number), number, expected, connection.name)
+
+
+def checked_header(block: Mapping[str, Any], number: int, expected: bytes, name: str) -> bytes:
+    """Return the RLP header of a block, as `eth_getBlockByNumber` returns it.
+
+    expected: the hash of the block that the collection has. name: of the node, for messages. Raises NodeError if a
+    field is invalid or the hash is another one, InputError if the header has not the hash that the block states.
+    """
     try:
-        return encode_header(block)
+        header = encode_header(block)
     except InputError:
         raise
     except (OverflowError, TypeError, ValueError):
+        raise NodeError(f"the {name} returned invalid fields of block {number:,}: {block!r:.60}") from None
+    found = keccak256(header)
+    if found != expected:
         raise NodeError(
-            f"the {collection.connection.name} returned invalid fields of block {number:,}: {block!r:.60}"
-        ) from None
+            f"the {name} returned a wrong header of block {number:,}: its hash is {to_hex(found)}, and that of the "
+            f"block is {to_hex(expected)}, as the collection reads it on the chain"
+        )
+    return header
 
 
-def _proofs(collection: Collection, old: list[int]) -> Iterator[RevealCall]:
-    """Yield calls that go back, header by header, from a block whose hash is available to each of the old ones."""
+def _transactions(collection: Collection, calls: Sequence[RevealCall]) -> list[Call]:
+    interface, address = collection.contract.interface, collection.address
+    return [call_of(interface, address, each.function, *each.arguments, gas=each.gas) for each in calls]
+
+
+def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[RevealCall]:
+    """Yield calls that go back, header by header, from a block whose hash is available to each of the old ones.
+
+    hashes: by block; those of the old ones are zeros, and are replaced by what the calls prove.
+    """
+    old = sorted((block for block, known in hashes.items() if not any(known)), reverse=True)
     if not old:
         return
     latest = latest_block(collection)
     starts = (max(latest - back, 1) for back in (KNOWN_BLOCKS, KNOWN_BLOCKS_BEFORE))
-    known = next((number for number in starts if _hash_known(collection, number)), None)
-    if known is None:
+    number, expected = next(
+        ((start, known) for start in starts if any(known := _hash_of(collection, start))), (0, bytes(32))
+    )
+    if number == 0:
         raise NodeError(f"the collection does not know the hash of any block before {latest:,}")
-    for block in sorted(old, reverse=True):
-        while known > block:
-            count = min(HEADERS_AT_ONCE, known - block)
-            headers = [header_of(collection, number) for number in range(known, known - count, -1)]
-            yield RevealCall("keepHash", (known, headers), FIRST_GAS + HEADER_GAS * count)
-            # the block whose hash the contract has stored then
-            known -= count
+    for block in old:
+        if block > number:
+            raise NodeError(f"the collection cannot read the hash of block {block:,} yet: run the command again")
+        while number > block:
+            first, headers = number, list[bytes]()
+            while number > block and len(headers) < HEADERS_AT_ONCE:
+                headers.append(header_of(collection, number, expected))
+                # a header begins with three bytes of its length, one of the next, and the hash of the block before
+                expected = headers[-1][4:36]
+                number -= 1
+            # the contract then stores the hash of block `number`
+            yield RevealCall("keepHash", (first, headers), FIRST_GAS + HEADER_GAS * len(headers))
+        hashes[block] = expected
 
 
-def _hash_known(collection: Collection, block: int) -> bool:
-    return any(collection.contract.call("hashOf", block))
+def _hash_of(collection: Collection, block: int) -> bytes:
+    """Return the hash of a block that the collection knows; zeros if it knows none."""
+    return bytes(collection.contract.call("hashOf", block))

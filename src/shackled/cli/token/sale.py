@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import InputError
-from ...ethereum import keccak256
-from ..chain_options import Json, parse_checksum_address, print_json, with_groups
+from ...ethereum import checksum_address, keccak256, to_hex
+from ...values import plural
+from ..chain_options import Json, parse_checksum_address, print_json, print_price, with_groups, write_calls
 from ..option import option
 from ..output import print_line, print_note
 from .options import MAX_NUMBER, AnyCollectionOptions, CollectionOptions, TokenPayerOptions
 
 if TYPE_CHECKING:
-    from ...deploy import Receipt
+    from ...deploy import Quote, Receipt
+    from ...tokens import Collection, RevealCall, Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -85,41 +87,98 @@ def reveal(
     which: CollectionOptions,
     payer: TokenPayerOptions,
     wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
+    calldata: Annotated[
+        Path | None,
+        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+    ] = None,
+    as_json: Json = False,
 ) -> None:
-    """Reveal the tokens whose blocks are mined. Anyone can; the result is the same."""
-    from ...tokens import hidden_rounds, latest_block, price_calls, reveal_calls
+    """Reveal the tokens whose blocks are mined. Anyone can, from any wallet; the result is the same."""
+    from ...deploy import current_fees
+    from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
 
     collection = which.open()
     if not collection.kind.hidden:
         raise InputError(f"the tokens of {collection.name} show their pictures at once: there is nothing to reveal")
     rounds = hidden_rounds(collection)
     if not rounds:
-        print_line("there is nothing to reveal")
+        if calldata is not None:
+            raise InputError(f"there is nothing to reveal: {calldata} was not written")
+        if as_json:
+            print_json({"rounds": [], "transactions": [], "gas": 0})
+        else:
+            print_line("there is nothing to reveal")
         return
+    ready = _ready_rounds(collection, rounds, wait)
+    transactor = None if calldata is not None else payer.transactor(collection.connection)
+    calls = reveal_calls(collection, ready)
+    if transactor is None:
+        quotes = price_wallet_calls(collection, calls, current_fees(collection.connection, payer.max_wei))
+    else:
+        quotes = price_calls(transactor, collection, calls)
+    proofs = sum(call.function != "reveal" for call in calls)
+    more = f", and {plural(proofs, 'transaction')} to prove old blocks" if proofs else ""
+    print_note(plural(len(ready), "round") + more)
+    if calldata is not None:
+        print_price(quotes)
+        named = {_name_of(call): quote for call, quote in zip(calls, quotes, strict=True)}
+        write_calls(calldata, collection.connection.chain_id, named, as_json)
+        if not as_json:
+            _print_pasting(quotes, calldata)
+    elif transactor is not None:
+        payer.confirm(transactor, quotes)
+        receipts = []
+        for call, quote in zip(calls, quotes, strict=True):
+            receipts.append(transactor.send(quote))
+            done = f"{'revealed' if call.function == 'reveal' else 'proved older blocks'}; {receipts[-1].gas:,} gas"
+            (print_note if as_json else print_line)(done)
+        if as_json:
+            hashes = [receipt.hash for receipt in receipts]
+            gas = sum(receipt.gas for receipt in receipts)
+            print_json({"rounds": [each.number for each in ready], "transactions": hashes, "gas": gas})
+    if len(ready) < len(rounds):
+        waiting, following = plural(len(rounds) - len(ready), "round"), rounds[len(ready)]
+        text = f"left to reveal: {waiting}, whose blocks are to come, the next one {following.block:,}"
+        (print_note if as_json else print_line)(text)
+
+
+def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> list[Round]:
+    """Return the rounds that can be revealed now; with `wait`, wait for all. InputError if there are none."""
+    from ...tokens import latest_block
+
     latest = latest_block(collection)
-    while wait and rounds[-1].block > latest:
-        print_note(f"waiting for block {rounds[-1].block:,}, in {rounds[-1].block - latest} blocks")
+    while wait and (missing := rounds[-1].missing_blocks(latest)):
+        print_note(f"waiting for block {rounds[-1].block:,}, {missing:,} more to come")
         time.sleep(PAUSE)
         latest = latest_block(collection)
-    ready = [each for each in rounds if each.block <= latest]
+    ready = [each for each in rounds if not each.missing_blocks(latest)]
     if not ready:
         raise InputError(
             f"block {rounds[0].block:,} determines the next seeds, and the chain is at {latest:,}: "
-            f"wait for {rounds[0].block - latest} more blocks, or add --wait"
+            f"wait for {plural(rounds[0].missing_blocks(latest), 'more block')}, or add --wait"
         )
-    transactor = payer.transactor(collection.connection)
-    calls = reveal_calls(collection, ready)
-    quotes = price_calls(transactor, collection, calls)
-    proofs = sum(call.function != "reveal" for call in calls)
-    text = f"{len(ready)} round{'s' * (len(ready) > 1)}"
-    print_note(text + (f", and {proofs} transaction{'s' * (proofs > 1)} to prove old blocks" if proofs else ""))
-    payer.confirm(transactor, quotes)
-    for call, quote in zip(calls, quotes, strict=True):
-        receipt = transactor.send(quote)
-        print_line(f"{'revealed' if call.function == 'reveal' else 'proved older blocks'}; {receipt.gas:,} gas")
-    if len(ready) < len(rounds):
-        waiting = len(rounds) - len(ready)
-        print_line(f"{waiting} rounds wait for their blocks, the next for {rounds[len(ready)].block:,}")
+    return ready
+
+
+def _name_of(call: RevealCall) -> str:
+    """Return what a call is for; no two calls of a reveal have the same name."""
+    if call.function != "reveal":
+        return f"prove blocks before {call.arguments[0]}"
+    numbers = call.arguments[0]
+    return f"reveal {plural(len(numbers), 'round')}, {', '.join(map(str, numbers))}"
+
+
+def _print_pasting(quotes: list[Quote], path: Path) -> None:
+    """Print how the transactions get into a wallet that reads no file."""
+    if len(quotes) > 1:
+        print_line(f"send them one after the other, each when the one before is in a block: {path} has `to` and `data`")
+        return
+    call = quotes[0].call
+    assert call.to is not None
+    print_line("to send it with any wallet that accepts data, paste:")
+    print_line(f"to     {checksum_address(call.to)}")
+    print_line("value  0")
+    print_line(f"data   {to_hex(call.data)}")
 
 
 @with_groups

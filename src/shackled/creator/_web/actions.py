@@ -18,6 +18,7 @@ from .._scene import filled
 from .._state import Backdrop, Size, Source
 from . import dialogs
 from .edition import parse_terms
+from .reveal import parse_collection
 from .visitor import Message, Visitor
 from .wallet import offer_of
 
@@ -248,6 +249,7 @@ async def _wallets(visitor: Visitor, message: Message) -> None:
         raise InputError("the names of wallets must be a list of texts")
     visitor.wallets = [name[:40] for name in names[:8]]
     await dialogs.show_offer(visitor)
+    await dialogs.show_reveal(visitor)
 
 
 async def _answer(visitor: Visitor, message: Message) -> None:
@@ -272,6 +274,33 @@ async def _edition(visitor: Visitor, message: Message) -> None:
     if visitor.is_at("mint"):
         raise InputError("a token is being minted: answer in your wallet, or wait until it is done")
     visitor.job("mint", lambda: dialogs.make_edition(visitor, terms, number))
+
+
+async def _reveal_open(visitor: Visitor, message: Message) -> None:
+    await visitor.tell({"open": "reveal"})
+
+
+async def _reveal(visitor: Visitor, message: Message) -> None:
+    number, collection = int(_number(message, "wallet")), parse_collection(message.get("fields"))
+    if not 0 <= number < len(visitor.wallets):
+        raise InputError("there is no such wallet")
+    _check_not_revealing(visitor)
+    visitor.collection = collection
+    # it may wait for a block: another look replaces it
+    visitor.job("reveal", lambda: dialogs.find_tokens(visitor, collection, number))
+
+
+async def _reveal_send(visitor: Visitor, message: Message) -> None:
+    reveal = visitor.reveal
+    if reveal is None:
+        raise InputError("there is no transaction to send: look for tokens to reveal first")
+    _check_not_revealing(visitor)
+    visitor.job("reveal-send", lambda: dialogs.reveal_tokens(visitor, reveal))
+
+
+def _check_not_revealing(visitor: Visitor) -> None:
+    if visitor.is_at("reveal-send"):
+        raise InputError("tokens are being revealed: answer in your wallet, or wait until it is done")
 
 
 ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {
@@ -307,4 +336,7 @@ ACTIONS: dict[str, Callable[[Visitor, Message], Awaitable[None]]] = {
     "answer": _answer,
     "mint": _mint,
     "edition": _edition,
+    "reveal-open": _reveal_open,
+    "reveal": _reveal,
+    "reveal-send": _reveal_send,
 }

@@ -1,4 +1,4 @@
-"""The dialogs of the page and their long tasks: downloads, gas and stages, minting, comparison with a node."""
+"""The dialogs of the page and their long tasks: downloads, gas and stages, wallets, comparison with a node."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from .._state import Size
 from .._takeaway import MAX_PNG, SCALES
 from .edition import can_be_sold, mint_edition
 from .page import SNIPPETS, TURNTABLES, fragment
+from .reveal import COMMAND, Reveal, find_reveal, known_collection, send_reveal
 from .visitor import Message, Visitor
 from .wallet import DeclinedError, Offer, Tell, Wallet, mint, offer_of
 
@@ -116,14 +117,14 @@ async def show_offer(visitor: Visitor) -> None:
         is_upload=source.kind == "upload",
         wallets=visitor.wallets,
         busy=visitor.is_at("mint"),
-        status=visitor.minting,
+        status=visitor.status.get("mint", ""),
     )
     await visitor.tell({"html": {"mint": html}})
 
 
 async def mint_token(visitor: Visitor, offer: Offer, number: int) -> None:
     """Mint a token. number: of the wallet."""
-    await _with_wallet(visitor, number, lambda wallet, tell: mint(offer, wallet, tell))
+    await _with_wallet(visitor, number, "mint", lambda wallet, tell: mint(offer, wallet, tell))
 
 
 async def make_edition(visitor: Visitor, terms: EditionTerms, number: int) -> None:
@@ -134,15 +135,64 @@ async def make_edition(visitor: Visitor, terms: EditionTerms, number: int) -> No
         await tell("Drawing the scene …")
         return await mint_edition(await visitor.pool.edition(visitor.name, state, terms), wallet, tell)
 
-    await _with_wallet(visitor, number, make)
+    await _with_wallet(visitor, number, "mint", make)
 
 
-async def _with_wallet(visitor: Visitor, number: int, work: Callable[[Wallet, Tell], Awaitable[str]]) -> None:
+async def show_reveal(visitor: Visitor) -> None:
+    """Show the dialog in which tokens are revealed, as it is now."""
+    html = fragment(
+        "reveal",
+        collection=visitor.collection or known_collection(),
+        command=COMMAND,
+        wallets=visitor.wallets,
+        status=visitor.status.get("reveal", ""),
+    )
+    await visitor.tell({"html": {"reveal": html}})
+    await _show_transaction(visitor, visitor.reveal)
+
+
+async def find_tokens(visitor: Visitor, collection: str, number: int) -> None:
+    """Find what can be revealed, and show the transaction. number: of the wallet."""
+    await _show_transaction(visitor, None)
+
+    async def find(wallet: Wallet, tell: Tell) -> str:
+        found = await find_reveal(collection, wallet, number, tell)
+        if found is None:
+            return "There is nothing to reveal: all tokens of the collection are revealed, or none was minted yet"
+        await _show_transaction(visitor, found)
+        return f"Ready: the transaction below reveals {found.words}. {found.later}".strip()
+
+    await _with_wallet(visitor, number, "reveal", find, waits=False)
+
+
+async def reveal_tokens(visitor: Visitor, reveal: Reveal) -> None:
+    """Have the wallet send the transaction that the dialog shows."""
+
+    async def send(wallet: Wallet, tell: Tell) -> str:
+        words = await send_reveal(reveal, wallet, tell)
+        await _show_transaction(visitor, None)
+        return words
+
+    await _with_wallet(visitor, reveal.wallet, "reveal", send)
+
+
+async def _show_transaction(visitor: Visitor, reveal: Reveal | None) -> None:
+    visitor.reveal = reveal
+    html = fragment("transaction", reveal=reveal, wallets=visitor.wallets, busy=visitor.is_at("reveal-send"))
+    await visitor.tell({"html": {"reveal-transaction": html}})
+
+
+async def _with_wallet(
+    visitor: Visitor, number: int, name: str, work: Callable[[Wallet, Tell], Awaitable[str]], waits: bool = True
+) -> None:
+    """Do what needs a wallet, and say how it goes. name: of the status, and of the buttons that wait for the end."""
+
     async def tell(words: str) -> None:
-        visitor.minting = words
-        await visitor.tell({"texts": {"mint-words": words}})
+        if words != visitor.status.get(name):
+            visitor.status[name] = words
+            await visitor.tell({"texts": {f"{name}-words": words}})
 
-    await visitor.tell({"attributes": {"mint-start": {"disabled": ""}}})
+    await visitor.tell({"attributes": {f"{name}-start": {"disabled": ""}}} if waits else {})
     try:
         words = await work(Wallet(visitor.waiting, visitor.tell, number), tell)
         await tell(words)
@@ -150,7 +200,7 @@ async def _with_wallet(visitor: Visitor, number: int, work: Callable[[Wallet, Te
     except DeclinedError:
         await tell("Cancelled")
     except ShackledError as error:
-        await tell(f"Not minted: {error}")
+        await tell(f"{'Not minted' if name == 'mint' else 'Not revealed'}: {error}")
         raise
     finally:
-        await visitor.tell({"attributes": {"mint-start": {"disabled": None}}})
+        await visitor.tell({"attributes": {f"{name}-start": {"disabled": None}}})

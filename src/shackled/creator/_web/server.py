@@ -201,6 +201,7 @@ def make_app(visitors: Visitors, html: str, local: bool, names: Sequence[str] = 
     app = Starlette(
         routes=[
             Route("/", index),
+            Route("/reveal", index),  # the page opens the dialog
             Route("/thumbnail/{name:path}.png", thumbnail),
             Route("/take/{visitor}/{kind}", take),
             Route("/call/{visitor}", call),

@@ -18,6 +18,7 @@ from .._pool import Pool
 from .._presets import PRESETS, apply_look
 from .._scene import Facts, filled
 from .._state import Size, Source, State, scene_key
+from .reveal import Reveal
 from .shown import Shown, figures, merged
 from .wallet import Waiting
 
@@ -31,7 +32,7 @@ DRAFT, LEAST_DRAFT = 96, 48
 #: Side of the pictures of the looks.
 LOOK = 56
 #: Jobs that go on while the page is disconnected: a request to a wallet cannot be taken back.
-LASTING = ("mint",)
+LASTING = ("mint", "reveal", "reveal-send")
 #: Seconds of a draft above which smaller ones are rendered, and below which larger ones are.
 SLOW, QUICK = 0.07, 0.03
 
@@ -41,7 +42,8 @@ class Visitor:
 
     name: secret; it identifies the visitor to the pool and in addresses.
     frame: the last picture in full. turntable: the last GIF.
-    wallets: names of the wallets that the page has found. waiting: requests to them. minting: status of minting.
+    wallets: names of the wallets that the page has found. waiting: requests to them. status: of what is done with
+    them, by name. collection, reveal: what was typed in the dialog of that name, and the transaction that it shows.
     is_local: whether the page was opened at a loopback address. is_uploading: whether a file is being sent or read.
     greeting: error to show first. stamp: of the last camera that the page has sent after a movement.
     wanted: state whose upload is not in memory; it is restored when the file is uploaded again.
@@ -58,7 +60,9 @@ class Visitor:
         self.turntable: bytes | None = None
         self.wallets: list[str] = []
         self.waiting = Waiting()
-        self.minting = ""
+        self.status: dict[str, str] = {}
+        self.collection = ""
+        self.reveal: Reveal | None = None
         self.is_local = False
         self.is_uploading = False
         self.greeting = ""

@@ -12,7 +12,7 @@ const $$ = (selector, within = document) => [...within.querySelectorAll(selector
 const keys = JSON.parse(document.body.dataset.keys);
 const local = new Local({ send: wire.send, paint, prepared: (is) => { $("#picture").dataset.ready = is; } });
 // messages after which no picture follows
-const still = ["takeaway", "wallets", "stages", "answer", "node", "gif", "stop-gif", "mint", "edition"];
+const still = ["takeaway", "wallets", "stages", "answer", "node", "gif", "stop-gif", "mint", "edition", "reveal-open", "reveal", "reveal-send"];
 const send = (message) => {
   if (still.includes(message.do)) local.end();
   else local.leave();
@@ -26,6 +26,7 @@ const view = new View($("#view"), {
   covered: () => local.moving,
 });
 let visitor = "";
+let opens = location.pathname === "/reveal"; // an address that others can be told
 
 // ---- what comes back ----
 
@@ -52,6 +53,8 @@ const showers = {
     if (visitor && name !== visitor) return location.reload(); // the server was restarted: the link restores the picture
     visitor = name;
     local.join(name);
+    if (opens) send({ do: "reveal-open" });
+    opens = false;
     for (const link of $$("[data-take]")) link.href = `/take/${visitor}/${link.dataset.take}`;
   },
   values: (values) => { for (const [path, value] of Object.entries(values)) setValue(path, value); },
@@ -77,7 +80,7 @@ const showers = {
     const dialog = document.getElementById(name);
     if (!dialog.open) dialog.showModal();
     $("#link").value = location.href;
-    if (name === "takeaway") send({ do: "wallets", names: findWallets() });
+    if (name === "takeaway" || name === "reveal") send({ do: "wallets", names: findWallets() });
   },
   close: (name) => document.getElementById(name).close(),
   wallet: async (request) => { const answer = await askWallet(request); send({ do: "answer", ...answer }); },
@@ -178,7 +181,7 @@ document.addEventListener("focusout", () => { typing = false; });
 
 document.addEventListener("click", (event) => {
   local.end();
-  const button = event.target.closest("[data-do], [data-open], [data-close], [data-copy], [data-copy-link], [data-theme-toggle], [data-tab]");
+  const button = event.target.closest("[data-do], [data-open], [data-close], [data-copy], [data-copy-of], [data-copy-link], [data-theme-toggle], [data-tab]");
   if (event.target.tagName === "DIALOG") return event.target.close(); // on the backdrop
   const file = event.target.closest("a[download]");
   if (file && !file.href.startsWith("blob:")) { event.preventDefault(); take(file.href); }
@@ -188,6 +191,7 @@ document.addEventListener("click", (event) => {
   if (dataset.close !== undefined) button.closest("dialog")?.close();
   if (dataset.open) document.getElementById(dataset.open).showModal();
   if (dataset.copy) copy(snippet(`/take/${visitor}/${dataset.copy}`));
+  if (dataset.copyOf) copy(Promise.resolve(document.getElementById(dataset.copyOf).textContent));
   if (dataset.copyLink !== undefined) copy(Promise.resolve(location.href));
   if (dataset.themeToggle !== undefined) setTheme(dark() ? "light" : "dark");
   if (dataset.tab) tab(dataset.tab);

@@ -24,8 +24,14 @@ export async function askWallet({ id, wallet, method, params }) {
 
 async function ask(wallet, method, params) {
   try {
-    return { result: (await wallets[wallet].provider.request({ method, params })) ?? null };
+    const result = (await wallets[wallet].provider.request({ method, params })) ?? null;
+    return { result: method === "eth_getBlockByNumber" && result ? headerOf(result) : result };
   } catch (error) {
     return { error: String(error?.message ?? error), code: error?.data?.originalError?.code ?? error?.code };
   }
+}
+
+// a block without its lists of transactions and withdrawals, which can be longer than a message may be
+function headerOf(block) {
+  return Object.fromEntries(Object.entries(block).filter(([, value]) => !Array.isArray(value)));
 }

@@ -1,0 +1,178 @@
+"""Tokens revealed by an account that the command never sees: --calldata writes the transaction, a wallet sends it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from proxies import Liar
+from shackled.chain import Connection
+from shackled.cli.app import run
+from shackled.deploy import Transactor
+from shackled.errors import RevertError
+from shackled.ethereum import encode_header
+from shackled.tokens import (
+    KINDS,
+    Collection,
+    CollectionTerms,
+    development_accounts,
+    launch,
+    perform,
+    plan_launch,
+)
+from tokens.on_a_node import Node, Shackled
+
+OWNER, WALLET = 0, 5
+
+
+@pytest.fixture(scope="module")
+def collection(node: Node) -> Collection:
+    """A collection with a token of round 0, minted in the last block."""
+    owner = Transactor(Connection(node.url), development_accounts()[OWNER])
+    terms = CollectionTerms(node.accounts[OWNER], node.accounts[OWNER])
+    made, _ = launch(plan_launch(owner.connection, KINDS["genesis"], terms), owner)
+    perform(owner, made.contract, "setPhase", 2)
+    perform(owner, made.contract, "mint", 1, value=made.contract.call("price"))
+    return made
+
+
+@pytest.fixture(autouse=True)
+def fresh(node: Node, collection: Collection, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Each test finds the same chain, and a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    before = node.rpc("evm_snapshot")
+    yield
+    node.rpc("evm_revert", before)
+
+
+def mine_until(node: Node, collection: Collection, missing: int) -> int:
+    """Makes blocks until so many are missing; the block of round 0."""
+    block = int(collection.contract.call("blockOf", 0))
+    node.mine(block + 1 - missing - int(node.rpc("eth_blockNumber"), 16))
+    return block
+
+
+def send(node: Node, call: dict[str, str]) -> int:
+    """Sends it as a wallet does; the gas that it used."""
+    fields = {key: call[key] for key in ("to", "value", "data", "gas")}
+    digest = node.rpc("eth_sendTransaction", {"from": node.accounts[WALLET], **fields})
+    receipt = node.web3.eth.wait_for_transaction_receipt(digest)
+    assert receipt["status"] == 1
+    return receipt["gasUsed"]
+
+
+def test_a_wallet_reveals(node: Node, collection: Collection, shackled: Shackled) -> None:
+    block = mine_until(node, collection, 0)
+    said = shackled("token", "reveal", "--calldata", "calls.json")
+    assert "nothing was sent: calls.json has 1 transaction" in said.err
+    document = json.loads(Path("calls.json").read_text())
+    (call,) = document["calls"]
+    assert int(document["chainId"], 16) == 31337
+    assert (call["name"], call["value"]) == ("reveal 1 round, 0", "0x0")
+    # what is to be pasted is the same
+    lines = said.out.splitlines()
+    assert lines[1:] == [f"to     {call['to']}", "value  0", f"data   {call['data']}"]
+    assert call["to"] == collection.address
+    # web3.py reads the same call in it
+    genesis = node.contract("GenesisCollection", collection.address)
+    function, arguments = genesis.decode_function_input(call["data"])
+    assert function.fn_name == "reveal"
+    assert arguments == {"rounds": [0], "headers": [encode_header(node.web3.eth.get_block(block))]}
+    assert send(node, call) <= int(call["gas"], 16)
+    assert genesis.functions.randomnessOf(0).call() == node.web3.eth.get_block(block)["mixHash"]
+    # there is nothing more
+    Path("calls.json").unlink()
+    said = shackled("token", "reveal", "--calldata", "calls.json", expect=2)
+    assert said.error == "shackled: there is nothing to reveal: calls.json was not written"
+    assert not Path("calls.json").exists()
+    assert json.loads(shackled("token", "reveal", "--json").out) == {"rounds": [], "transactions": [], "gas": 0}
+
+
+def test_with_json_only_json_is_printed(node: Node, collection: Collection, shackled: Shackled) -> None:
+    mine_until(node, collection, 0)
+    said = shackled("token", "reveal", "--calldata", "calls.json", "--json")
+    assert json.loads(said.out) == json.loads(Path("calls.json").read_text())
+    said = shackled("token", "reveal", "--json", "--yes", user=WALLET)
+    told = json.loads(said.out)
+    receipt = node.web3.eth.get_transaction_receipt(told["transactions"][0])
+    assert (told["rounds"], told["gas"]) == ([0], receipt["gasUsed"])
+
+
+def test_a_block_to_come_is_told_or_waited_for(
+    node: Node, collection: Collection, shackled: Shackled, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for missing, words in ((3, "3 more blocks"), (1, "1 more block")):
+        block = mine_until(node, collection, missing)
+        said = shackled("token", "reveal", "--calldata", "calls.json", expect=2)
+        assert said.error == (
+            f"shackled: block {block} determines the next seeds, and the chain is at {block + 1 - missing}: "
+            f"wait for {words}, or add --wait"
+        )
+        assert not Path("calls.json").exists()
+    # one block less would do for the contract, but no node would simulate the call
+    with pytest.raises(RevertError):
+        collection.contract.call("reveal", [0], [encode_header(node.web3.eth.get_block(block))])
+    pauses: list[float] = []
+
+    def one_block(seconds: float) -> None:
+        pauses.append(seconds)
+        node.mine(1)
+
+    monkeypatch.setattr("time.sleep", one_block)
+    said = shackled("token", "reveal", "--calldata", "calls.json", "--wait")
+    assert len(pauses) == 1
+    assert f"waiting for block {block}, 1 more to come" in said.err
+    send(node, json.loads(Path("calls.json").read_text())["calls"][0])
+    assert any(collection.contract.call("randomnessOf", 0))
+
+
+def forged(node: Node, change: dict[str, str]) -> dict[str, Any]:
+    """A lie about old blocks: another header, with the hash that belongs to it."""
+
+    def lie(block: dict[str, Any], parameters: list[Any]) -> dict[str, Any]:
+        if parameters[0] == "latest":
+            return block
+        other = {key: value for key, value in block.items() if key != "hash"} | change
+        with pytest.raises(ValueError, match="has the hash") as caught:
+            encode_header(other)
+        return other | {"hash": str(caught.value).partition("has the hash ")[2][:66]}
+
+    return {"eth_getBlockByNumber": lie}
+
+
+def test_a_node_that_lies_about_blocks_gets_nothing_written(
+    node: Node, collection: Collection, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Each header that it tells has the hash that it tells: only the collection says that the block has another."""
+    block = mine_until(node, collection, 0)
+    parent = node.rpc("eth_getBlockByNumber", hex(block - 1), False)
+    for lies in (
+        forged(node, {"mixHash": "0x" + "77" * 32}),
+        forged(node, {"extraData": "0x00"}),
+        {"eth_getBlockByNumber": lambda told, asked: told if asked[0] == "latest" else parent},
+    ):
+        with Liar(lies).before(node.url) as url:
+            assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
+        error = capsys.readouterr().err.splitlines()[-1]
+        right = node.rpc("eth_getBlockByNumber", hex(block), False)["hash"]
+        assert f"returned a wrong header of block {block}: its hash is 0x" in error
+        assert f"that of the block is {right}" in error
+        assert not Path("calls.json").exists()
+
+
+def test_a_node_that_lies_about_the_hash_too_is_caught_by_the_simulation(
+    node: Node, collection: Collection, capsys: pytest.CaptureFixture[str]
+) -> None:
+    block = mine_until(node, collection, 0)
+    lies = forged(node, {"mixHash": "0x" + "77" * 32})
+    told = lies["eth_getBlockByNumber"](node.rpc("eth_getBlockByNumber", hex(block), False), [hex(block), False])
+    asked = "0x" + collection.contract.interface.encode("hashOf", block).hex()
+    lies["eth_call"] = lambda answer, parameters: told["hash"] if parameters[0]["data"] == asked else answer
+    with Liar(lies).before(node.url) as url:
+        assert run(["token", "reveal", "--calldata", "calls.json", "--rpc", url]) == 1
+    assert "header" in capsys.readouterr().err.splitlines()[-1]
+    assert not Path("calls.json").exists()
