@@ -9,12 +9,12 @@ DEV := $(VENV)/.dev
 NODE := web/node_modules/.package-lock.json
 HARDHAT := tests/package/node_modules/.package-lock.json
 
-# Set-up steps write to the same folders. The checks do not: `make test` runs two of them at a time.
+# Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
 .NOTPARALLEL:
 endif
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl demo creator test checks lint types contracts evm evm-check web docs unit build npm gas bench paper fuzz conformance pictures clean
+.PHONY: help browser opengl demo creator test lint types contracts evm evm-check web docs unit build npm gas bench paper fuzz conformance pictures clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -51,13 +51,12 @@ demo: $(PACKAGE) ## a first picture: the teapot, in build/teapot.png
 creator: $(CREATOR) ## the page on which pictures are made without code, in the browser
 	$(BIN)/shackled creator
 
-# ---- everything that must hold, the quick checks first ----
+# ---- everything that must hold ----
 
-test: lint checks unit ## all checks and tests
+# the tests wait for nodes and browsers much of the time, in which the other checks run
+test: lint types $(NODE) browser opengl ## all checks and tests
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts unit evm-check web docs
 	@echo "all checks and tests passed"
-
-checks: $(DEV) $(NODE)
-	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types contracts evm-check web docs
 
 lint: $(DEV) ## style of the Python code
 	$(BIN)/ruff check
