@@ -54,8 +54,8 @@ creator: $(CREATOR) ## the page on which pictures are made without code, in the 
 # ---- everything that must hold ----
 
 # the tests wait for nodes and browsers much of the time, in which the other checks run
-test: lint types $(NODE) browser opengl ## all checks and tests
-	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts unit evm-check web docs
+test: lint $(DEV) $(NODE) browser opengl ## all checks and tests
+	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
 
 lint: $(DEV) ## style of the Python code

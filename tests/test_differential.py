@@ -15,7 +15,7 @@ from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.reference import selector
 from shackled.scene import Rectangle, encode, original_scene, rotate
 
-SEEDS = 250
+SEEDS = 200
 
 
 @pytest.mark.parametrize("kind", KINDS)
