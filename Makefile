@@ -123,6 +123,7 @@ pictures: $(DEV) ## draw the pictures of the documentation
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
 	$(BIN)/python -m docs.draw_building
+	$(BIN)/python -m docs.draw_preview
 	$(BIN)/python -m docs.draw_library
 	$(BIN)/python -m tools.readme
 

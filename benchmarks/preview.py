@@ -17,7 +17,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 from urllib.request import urlopen
 
 from tools import build_package
@@ -52,12 +52,32 @@ def command() -> list[str]:
     return shlex.split(match[1])
 
 
-def messages(url: str) -> Iterator[dict[str, Any]]:
-    """Yield what the server tells its pages."""
-    with urlopen(f"{url}/events") as stream:
-        for line in stream:
-            if line.startswith(b"data: "):
-                yield json.loads(line[6:])
+class Server:
+    """A preview of the project in a folder, which runs while the context is open."""
+
+    def __init__(self, folder: Path) -> None:
+        """Take the folder of the project."""
+        self.folder = folder
+
+    def __enter__(self) -> Self:
+        program = [sys.executable, "-u", "-m", "shackled", *command(), "--port", "0", "--no-browser"]
+        self.process = subprocess.Popen(
+            program, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        )
+        lines = iter(self.process.stdout or ())
+        self.url = next(filter(None, (re.search(r"http://[\d.:]+", line) for line in lines)))[0]
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.process.terminate()
+        self.process.communicate()
+
+    def messages(self) -> Iterator[dict[str, Any]]:
+        """Yield what the server tells its pages."""
+        with urlopen(f"{self.url}/events") as stream:
+            for line in stream:
+                if line.startswith(b"data: "):
+                    yield json.loads(line[6:])
 
 
 def seconds_of_a_save(told: Iterator[dict[str, Any]], source: Path) -> dict[str, float]:
@@ -89,22 +109,14 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         make_project(folder)
-        program = [sys.executable, "-m", "shackled", *command(), "--port", "0", "--no-browser"]
-        with subprocess.Popen(
-            program, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-        ) as server:
-            try:
-                assert server.stdout is not None
-                address = next(filter(None, (re.search(r"http://[\d.:]+", line) for line in server.stdout)))
-                told = messages(address[0])
-                for message in told:
-                    if message.get("status") == "done":
-                        break
-                for number in range(1, SAVES + 1):
-                    found = seconds_of_a_save(told, folder / SOURCE)
-                    print(f"save {number}: " + ", ".join(f"{what} after {each:.1f} s" for what, each in found.items()))
-            finally:
-                server.terminate()
+        with Server(folder) as server:
+            told = server.messages()
+            for message in told:
+                if message.get("status") == "done":
+                    break
+            for number in range(1, SAVES + 1):
+                found = seconds_of_a_save(told, folder / SOURCE)
+                print(f"save {number}: " + ", ".join(f"{what} after {each:.1f} s" for what, each in found.items()))
     return 0
 
 
