@@ -574,8 +574,9 @@ def test_why_there_is_no_file_is_told(visit: NewPage) -> None:
     assert "there is no download of the kind" in page.inner_text(".toast.alert")
 
 
-def test_why_nothing_is_copied_is_told(visit: NewPage) -> None:
-    page = visit(refused=True)
+@pytest.mark.parametrize("forbidden", ["", "navigator.clipboard.write = async () => { throw new Error('forbidden') }"])
+def test_why_nothing_is_copied_is_told(visit: NewPage, forbidden: str) -> None:
+    page = visit(refused=True, script=forbidden)
     page.click("text=Download")
     page.evaluate("document.querySelector('[data-copy=python]').dataset.copy += '-of-no-kind'")
     page.click("[data-copy=python-of-no-kind]")

@@ -26,7 +26,7 @@ from test_bad_input_on_chain import WRONG, small_scene, tile_call, values
 GAS = 30_000_000_000
 SELECTORS = artifact("Renderer").selectors
 #: Random scenes; more in `make fuzz`.
-SEEDS = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "new" else 250
+SEEDS = 1000 if os.environ.get("HYPOTHESIS_PROFILE") == "new" else 150
 
 
 @dataclass(frozen=True)

@@ -303,7 +303,7 @@ def test_every_name_is_valid_json(small: tuple[Stage, Contract], name: str) -> N
     assert traits(found) == {"Icon": name, "Supply": 1}
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(
     st.one_of(
         st.binary(min_size=1, max_size=12),

@@ -43,8 +43,8 @@ from shackled.scene import (
 SCRIPT = Path(__file__).with_name("calls.mjs")
 BUNDLE = files("shackled") / "web" / "shackled.js"
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-RANDOM = 500
-DOCUMENTS = 200
+RANDOM = 400
+DOCUMENTS = 150
 
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="there is no Node")
 

@@ -230,6 +230,8 @@ async function snippet(url) {
 async function copy(text) {
   try {
     const blob = text.then((words) => new Blob([words], { type: "text/plain" }));
+    // a browser that refuses to copy may never look at it; the error of text is shown below
+    blob.catch(() => {});
     await navigator.clipboard.write([new ClipboardItem({ "text/plain": blob })]);
     toast("Copied", "note");
   } catch {
