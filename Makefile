@@ -6,8 +6,7 @@ BIN := $(VENV)/bin
 PACKAGE := $(VENV)/.package
 CREATOR := $(VENV)/.creator
 DEV := $(VENV)/.dev
-NODE := web/node_modules/.package-lock.json
-HARDHAT := tests/package/node_modules/.package-lock.json
+NODE := tests/package/node_modules/.package-lock.json
 
 # Set-up steps write to the same folders. Checks do not: `make test` runs two of them at a time.
 ifndef CHECKS
@@ -30,11 +29,8 @@ $(CREATOR): pyproject.toml tools/prepare.py tools/constraints.txt
 $(DEV): pyproject.toml tools/prepare.py tools/constraints.txt
 	@$(PYTHON) tools/prepare.py dev
 
-$(NODE): contracts/package.json contracts/package-lock.json web/package.json web/package-lock.json tools/prepare.py
+$(NODE): $(foreach folder,contracts web tests/package,$(folder)/package.json $(folder)/package-lock.json) tools/prepare.py
 	@$(PYTHON) tools/prepare.py node
-
-$(HARDHAT): tests/package/package.json tests/package/package-lock.json tools/prepare.py
-	@$(PYTHON) tools/prepare.py hardhat
 
 browser:
 	@$(PYTHON) tools/prepare.py browser
@@ -92,9 +88,8 @@ build: $(DEV) $(NODE) ## compile the contracts into src/shackled/artifacts, bund
 	$(BIN)/python tools/build_package.py
 	$(BIN)/python tools/build_web.py
 
-npm: $(DEV) $(NODE) $(HARDHAT) ## the npm package for contract authors, in build/npm, tried in projects of Foundry and Hardhat; web3:// addresses
+npm: $(DEV) ## the npm package for contract authors, in build/npm
 	$(BIN)/python tools/build_package.py
-	$(BIN)/pytest tests/package
 
 evm: $(DEV) ## compile the EVM of evm/ into src/shackled/evm, with the compiler that src/shackled/evm/evm.json names
 	$(BIN)/python tools/build_evm.py

@@ -3,8 +3,7 @@
     python3 tools/prepare.py package    .venv with the package in it
     python3 tools/prepare.py creator    and with what the page needs
     python3 tools/prepare.py dev        and with what tests and documentation need
-    python3 tools/prepare.py node       node_modules of contracts/ and web/: compilers, and a node for the tests
-    python3 tools/prepare.py hardhat    node_modules of tests/package, to try the npm package and web3:// addresses
+    python3 tools/prepare.py node       node_modules of contracts/, web/ and tests/package: compilers, anvil, Hardhat
     python3 tools/prepare.py browser    browsers for the tests of pages, if they can be had
     python3 tools/prepare.py opengl     an OpenGL without a screen, to compare pictures with, if it can be had
 
@@ -51,7 +50,6 @@ def main() -> int:
         "creator": prepare_creator,
         "dev": prepare_dev,
         "node": prepare_node,
-        "hardhat": prepare_hardhat,
         "browser": prepare_browser,
         "opengl": prepare_opengl,
     }
@@ -96,27 +94,15 @@ def prepare_dev() -> None:
 
 
 def prepare_node() -> None:
-    """Install node_modules of contracts/ and web/ from their package-lock.json."""
-    need_node()
-    say("installing the compilers and the node for tests")
-    for folder in (CONTRACTS, WEB):
-        npm_install(folder)
-    if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
-        say("there is no anvil for this machine; tests of a real node look for one in the PATH")
-
-
-def prepare_hardhat() -> None:
-    """Install node_modules of tests/package, 370 MB; `make test` does without."""
-    need_node()
-    say("installing Hardhat and web3protocol")
-    npm_install(PACKAGE_TESTS)
-
-
-def need_node() -> None:
-    """Install Node.js and npm if they are missing; exit if Node is too old."""
+    """Install node_modules of contracts/, web/ and tests/package from their package-lock.json."""
     if not (shutil.which("node") and shutil.which("npm")):
         apt_install("Node.js and npm", "nodejs", "npm")
     check_node(subprocess.run(["node", "--version"], capture_output=True, text=True).stdout)
+    say("installing the compilers, and anvil and Hardhat for the tests")
+    for folder in (CONTRACTS, WEB, PACKAGE_TESTS):
+        npm_install(folder)
+    if not (CONTRACTS / "node_modules" / ".bin" / "anvil").exists():
+        say("there is no anvil for this machine; tests of a real node look for one in the PATH")
 
 
 def check_node(said: str) -> None:

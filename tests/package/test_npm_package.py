@@ -229,7 +229,7 @@ def test_the_tutorial(project: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
         assert len(np.unique(np.asarray(opened).reshape(-1, 4), axis=0)) > 100
 
 
-@pytest.mark.skipif(not HARDHAT.is_dir(), reason="Hardhat is not installed: python tools/prepare.py hardhat")
+@pytest.mark.skipif(not HARDHAT.is_dir(), reason="Hardhat is not installed: python tools/prepare.py node")
 def test_hardhat_project(project: Path, tetrahedron: Image) -> None:
     (project / "contracts").mkdir()
     for path in EXAMPLES:

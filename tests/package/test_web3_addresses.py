@@ -32,7 +32,7 @@ HERE = Path(__file__).resolve().parent
 pytestmark = [
     pytest.mark.skipif(
         not shutil.which("node") or not (HERE / "node_modules" / "web3protocol").is_dir(),
-        reason="web3protocol is not installed: python tools/prepare.py hardhat",
+        reason="web3protocol is not installed: python tools/prepare.py node",
     ),
     pytest.mark.skipif(
         not (HERE.parents[1] / "contracts" / "node_modules" / "solc").is_dir(), reason="the compiler is not installed"
