@@ -74,7 +74,7 @@ web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whe
 	$(BIN)/python tools/build_web.py --check
 
 docs: $(DEV) ## the documentation, in site/
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal
