@@ -52,7 +52,9 @@ def token_rows() -> list[Row]:
     worst, icon = int(np.argmax(of_genesis)), max(of_icons, key=of_icons.__getitem__)
     return [
         Row(f"Genesis `tokenURI`, mean of {PIECES:,}", statistics.fmean(of_genesis), required=5.0e6, target=4.5e6),
-        Row("Genesis `tokenURI`, most expensive", of_genesis[worst], required=12e6, target=10e6, more=f"number {worst}"),
+        Row(
+            "Genesis `tokenURI`, most expensive", of_genesis[worst], required=12e6, target=10e6, more=f"number {worst}"
+        ),
         Row("`tokenURI` of an icon, most expensive", of_icons[icon], required=16.5e6, target=14e6, more=icon),
     ]
 
@@ -88,5 +90,8 @@ def png_row() -> Row:
     """Return what a PNG file costs in addition to its bitmap: the figure of studio.json."""
     (name,) = (name for name in recorded_of_studio() if name.startswith("PNG, Genesis, x 4") and name.endswith(": gas"))
     return Row(
-        "PNG of 128 x 128 enlarged 4 times, more than BMP, mean", recorded_of_studio()[name], required=1.3e6, target=1.1e6
+        "PNG of 128 x 128 enlarged 4 times, more than BMP, mean",
+        recorded_of_studio()[name],
+        required=1.3e6,
+        target=1.1e6,
     )

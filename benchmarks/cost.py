@@ -66,7 +66,10 @@ def section() -> Section:
         "lamp: a point light at (500, 800, 0); glossy: ambient 0.2, diffuse 0.7, specular 0.5, shininess 20.\n\n"
         "Required and target are limits that this project set for its contracts; result says which of them are met.\n\n"
     )
-    data = {row.what: {"original": row.original, "gas": row.gas, "required": row.required, "target": row.target} for row in rows}
+    data = {
+        row.what: {"original": row.original, "gas": row.gas, "required": row.required, "target": row.target}
+        for row in rows
+    }
     return Section(TITLE, text + table(head, lines), data)
 
 
@@ -146,7 +149,9 @@ def largest_row() -> Row:
                 costs[name] = result.gas + result.intrinsic_gas
     worst = max(costs, key=costs.__getitem__)
     more = f"{worst}; of {len(costs)}" + (f", {refused} refused" if refused else "")
-    return Row("largest of all scenes at 128 x 128 with intrinsic gas", costs[worst], required=14e6, target=12e6, more=more)
+    return Row(
+        "largest of all scenes at 128 x 128 with intrinsic gas", costs[worst], required=14e6, target=12e6, more=more
+    )
 
 
 def is_usual(scene: Scene) -> bool:

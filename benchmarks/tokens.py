@@ -1,4 +1,4 @@
-"""Measure the collections: exact gas of every action, in git, so that every change shows its price.
+"""Measure the collections: exact gas of every action, in git, so that the cost of every change is visible.
 
     python -m benchmarks.tokens
 

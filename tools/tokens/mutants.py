@@ -1,4 +1,4 @@
-"""Break the contract Editions in many small ways, and see whether its tests notice.
+"""Make faulty versions of the contract Editions, and check that its tests detect each.
 
     python -m tools.tokens.mutants           all of them, about twenty minutes
     python -m tools.tokens.mutants WORD ...  those whose code contains one of the words
