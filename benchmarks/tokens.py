@@ -81,7 +81,7 @@ def take(seeds: int = SEEDS) -> Figures:
 
 
 def editions(s: Stage) -> Figures:
-    """Measure the collection to which anybody adds scenes."""
+    """Measure the collection to which anyone can add scenes."""
     contract = s.world.deploy("Editions", s.studio)
     figures = {"deploy Editions": contract.gas}
     for number, name in enumerate(("lightning", "crown")):
