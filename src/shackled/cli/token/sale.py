@@ -99,7 +99,7 @@ def reveal(
 
     collection = which.open()
     if not collection.kind.hidden:
-        raise InputError(f"the tokens of {collection.name} have their pictures from the start: there is nothing to reveal")
+        raise InputError(f"the tokens of {collection.name} are never hidden: there is nothing to reveal")
     rounds = hidden_rounds(collection)
     if not rounds:
         if calldata is not None:
