@@ -137,7 +137,7 @@ def test_wrong_usage(capsys: pytest.CaptureFixture[str], options: list[str], mes
 def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["render", "teapot", "-o", "a.png", "--gas-limit", "100000"]) == 1
     messages = capsys.readouterr().err
-    assert "ran out of gas: 100,000 did not suffice; a part of" in messages
+    assert "ran out of gas: 100,000 gas is not enough even for a tile of" in messages
     assert not Path("a.png").exists()
     assert not Path("a.png.parts").exists()
 
@@ -158,7 +158,7 @@ def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: py
     assert run(["render", "shape.obj", "--size", "48", *options, "-o", "spin.gif"]) == 1
     messages = capsys.readouterr().err.splitlines()
     assert messages[-2:] == [
-        "shackled: finished parts are kept in spin.gif.parts: the same command goes on from there",
+        "shackled: finished parts are kept in spin.gif.parts: run the same command to resume",
         "shackled: stopped",
     ]
     assert not Path("spin.gif").exists()
@@ -241,7 +241,7 @@ def test_a_picture_that_cannot_be_written_keeps_its_parts(
         assert run(["render", "shape.obj", "--size", "48", "--tile", "48x12"]) == 1
     lines = capsys.readouterr().err.splitlines()
     assert lines[1:] == [
-        "shackled: finished parts are kept in shape.png.parts: the same command goes on from there",
+        "shackled: finished parts are kept in shape.png.parts: run the same command to resume",
         "shackled: shape.png cannot be written: No space left on device",
     ]
     assert len(list(Path("shape.png.parts").glob("*.part"))) == 4

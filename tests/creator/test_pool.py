@@ -252,7 +252,7 @@ def test_one_visitor_does_not_fill_the_line(monkeypatch: pytest.MonkeyPatch) -> 
     [
         ("vanish", (), "the worker process of the test ended"),
         ("eat", (), "the test needs more memory than the limit"),
-        ("stumble", (), r"the test failed by an internal error \(ZeroDivisionError\)"),
+        ("stumble", (), r"the test failed with an internal error \(ZeroDivisionError\)"),
     ],
 )
 def test_a_worker_that_fails_costs_one_error(task: str, arguments: tuple[Any, ...], message: str) -> None:
@@ -366,7 +366,7 @@ def test_what_is_wrong_is_said() -> None:
             await pool.render("a", State(Source("piece", "teapott")))
         with pytest.raises(InputError, match="is not in the memory of this server: open it again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))
-        with pytest.raises(ChainError, match="ran out of gas: 100,000 did not suffice"):
+        with pytest.raises(ChainError, match="ran out of gas: 100,000 gas is not enough"):
             await pool.render("a", TETRAHEDRON)
         with pytest.raises(InputError, match="no node to compare with"):
             await pool.compare("a", TETRAHEDRON)
