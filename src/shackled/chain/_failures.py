@@ -104,6 +104,19 @@ OLD_CHAIN = ("invalidopcode", "opcodenotfound", "notactivated", "badinstruction"
 #: Codes of JSON-RPC errors, for messages without a known phrase.
 REQUEST_TOO_BIG, RESPONSE_TOO_BIG, LIMIT_EXCEEDED, NO_METHOD = -32007, -32008, -32005, -32601
 
+#: What the codes of `Panic` mean (the documentation of Solidity: "Panic via assert and Error via require").
+PANICS = {
+    0x01: "assertion failed",
+    0x11: "arithmetic overflow",
+    0x12: "division by zero",
+    0x21: "value not in the enum",
+    0x22: "damaged bytes in the storage",
+    0x31: "pop of an empty array",
+    0x32: "index out of range",
+    0x41: "too much memory",
+    0x51: "call of a function that is not set",
+}
+
 
 def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes) -> NodeError:
     """Return the error for an HTTP status other than 200."""
@@ -238,7 +251,7 @@ def describe_revert(data: bytes, errors: Errors | None = None) -> str:
     if name == "Error":
         return str(values["message"])
     if name == "Panic":
-        return f"Panic({values['code']:#x})"
+        return f"{PANICS.get(values['code'], 'panic')} (Panic {values['code']:#x})"
     shown = (f"{key}={to_hex(value) if isinstance(value, bytes) else value}" for key, value in values.items())
     return f"{name}({', '.join(shown)})"
 

@@ -15,10 +15,11 @@ from ..untrusted import read_json
 from ._project import Compiled
 
 CALL = re.compile(
-    r"\s*(?P<name>\w+)\s*(?:\{\s*value:\s*(?P<value>[\d._]+)\s*(?P<unit>wei|gwei|ether)?\s*\})?"
-    r"\s*\((?P<arguments>.*)\)\s*(?:x\s*(?P<times>\d{1,6}))?\s*",
-    re.DOTALL,
+    r"\s*(?P<name>\w+)\s*(?:\{\s*value:\s*(?P<value>[^{}]*?)\s*\})?"
+    r"\s*\((?P<arguments>.*)\)\s*(?:x\s*(?P<times>[1-9]\d{0,5}))?\s*",
+    re.DOTALL | re.ASCII,
 )
+AMOUNT = re.compile(r"(\d{1,30})(?:\.(\d{1,30}))?\s*(wei|gwei|ether)?", re.ASCII)
 UNITS = {None: 1, "wei": 1, "gwei": GWEI, "ether": ETHER}
 
 
@@ -45,13 +46,38 @@ def parse_call(text: str, contract: Compiled) -> Call:
         wanted = " or ".join(str(len(each["inputs"])) for each in entries)
         known = f"it takes {wanted} values" if entries else f"its functions are {', '.join(names)}"
         raise InputError(f"{contract.name} has no function {match['name']} of {len(values)} values: {known}")
-    entry = fitting[0]
-    encoded = [
-        parse_value(value, parameter, f"{match['name']}: {parameter['name'] or parameter['type']}")
-        for value, parameter in zip(values, entry["inputs"], strict=True)
-    ]
-    wei = float(match["value"].replace("_", "")) * UNITS[match["unit"]] if match["value"] else 0
-    return Call(Interface([entry]).encode(entry["name"], *encoded), int(wei), int(match["times"] or 1), text)
+    wei = _wei(match["value"], match["name"]) if match["value"] is not None else 0
+    refused: list[str] = []
+    for entry in fitting:
+        if wei and entry.get("stateMutability", "payable") != "payable":
+            refused.append(f"{match['name']} is not payable: leave out its value")
+            continue
+        try:
+            return Call(_encoded(entry, values), wei, int(match["times"] or 1), text)
+        except InputError as error:
+            refused.append(str(error))
+    raise InputError("; or ".join(dict.fromkeys(refused)))
+
+
+def _encoded(entry: Mapping[str, Any], values: Sequence[str]) -> bytes:
+    """Return the data of a call of a function."""
+    what = [f"{entry['name']}: {each['name'] or each['type']}" for each in entry["inputs"]]
+    parsed = [parse_value(*each) for each in zip(values, entry["inputs"], what, strict=True)]
+    return Interface([entry]).encode(entry["name"], *parsed)
+
+
+def _wei(text: str, name: str) -> int:
+    """Return an amount in wei, without rounding."""
+    match = AMOUNT.fullmatch(text.replace("_", ""))
+    if match:
+        decimals = match[2] or ""
+        scale: int = 10 ** len(decimals)
+        wei, rest = divmod(int(match[1] + decimals) * UNITS[match[3]], scale)
+        if not rest:
+            return wei
+    raise InputError(
+        f"the value of {name} must be whole in wei, such as 0.07 ether, 20 gwei or 1000000 wei, not {text!r:.60}"
+    )
 
 
 def constructor_arguments(contract: Compiled, given: Sequence[str], addresses: Mapping[str, bytes]) -> bytes:
@@ -66,12 +92,13 @@ def constructor_arguments(contract: Compiled, given: Sequence[str], addresses: M
             raise InputError(f"the constructor of {contract.name} takes no value, but {given[0]!r} was given")
         return b""
     waiting, values = list(given), []
-    for parameter in entry["inputs"]:
+    for number, parameter in enumerate(entry["inputs"], 1):
         name = contract_of(parameter)
         if name is not None:
             values.append(addresses[name])
         elif waiting:
-            values.append(parse_value(waiting.pop(0), parameter, f"{parameter['name']} of the constructor"))
+            what = f"{parameter['name'] or f'value {number}'} of the constructor"
+            values.append(parse_value(waiting.pop(0), parameter, what))
         else:
             raise InputError(
                 f"the constructor of {contract.name} needs {parameter['name'] or 'a value'} ({parameter['type']}): "
@@ -108,7 +135,7 @@ def parse_value(text: str, parameter: Mapping[str, Any], what: str) -> Any:
         except ValueError:
             listed = None
         if not isinstance(listed, list):
-            raise InputError(f"{what} must be a JSON list, for {kind}, not {text!r}")
+            raise InputError(f"{what} must be a JSON list, for {kind}, not {text!r:.60}")
         return _nested(listed, parameter, what)
     return _single(text, kind, what)
 
@@ -116,32 +143,68 @@ def parse_value(text: str, parameter: Mapping[str, Any], what: str) -> Any:
 def _nested(value: Any, parameter: Mapping[str, Any], what: str) -> Any:
     """Convert the parts of a list or a tuple."""
     kind = str(parameter["type"])
-    array = re.fullmatch(r"(.*)\[\d*\]", kind)
-    if array and isinstance(value, list):
+    array = re.fullmatch(r"(.*)\[(\d*)\]", kind)
+    if array and isinstance(value, list) and array[2] in ("", str(len(value))):
         return [_nested(each, {**parameter, "type": array[1]}, what) for each in value]
     if kind == "tuple" and isinstance(value, list) and len(value) == len(parameter["components"]):
         return tuple(_nested(each, part, what) for each, part in zip(value, parameter["components"], strict=True))
-    if array or kind == "tuple" or isinstance(value, list | dict):
-        raise InputError(f"{what} must be a list of the parts of {kind}, not {json.dumps(value)}")
-    return _single(json.dumps(value) if isinstance(value, bool) else str(value), kind, what)
+    if array or kind == "tuple" or value is None or isinstance(value, list | dict):
+        count = array[2] if array else len(parameter["components"]) if kind == "tuple" else ""
+        wanted = f"a list of {count} values" if count else "a list" if array else "a value"
+        raise InputError(f"{what} must have {wanted} for {kind}, not {json.dumps(value):.60}")
+    return _single(value if isinstance(value, str) else json.dumps(value), kind, what)
 
 
 def _single(text: str, kind: str, what: str) -> Any:
+    """Read a value that has no parts."""
     text = text.strip()
+    if kind == "address":
+        return parse_address(text, what)
+    shown = repr(text)
     try:
         if kind == "string":
-            return json.loads(text) if text[:1] == '"' else text
+            said = json.loads(text) if text[:1] == '"' else text
+            said.encode()
+            return said
         if kind == "bool":
             return {"true": True, "false": False}[text]
         if kind.startswith("bytes"):
-            return bytes.fromhex(text.removeprefix("0x"))
-        if kind == "address":
-            return parse_address(text, what)
-        return int(text.replace("_", ""), 0)
-    except (ValueError, KeyError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{what} must be a value of the type {kind}, not {text!r}") from None
+            content = bytes.fromhex(text.removeprefix("0x"))
+            if kind == "bytes" or len(content) == int(kind[5:]):
+                return content
+            shown = f"{len(content)} bytes"
+        else:
+            number = int(text.replace("_", ""), 0)
+            low, high = _range(kind)
+            if low <= number <= high:
+                return number
+            shown = text
+    except (ValueError, KeyError):
+        pass
+    raise InputError(f"{what} must be {_described(kind)}, not {shown:.80}")
+
+
+def _range(kind: str) -> tuple[int, int]:
+    """Return the least and the greatest number of an integer type."""
+    bits = int(kind.removeprefix("u").removeprefix("int"))
+    return (0, (1 << bits) - 1) if kind[0] == "u" else (-1 << bits - 1, (1 << bits - 1) - 1)
+
+
+def _described(kind: str) -> str:
+    """Return what a value of a type must be, for messages."""
+    if kind == "bool":
+        return "true or false"
+    if kind == "string":
+        return "a string"
+    if kind.startswith("bytes"):
+        count = f", {kind[5:]} bytes" if kind[5:] else ""
+        return f"a {kind}{count} in hexadecimal"
+    if "int" not in kind:
+        return f"of another type: values of {kind} are not supported"
+    low, high = _range(kind)
+    bits = high.bit_length()
+    limits = f"{low} to {high}" if bits < 64 else f"{f'-2^{bits}' if low else 0} to 2^{bits} - 1"
+    return f"{'an' if low else 'a'} {kind}, {limits}"
 
 
 def _split(text: str) -> list[str]:
