@@ -17,12 +17,14 @@ from ..errors import InputError
 
 #: Files in the folder of a project, the most telling first.
 MARKS = ("foundry.toml", "hardhat.config.js", "hardhat.config.ts", "hardhat.config.cjs", "remappings.txt")
-#: Folders whose sources are not the author's.
-FOREIGN = {"node_modules", "out", "cache", "artifacts", "lib", ".git"}
+#: Folders whose sources are not the author's: directly below the project, and anywhere.
+FOREIGN = {"out", "cache", "artifacts", "lib"}
+HIDDEN = {"node_modules", ".git"}
 #: Seconds that a compiler may take.
 PATIENCE = 600
 #: Of the compiler of a file without a project.
 SETTINGS = {"evmVersion": "cancun", "optimizer": {"enabled": True, "runs": 200}}
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 INSTALL = (
     "no compiler was found: install Foundry (forge), put solc on the PATH, or run `npm install solc` in the project"
 )
@@ -67,12 +69,15 @@ class Project:
             forge = self._command("forge")
             if forge is None:
                 raise InputError(f"{self.root} is a project of Foundry, but there is no forge: install Foundry")
-            return self._by_tool([str(forge), "build", self._name, "--color", "never"], self._forge_output(forge))
+            output = self._forge_output(forge)
+            self._run_compiler([str(forge), "build", self._name, "--color", "never"])
+            return self._made_by_forge(output)
         if any((self.root / mark).is_file() for mark in MARKS[1:4]):
             hardhat = self._command("hardhat")
             if hardhat is None:
                 raise InputError(f"{self.root} is a project of Hardhat, but it is not installed: run npm install there")
-            return self._by_tool([str(hardhat), "compile"], self.root / "artifacts" / self._name)
+            self._run_compiler([str(hardhat), "compile"])
+            return self._made_by_hardhat(self.root / "artifacts")
         return self._by_solc()
 
     def stamps(self) -> dict[Path, int]:
@@ -97,22 +102,65 @@ class Project:
         return Path(found) if found else None
 
     def _forge_output(self, forge: Path) -> Path:
-        """Return the folder where forge writes what it makes of the file."""
+        """Return the folder where forge writes what it makes."""
         said = self._run([str(forge), "config", "--json"])
         try:
-            out = json.loads(said.stdout)["out"]
+            return self.root / str(json.loads(said.stdout)["out"])
         except (ValueError, KeyError):
             raise InputError(f"foundry.toml cannot be read: {_shown(said)}") from None
-        return self.root / str(out) / self.source.name
 
-    def _by_tool(self, command: list[str], output: Path) -> list[Compiled]:
-        """Compile with a tool that writes a JSON file for each contract."""
+    def _run_compiler(self, command: list[str]) -> None:
+        """Run a compiler that writes files. CompilerError with what it says if it fails."""
         said = self._run(command)
-        if said.returncode:
-            raise CompilerError(self.source, _shown(said))
-        made = {path.stem: json.loads(path.read_text("utf-8")) for path in sorted(output.glob("*.json"))}
-        # Hardhat writes files without an ABI beside them
-        return [_compiled(name, each["abi"], each["bytecode"]) for name, each in made.items() if _is_deployable(each)]
+        if not said.returncode:
+            return
+        absent = re.search("Failed to install solc.*", said.stdout)
+        if absent:
+            raise InputError(f"forge has no compiler: {absent[0]}")
+        raise CompilerError(self.source, _shown(said))
+
+    def _made_by_forge(self, output: Path) -> list[Compiled]:
+        """Return the contracts of the file. Of files of one name, forge puts those of one into a further folder."""
+        found: dict[str, dict[str, Any]] = {}
+        # what an earlier name of a contract left, and other versions of the compiler, are older
+        for path in sorted(output.glob(f"**/{self.source.name}/*.json"), key=_changed):
+            built = _json(path)
+            settings = (built.get("metadata") or {}).get("settings", {})
+            name = settings.get("compilationTarget", {self._name: path.stem}).get(self._name)
+            if name is not None:
+                found[name] = built
+        return self._deployable(found, f"forge wrote no contract of {self._name} to {output}")
+
+    def _made_by_hardhat(self, output: Path) -> list[Compiled]:
+        """Return the contracts of the file. InputError if what is there was made of another version of it."""
+        folder = output / self._name
+        paths = [path for path in sorted(folder.glob("*.json")) if not path.name.endswith(".dbg.json")]
+        built = {path.stem: _json(path) for path in paths}
+        fresh = {name: each for name, each in built.items() if self._is_made_of_source(folder, name, each)}
+        return self._deployable(
+            fresh, f"hardhat wrote no contract of {self._name} to {output}: leave `paths.artifacts` at its default"
+        )
+
+    def _is_made_of_source(self, folder: Path, name: str, built: dict[str, Any]) -> bool:
+        """Return whether Hardhat compiled the source as it is now, by the input of the compiler that it keeps."""
+        debug = folder / f"{name}.dbg.json"
+        if debug.is_file():
+            path = folder / str(_json(debug).get("buildInfo"))
+        else:
+            path = self.root / "artifacts" / "build-info" / f"{built.get('buildInfoId')}.json"
+        if not path.is_file():
+            return True
+        sources = _json(path).get("input", {}).get("sources", {})
+        source = sources.get(built.get("inputSourceName", built.get("sourceName")))
+        return source is None or source.get("content") == _text(self.source)
+
+    def _deployable(self, built: dict[str, dict[str, Any]], otherwise: str) -> list[Compiled]:
+        """Return the contracts that are in the source and have code. InputError, `otherwise`, if none is in it."""
+        code = COMMENT.sub(" ", _text(self.source))
+        known = {name: each for name, each in built.items() if re.search(rf"\b{re.escape(name)}\b", code)}
+        if not known and re.search(r"\bcontract\b", code):
+            raise InputError(otherwise)
+        return [_compiled(name, each["abi"], each["bytecode"]) for name, each in known.items() if _is_deployable(each)]
 
     def _by_solc(self) -> list[Compiled]:
         """Compile with solc, the program or the package of npm."""
@@ -120,10 +168,10 @@ class Project:
         command = [compiler] if compiler else self._solc_of_npm()
         remappings = self.root / "remappings.txt"
         settings: dict[str, Any] = SETTINGS | {
-            "remappings": remappings.read_text("utf-8").split() if remappings.is_file() else [],
+            "remappings": _text(remappings).split() if remappings.is_file() else [],
             "outputSelection": {self._name: {"*": ["abi", "evm.bytecode.object"]}},
         }
-        sources = {self._name: {"content": self.source.read_text("utf-8")}}
+        sources = {self._name: {"content": _text(self.source)}}
         request = {"language": "Solidity", "sources": sources, "settings": settings}
         modules = self.root / "node_modules"
         places = ["--base-path", str(self.root), *(("--include-path", str(modules)) if modules.is_dir() else ())]
@@ -173,8 +221,39 @@ class Project:
 def _sources(folder: Path) -> Iterator[Path]:
     """Yield the sources below a folder that the author may change."""
     for here, folders, files in os.walk(folder):
-        folders[:] = [name for name in folders if name not in FOREIGN]
+        left_out = HIDDEN | FOREIGN if Path(here) == folder else HIDDEN
+        folders[:] = [name for name in folders if name not in left_out]
         yield from (Path(here, name) for name in files if name.endswith(".sol") or name in MARKS)
+
+
+def _text(path: Path) -> str:
+    """Return the text of a file. InputError if it cannot be read."""
+    try:
+        content = path.read_bytes()
+        return content.decode()
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError(f"{path.name} cannot be read: not UTF-8 at line {line}") from None
+
+
+def _json(path: Path) -> dict[str, Any]:
+    """Return the object in a file that a compiler wrote. InputError if it is damaged."""
+    try:
+        found = json.loads(_text(path))
+    except ValueError as error:
+        if isinstance(error, InputError):
+            raise
+        found = None
+    if not isinstance(found, dict):
+        raise InputError(f"{path} is not what a compiler writes: delete it")
+    return found
+
+
+def _changed(path: Path) -> int:
+    """Return when a file was changed last."""
+    return path.stat().st_mtime_ns
 
 
 def _is_deployable(built: dict[str, Any]) -> bool:
@@ -198,6 +277,6 @@ def _compiled(name: str, abi: list[dict[str, Any]], bytecode: Any) -> Compiled:
 
 
 def _shown(said: subprocess.CompletedProcess[str]) -> str:
-    """Return what a compiler says, or that it says nothing."""
-    text = said.stdout.strip()
+    """Return what a compiler says, without the places in its own program, or that it says nothing."""
+    text = "\n".join(line for line in said.stdout.splitlines() if not line.startswith("    at ")).strip()
     return text or f"{Path(said.args[0]).name} failed, and says nothing (exit code {said.returncode})"
