@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 from PIL import Image as PillowImage
 
 from ..errors import VerificationError
-from ..tokens import read_data_uri
+from ..tokens import MAX_LENGTH, read_data_uri
 from ..untrusted import plain, read_json
 
 #: Media types of pictures, and Pillow's names of them; SVG is read as XML.
@@ -30,6 +30,8 @@ SVG, GLB, HTML = "image/svg+xml", "model/gltf-binary", "text/html"
 MAX_SIDE = 4096
 #: What `display_type` may be (OpenSea's metadata standards).
 DISPLAY_TYPES = {"number", "boost_number", "boost_percentage", "date"}
+#: A % that does not escape a byte.
+STRAY = re.compile("%(?![0-9a-fA-F]{2})")
 #: Keys whose values are text, and what they must match.
 TEXTS = {
     "external_url": (r"(https?|web3|ipfs|ar|data):.+", "an address such as https://example.org/1"),
@@ -61,8 +63,11 @@ def judge(uri: str) -> Document:
     """Read what `tokenURI` returned: all that is right of it, and all that is wrong."""
     found = Document()
     note = found.problems.append
+    size = len(uri.encode())
+    if size > MAX_LENGTH:
+        note(f"the tokenURI has {size:,} bytes; marketplaces show no more than {MAX_LENGTH:,}")
     try:
-        media_type, content = read_data_uri(uri, "the tokenURI")
+        media_type, content = _read(uri, "the tokenURI", note)
         if media_type != "application/json":
             raise VerificationError(f"the tokenURI has the type {media_type}, not application/json")
         fields = read_json(content.decode())
@@ -70,6 +75,9 @@ def judge(uri: str) -> Document:
         json.dumps(fields, ensure_ascii=False, allow_nan=False).encode()
     except VerificationError as error:
         note(str(error))
+        return found
+    except UnicodeError as error:
+        note(f"the tokenURI is not valid {unicode_fault(error)}")
         return found
     except (ValueError, RecursionError) as error:
         note(f"the tokenURI is not valid JSON: {' '.join(str(error).split())[:120]}")
@@ -138,6 +146,28 @@ def attribute_problems(attributes: Any) -> list[str]:
     return found
 
 
+def _read(uri: str, key: str, note: Callable[[str], None]) -> tuple[str, bytes]:
+    """Return the media type and the content of a `data:` URI, and note what browsers read in another way."""
+    if not uri:
+        raise VerificationError(f"{key} is empty")
+    head, _, content = uri.partition(",")
+    if not head.endswith(";base64"):
+        if "#" in content:
+            at = uri.index("#", len(head))
+            note(f"{key} has a # at position {at}, where browsers end it: write %23, or use Base64")
+        stray = STRAY.search(content)
+        if stray:
+            note(f"{key} has a % at position {len(head) + 1 + stray.start()} without two hexadecimal digits: write %25")
+    return read_data_uri(uri, key)
+
+
+def unicode_fault(error: UnicodeError) -> str:
+    """Return what is wrong with text."""
+    if isinstance(error, UnicodeDecodeError):
+        return f"UTF-8: byte {error.start} is {error.object[error.start]:#04x}"
+    return "JSON: it has half of a surrogate pair"
+
+
 def _file(uri: Any, key: str, note: Callable[[str], None]) -> File | None:
     """Return the file of a `data:` URI."""
     if not isinstance(uri, str):
@@ -146,7 +176,7 @@ def _file(uri: Any, key: str, note: Callable[[str], None]) -> File | None:
     if key == "animation_url" and re.match(r"(https?|ipfs|ar|web3):", uri):
         return None  # not on the chain, or by a gateway: allowed there
     try:
-        media_type, content = read_data_uri(uri, key)
+        media_type, content = _read(uri, key, note)
     except VerificationError as error:
         note(str(error))
         return None
@@ -162,10 +192,12 @@ def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
         try:
             # entities that grow without bound are refused by the parser
             tag = ElementTree.fromstring(content).tag
+            if tag == "svg":
+                raise ValueError("xmlns is missing: write <svg xmlns='http://www.w3.org/2000/svg'>")
             if tag != "{http://www.w3.org/2000/svg}svg":
                 raise ValueError(f"its root is {plain(tag)[:40]}")
         except (ElementTree.ParseError, ValueError) as error:
-            note(f"{key} is not a valid SVG: {error}")
+            note(f"{key} is not a valid {_svg_fault(content, error)}")
             return None
         return file
     if key == "image":
@@ -175,6 +207,15 @@ def _checked(file: File, key: str, note: Callable[[str], None]) -> File | None:
         note(f"{key} is not a complete GLB")
         return None
     return file
+
+
+def _svg_fault(content: bytes, error: Exception) -> str:
+    """Return what is wrong with an SVG, in plain words where the parser has none."""
+    try:
+        content.decode()
+    except UnicodeDecodeError as fault:
+        return unicode_fault(fault)
+    return f"SVG: {error if content else 'it is empty'}"
 
 
 def _picture(file: File, key: str, note: Callable[[str], None]) -> File | None:
