@@ -19,7 +19,7 @@ from starlette.types import ASGIApp
 from ..errors import ShackledError
 from ..serving import HEADERS, SameOrigin, listen, run, url_of
 from ..untrusted import plain
-from ._document import HTML, File
+from ._document import HTML, Document
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project
 from ._summary import summary
@@ -45,85 +45,107 @@ class Live:
         """Take what is previewed; `follow` begins."""
         self.project, self.request = project, request
         self.version = 0
-        self.tokens: dict[int, Token] = {}
-        self.state: dict[str, Any] = {"status": "compiling"}
+        #: The newest of each token, by its number, with the version in which it was read.
+        self.tokens: dict[int, tuple[int, Token]] = {}
+        self.state: dict[str, Any] = {}
         #: Whether a source has changed since this version was begun.
         self._is_stale = False
-        self._listeners: set[asyncio.Queue[dict[str, Any]]] = set()
+        self._has_ended = False
+        self._listeners: set[asyncio.Queue[dict[str, Any] | None]] = set()
 
     async def follow(self) -> None:
-        """Make the preview, and make it again whenever a source changes."""
-        while True:
+        """Make the preview, and make it again whenever a source changes, until `end`."""
+        while not self._has_ended:
             stamps = await asyncio.to_thread(self.project.stamps)
             self._is_stale = False
             making = asyncio.create_task(self._make())
-            while stamps == await asyncio.to_thread(self.project.stamps):
+            while not self._has_ended and stamps == await asyncio.to_thread(self.project.stamps):
                 await asyncio.sleep(PAUSE)
             self._is_stale = True
             await making
 
+    def end(self) -> None:
+        """End `follow`, and the events of all pages."""
+        self._has_ended = True
+        for queue in self._listeners:
+            queue.put_nowait(None)
+
     async def _make(self) -> None:
-        """Compile, and read all tokens."""
+        """Compile, and read all tokens. Whatever fails is told to the page."""
         self.version += 1
-        self.tokens = {}
-        started = time.monotonic()
-        self._tell({"status": "compiling"})
+        self._tell(status="compiling", error="", notes=[])
         try:
-            preview = await asyncio.to_thread(Preview, self.project, self.request)
+            await self._draw()
         except ShackledError as error:
-            said = f"{error}\n\n{error.said}" if isinstance(error, CompilerError) else str(error)
-            print("\n".join(map(plain, said.splitlines())), flush=True)
-            self._tell({"status": "failed", "error": said})
-            return
+            self._fail(f"{error}\n\n{error.said}" if isinstance(error, CompilerError) else str(error))
+        except Exception as error:
+            # a mistake of the preview itself, which the next save may avoid
+            self._fail(f"{type(error).__name__}: {error}")
+
+    async def _draw(self) -> None:
+        started = time.monotonic()
+        preview = await asyncio.to_thread(Preview, self.project, self.request)
         self._tell(
-            {
-                "status": "drawing",
-                "contract": preview.contract.name,
-                "function": preview.function["name"],
-                "first": preview.first,
-                "count": preview.count,
-                "max_gas": self.request.max_gas,
-            }
+            status="drawing",
+            contract=preview.contract.name,
+            function=preview.function["name"],
+            first=str(preview.first),
+            count=preview.count,
+            max_gas=self.request.max_gas,
+            notes=preview.problems,
         )
+        found: list[Token] = []
         tokens = preview.tokens()
         try:
             while not self._is_stale and (token := await asyncio.to_thread(next, tokens, None)) is not None:
-                self.tokens[token.number] = token
-                self._send({"version": self.version, "token": summary(token)})
+                found.append(token)
+                self.tokens[token.number] = self.version, token
+                self._send({"version": self.version, "token": self._summary(token.number)})
         finally:
             await asyncio.to_thread(tokens.close)
         if self._is_stale:
             return
-        wrong = sum(bool(token.problems) for token in self.tokens.values())
+        self.tokens = {token.number: (self.version, token) for token in found}
+        wrong = sum(bool(token.problems) for token in found)
         seconds = time.monotonic() - started
-        print(f"{len(self.tokens)} tokens in {seconds:.1f} s, {wrong} with problems", flush=True)
-        self._tell(self.state | {"status": "done", "seconds": round(seconds, 1)})
+        print(f"{len(found)} tokens in {seconds:.1f} s, {wrong} with problems", flush=True)
+        hint = preview.hint(found)
+        notes = [*preview.problems, *([hint] if hint else [])]
+        self._tell(status="done", seconds=round(seconds, 1), notes=notes)
 
     def snapshot(self) -> dict[str, Any]:
         """Return all that a page needs that connects now."""
-        return {"version": self.version, **self.state, "tokens": [summary(each) for each in self.tokens.values()]}
+        return {"version": self.version, **self.state, "tokens": [*map(self._summary, sorted(self.tokens))]}
 
     async def events(self) -> AsyncIterator[str]:
         """Yield the state and its changes as server-sent events."""
-        queue: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
+        queue: asyncio.Queue[dict[str, Any] | None] = asyncio.Queue()
         self._listeners.add(queue)
         try:
-            yield _event(self.snapshot())
-            while True:
-                yield _event(await queue.get())
+            message: dict[str, Any] | None = self.snapshot()
+            while message is not None and not self._has_ended:
+                yield f"data: {json.dumps(message)}\n\n"
+                message = await queue.get()
         finally:
             self._listeners.discard(queue)
 
-    def file(self, number: int, which: str) -> File | None:
-        """Return the image or the animation of a token."""
-        token = self.tokens.get(number)
-        if token is None:
-            return None
-        return token.document.image if which == "image" else token.document.animation
+    def token(self, version: int, number: int) -> Token | None:
+        """Return a token as a version has it, until a later one replaces it."""
+        found = self.tokens.get(number)
+        return found[1] if found is not None and found[0] == version else None
 
-    def _tell(self, state: dict[str, Any]) -> None:
-        self.state = state
-        self._send({"version": self.version, **state})
+    def _summary(self, number: int) -> dict[str, Any]:
+        """Return a token for the page; its number as text, since numbers of JavaScript have 53 bits."""
+        version, token = self.tokens[number]
+        return {**summary(token), "number": str(number), "version": version}
+
+    def _fail(self, said: str) -> None:
+        print("\n".join(map(plain, said.splitlines())), flush=True)
+        self._tell(status="failed", error=said)
+
+    def _tell(self, **changes: Any) -> None:
+        self.state |= changes
+        self._send({"version": self.version, **self.state})
 
     def _send(self, message: dict[str, Any]) -> None:
         for queue in self._listeners:
@@ -143,10 +165,13 @@ def make_app(live: Live) -> ASGIApp:
     async def events(request: HttpRequest) -> Response:
         return StreamingResponse(live.events(), media_type="text/event-stream")
 
+    def token_of(request: HttpRequest) -> Token | None:
+        return live.token(request.path_params["version"], request.path_params["number"])
+
     async def file(request: HttpRequest) -> Response:
-        found = None
-        if request.path_params["version"] == live.version:
-            found = live.file(request.path_params["number"], request.path_params["which"])
+        token = token_of(request)
+        document = token.document if token else Document()
+        found = document.image if request.path_params["which"] == "image" else document.animation
         if found is None:
             return PlainTextResponse("there is no such file any more", 404)
         policy = HTML_POLICY if found.media_type == HTML else FILE_POLICY
@@ -154,11 +179,10 @@ def make_app(live: Live) -> ASGIApp:
         return Response(found.content, headers={**headers, "content-type": found.media_type})
 
     async def token(request: HttpRequest) -> Response:
-        found = live.tokens.get(request.path_params["number"])
-        if found is None or request.path_params["version"] != live.version:
+        found = token_of(request)
+        if found is None:
             return PlainTextResponse("there is no such token any more", 404)
-        document = json.dumps({**summary(found), "document": found.document.fields})
-        return Response(document, media_type="application/json")
+        return Response(json.dumps({"document": found.document.fields}), media_type="application/json")
 
     app = Starlette(
         routes=[
@@ -180,11 +204,9 @@ def serve(project: Project, request: Request, port: int | None, fallback_port: i
 
 async def _serve(live: Live, listening: Any, browse: bool) -> None:
     following = asyncio.create_task(live.follow())
+    announcement = f"the preview is at {url_of(HOST, listening)}"
     try:
-        await run(make_app(live), listening, f"the preview is at {url_of(HOST, listening)}", browse)
+        await run(make_app(live), listening, announcement, browse, live.end)
     finally:
-        following.cancel()
-
-
-def _event(message: dict[str, Any]) -> str:
-    return f"data: {json.dumps(message)}\n\n"
+        live.end()
+        await following

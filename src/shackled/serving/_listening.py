@@ -8,6 +8,7 @@ import socket
 import sys
 import threading
 import webbrowser
+from collections.abc import Callable
 from typing import Any
 
 import uvicorn
@@ -49,14 +50,34 @@ def url_of(host: str, listening: socket.socket) -> str:
     return f"http://{name}:{listening.getsockname()[1]}/"
 
 
-async def run(app: ASGIApp, listening: socket.socket, announcement: str, browse: bool, **settings: Any) -> None:
+class _Server(uvicorn.Server):
+    """A server that tells its application when it ends, so that streams of events end too."""
+
+    def __init__(self, config: uvicorn.Config, ending: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ending = ending
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._ending()
+        await super().shutdown(sockets)
+
+
+async def run(
+    app: ASGIApp,
+    listening: socket.socket,
+    announcement: str,
+    browse: bool,
+    ending: Callable[[], None] = lambda: None,
+    **settings: Any,
+) -> None:
     """Serve an application until the process is interrupted.
 
     announcement: printed once the server accepts requests; it ends in the address. browse: whether the address is
-    opened in the browser. settings: further ones of uvicorn.
+    opened in the browser. ending: called when the server ends, before it waits for its answers. settings: further ones
+    of uvicorn.
     """
     defaults: dict[str, Any] = {"log_level": "warning", "timeout_graceful_shutdown": 2, "ws": "websockets-sansio"}
-    server = uvicorn.Server(uvicorn.Config(app, server_header=False, **(defaults | settings)))
+    server = _Server(uvicorn.Config(app, server_header=False, **(defaults | settings)), ending)
     watch = asyncio.create_task(_announce(server, announcement, browse))
     try:
         await server.serve(sockets=[listening])

@@ -8,7 +8,11 @@ const HTML = "text/html";
 const MODEL = "model/gltf-binary";
 
 let state = { version: -1, status: "connecting" };
-let tokens = new Map();
+/** The tokens that are shown and their cards, by number: those of an earlier version until a newer one takes their place. */
+const tokens = new Map();
+const cards = new Map();
+/** The number of the token whose details are open. */
+let opened = null;
 
 function element(tag, text, className) {
   const made = document.createElement(tag);
@@ -24,8 +28,15 @@ function rectangle(x, y, width, height, className) {
   return made;
 }
 
-const file = (token, which) => `file/${state.version}/${token.number}/${which}`;
+const file = (token, which) => `file/${token.version}/${token.number}/${which}`;
 const isOver = (token) => token.gas !== null && token.gas > state.max_gas;
+
+/** The name of a token with its number, unless that is part of the name. */
+function title(token) {
+  const number = `#${token.number}`;
+  if (!token.name) return [number];
+  return token.name.split(/\s+/).includes(number) ? [token.name] : [token.name, " ", element("span", number, "number")];
+}
 
 /** A card of a token. */
 function card(token) {
@@ -40,7 +51,9 @@ function card(token) {
     picture.append(image);
   }
   const words = element("span", undefined, "words");
-  words.append(element("strong", token.name || `#${token.number}`));
+  const name = element("strong");
+  name.append(...title(token));
+  words.append(name);
   if (token.gas !== null) {
     words.append(element("span", `${numbers.format(token.gas)} gas`, "gas"));
     const meter = document.createElementNS(SVG, "svg");
@@ -52,10 +65,38 @@ function card(token) {
   }
   for (const problem of token.problems) words.append(element("span", problem, "problem"));
   made.classList.toggle("wrong", token.problems.length > 0);
-  made.hidden = $("wrong").checked && !token.problems.length;
+  made.hidden = isHidden(token);
   made.append(picture, words);
   made.addEventListener("click", () => show(token));
   return made;
+}
+
+const isHidden = (token) => $("wrong").checked && !token.problems.length;
+
+/** Put a token in the place of the one with its number, or among the others. */
+function place(token) {
+  const made = card(token);
+  const old = cards.get(token.number);
+  const last = $("tokens").lastElementChild;
+  if (old) {
+    const hadFocus = document.activeElement === old;
+    old.replaceWith(made);
+    if (hadFocus) made.focus();
+  } else {
+    const isLater = (each) => BigInt(each.dataset.number) > BigInt(token.number);
+    $("tokens").insertBefore(made, last && isLater(last) ? [...$("tokens").children].find(isLater) : null);
+  }
+  made.dataset.number = token.number;
+  tokens.set(token.number, token);
+  cards.set(token.number, made);
+  if (opened === token.number) show(token);
+}
+
+function remove(number) {
+  cards.get(number).remove();
+  cards.delete(number);
+  tokens.delete(number);
+  if (opened === number) $("details").close();
 }
 
 /** The gas of all tokens, with the line of what is allowed. */
@@ -71,7 +112,8 @@ function chart() {
   svg.replaceChildren();
   for (const token of known) {
     const height = (100 * token.gas) / most;
-    svg.append(rectangle(token.number - state.first + 0.1, 100 - height, 0.8, height, isOver(token) ? "over" : ""));
+    const left = Number(BigInt(token.number) - BigInt(state.first));
+    svg.append(rectangle(left + 0.1, 100 - height, 0.8, height, isOver(token) ? "over" : ""));
   }
   const line = document.createElementNS(SVG, "line");
   const y = 100 - (100 * state.max_gas) / most;
@@ -85,20 +127,24 @@ function chart() {
 }
 
 function status() {
-  const wrong = [...tokens.values()].filter((token) => token.problems.length).length;
+  const all = [...tokens.values()];
+  const wrong = all.filter((token) => token.problems.length).length;
+  const read = all.filter((token) => token.version === state.version).length;
   const said = {
     connecting: "connecting",
     compiling: "compiling",
     failed: "failed; waiting for the next save",
-    drawing: `${tokens.size} of ${state.count} tokens`,
+    drawing: `${read} of ${state.count} tokens`,
     done: `${tokens.size} tokens in ${state.seconds} s; waiting for the next save`,
   };
   $("status").textContent = said[state.status];
   $("title").textContent = state.contract || "Preview";
   document.title = `${state.contract || "Preview"} – ${said[state.status]}`;
   $("count").textContent = wrong ? `(${wrong})` : "";
+  $("tokens").classList.toggle("old", state.status === "failed");
   $("error").hidden = state.status !== "failed";
   $("error").textContent = state.error || "";
+  $("notes").replaceChildren(...(state.notes ?? []).map((note) => element("li", note)));
 }
 
 /** The picture of a token, or what takes its place when it moves. */
@@ -131,13 +177,15 @@ function media(token) {
   return shown;
 }
 
-/** The details of a token, as a marketplace shows them. */
+/** The details of a token, as a marketplace shows them; also in place of an earlier version of it that is open. */
 async function show(token) {
-  const response = await fetch(`token/${state.version}/${token.number}`);
-  if (!response.ok) return;
+  opened = token.number;
+  const response = await fetch(`token/${token.version}/${token.number}`);
+  if (!response.ok && !$("details").open) opened = null;
+  if (!response.ok || tokens.get(opened) !== token) return;
   const found = (await response.json()).document;
   const text = (key) => (typeof found[key] === "string" ? found[key] : "");
-  $("name").textContent = token.name || `#${token.number}`;
+  $("name").replaceChildren(...title(token));
   $("description").textContent = text("description");
   $("media").replaceChildren(...media(token));
   $("media").style.setProperty("--mat", /^[0-9a-f]{6}$/i.test(text("background_color")) ? `#${text("background_color")}` : "");
@@ -158,28 +206,34 @@ async function show(token) {
   $("problems").replaceChildren(...token.problems.map((problem) => element("li", problem)));
   const shortened = (key, value) => (typeof value === "string" && value.length > 300 ? `${value.slice(0, 300)}… (${value.length} characters)` : value);
   $("json").textContent = JSON.stringify(found, shortened, 2);
-  $("details").showModal();
+  if (!$("details").open) $("details").showModal();
 }
 
 function receive(message) {
   const { token, tokens: all, ...rest } = message;
   if (token === undefined) {
-    // a new state; a new version begins without tokens
-    if (all !== undefined || rest.version !== state.version) tokens = new Map();
-    state = { ...rest };
-    for (const each of all ?? []) tokens.set(each.number, each);
-    // the old pictures stay until there are new ones
-    if (state.status !== "compiling") $("tokens").replaceChildren(...[...tokens.values()].map(card));
+    state = rest;
+    if (all !== undefined) {
+      for (const number of [...tokens.keys()]) remove(number);
+      all.forEach(place);
+    }
+    if (state.status === "done") {
+      for (const { number, version } of [...tokens.values()]) if (version !== state.version) remove(number);
+    }
     chart();
   } else if (rest.version === state.version) {
-    tokens.set(token.number, token);
-    $("tokens").append(card(token));
+    place(token);
     if (tokens.size < 32 || tokens.size % 16 === 0) chart();
   }
   status();
 }
 
-$("wrong").addEventListener("change", () => $("tokens").replaceChildren(...[...tokens.values()].map(card)));
+$("wrong").addEventListener("change", () => {
+  for (const token of tokens.values()) cards.get(token.number).hidden = isHidden(token);
+});
+$("details").addEventListener("close", () => {
+  opened = null;
+});
 $("details").addEventListener("click", (event) => event.target === $("details") && $("details").close());
 const events = new EventSource("events");
 events.onmessage = (event) => receive(JSON.parse(event.data));
