@@ -29,6 +29,7 @@ OPTIONS = {
     "port": "--port",
     "rpc": "--rpc",
     "salt": "--salt",
+    "setup": "--setup",
     "size": "--size",
     "tile": "--tile",
     "timeout": "--rpc-timeout",

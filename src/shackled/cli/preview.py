@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,10 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import InputError, VerificationError
+from ..ethereum import checksum_address
 from ..untrusted import plain
 from .chain_options import print_json
 from .option import option
-from .output import print_line, print_table
+from .output import print_line, print_note, print_table
 from .progress import LateBar
 
 if TYPE_CHECKING:
@@ -41,7 +43,19 @@ def preview(
         list[str] | None,
         option("--setup", "Call before tokens are read; may be repeated: 'mint{value: 0.1 ether}(3) x 5'.", "CALL"),
     ] = None,
-    tokens: Annotated[int, option("--tokens", "Number of tokens.", "N", min=1, max=10_000)] = 256,
+    store: Annotated[
+        list[str] | None,
+        option(
+            "--store",
+            "Scene that the Studio has stored before the deployment: a piece of a dataset, a mesh or a scene file; "
+            "may be repeated. Its pointer is printed.",
+            "SCENE",
+        ),
+    ] = None,
+    tokens: Annotated[
+        int | None,
+        option("--tokens", "Number of tokens (default: totalSupply(), at most 256; or 256).", "N", min=1, max=10_000),
+    ] = None,
     first: Annotated[int | None, option("--first", "First token (default: 0, or 1).", "N", min=0)] = None,
     function: Annotated[
         str | None,
@@ -65,21 +79,37 @@ def preview(
 
     if not check and (as_json or output is not None):
         raise InputError(f"{'--json' if as_json else '--output'} needs --check")
+    if not check and not all(map(find_spec, ("starlette", "uvicorn"))):
+        raise InputError("the page needs more packages: pip install 'shackled[creator]'; --check needs none")
     project = Project(source)
-    request = Request(contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas)
+    stored = _stored(store or ())
+    request = Request(contract, tuple(arg or ()), tuple(setup or ()), function, first, tokens, max_gas, stored)
     if check:
         _check(project, request, as_json, output)
         return
-    if not all(map(find_spec, ("starlette", "uvicorn"))):
-        raise InputError("the page needs more packages: pip install 'shackled[creator]'; --check needs none")
     from ..preview import serve
 
     serve(project, request, port, PORT, browser)
 
 
+def _stored(scenes: Sequence[str]) -> dict[bytes, bytes]:
+    """Return the code of the contracts in which the Studio stores scenes, by address. Print the pointer of each."""
+    if not scenes:
+        return {}
+    from ..preview import stored_scene
+    from .look_options import load_with
+
+    found: dict[bytes, bytes] = {}
+    for each in scenes:
+        codes = stored_scene(load_with(each, {}))
+        print_note(f"{each} is stored at {checksum_address(list(codes)[-1])}")
+        found |= codes
+    return found
+
+
 def _check(project: Project, request: Request, as_json: bool, output: Path | None) -> None:
     """Check all tokens. VerificationError if one of them has a problem."""
-    from ..preview import CompilerError, Preview, check_sheet, summary, write_sheet
+    from ..preview import CompilerError, Preview, check_sheet, folded, summary, write_sheet
 
     if output is not None:
         check_sheet(output)
@@ -104,13 +134,15 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
             "function": made.function["name"],
             "max_gas": request.max_gas,
             "gas": {"least": min(gas, default=None), "most": max(gas, default=None), "sum": sum(gas)},
+            "problems": made.problems,
             "tokens": [summary(token) for token in found],
         }
         print_json(document)
     else:
-        rows = [(str(token.number), problem) for token in wrong for problem in token.problems]
-        if rows:
-            print_table(("token", "problem"), rows)
+        for problem in made.problems:
+            print_line(problem)
+        if wrong:
+            print_table(("tokens", "problem"), folded(wrong))
         if gas:
             most = max(found, key=lambda token: token.gas or 0)
             print_line(
@@ -120,4 +152,7 @@ def _check(project: Project, request: Request, as_json: bool, output: Path | Non
         if output is not None:
             print_line(f"pictures: {output}")
     if wrong:
-        raise VerificationError(f"{len(wrong)} of {len(found)} tokens have problems")
+        hint = made.hint(found)
+        raise VerificationError(f"{len(wrong)} of {len(found)} tokens have problems{f'; {hint}' if hint else ''}")
+    if made.problems:
+        raise VerificationError("a transaction takes more gas than one may")

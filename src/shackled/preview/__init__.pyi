@@ -1,11 +1,13 @@
 from ._arguments import Call, parse_call, parse_value
 from ._document import Document, File, judge, judge_picture
-from ._preview import MAX_GAS, Preview, Request, Token
+from ._findings import folded
+from ._library import stored_scene
+from ._preview import Preview, Request, Token
 from ._project import Compiled, CompilerError, Project
 from ._server import Live, make_app, serve
 from ._sheet import check_sheet, write_sheet
 from ._summary import summary
-from ._world import World
+from ._world import MAX_GAS, World
 
 __all__ = [
     "MAX_GAS",
@@ -21,12 +23,14 @@ __all__ = [
     "Token",
     "World",
     "check_sheet",
+    "folded",
     "judge",
     "judge_picture",
     "make_app",
     "parse_call",
     "parse_value",
     "serve",
+    "stored_scene",
     "summary",
     "write_sheet",
 ]

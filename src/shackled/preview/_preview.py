@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Generator
+import re
+from collections.abc import Generator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from itertools import islice
@@ -13,12 +14,18 @@ from ..errors import InputError
 from ..ethereum import Interface, intrinsic_gas
 from ..evm import Answer, Status
 from ._arguments import parse_call
-from ._document import Document, judge, judge_picture
+from ._document import Document, judge, judge_picture, unicode_fault
 from ._project import Compiled, Project
-from ._world import MOST_GAS, World
+from ._world import MAX_GAS, MOST_GAS, World
 
-#: The gas of one transaction on Ethereum (EIP-7825), and of a call on some nodes.
-MAX_GAS = 1 << 24
+#: The call of `totalSupply`.
+SUPPLY = bytes.fromhex("18160ddd")
+#: Numbers of tokens are below it.
+END = 1 << 256
+#: How many tokens are read where nothing else says it, and at most.
+MOST_TOKENS = 256
+#: Words in the errors of tokens that do not exist: ERC721NonexistentToken, TokenDoesNotExist, "invalid token ID".
+NONEXISTENT = re.compile(r"non.?existent|not.?exist|not.?minted|unminted|invalid.?token|no.?such.?token", re.IGNORECASE)
 #: Functions that are looked for, in this order.
 FUNCTIONS = ("tokenURI", "uri", "image", "render", "svg")
 #: Functions that return metadata; others return pictures.
@@ -31,7 +38,8 @@ class Request:
 
     contract: its name; None for the only one of the file. arguments: of its constructor. setup: calls before the
     first token is read. function: that is read; None for the first of `FUNCTIONS`. first: the first token; None
-    for 0, or 1 where there is no token 0. count: how many tokens. max_gas: of a read, with that of its data.
+    for 0, or 1 where there is no token 0. count: how many tokens; None for as many as `totalSupply` says, up to 256.
+    max_gas: of a read, with that of its data. stored: code of contracts that are there already, by address.
     """
 
     contract: str | None = None
@@ -39,8 +47,9 @@ class Request:
     setup: tuple[str, ...] = ()
     function: str | None = None
     first: int | None = None
-    count: int = 256
+    count: int | None = None
     max_gas: int = MAX_GAS
+    stored: Mapping[bytes, bytes] = field(default_factory=dict)
 
 
 @dataclass
@@ -64,17 +73,34 @@ class Preview:
         self.function = _function(self.contract, request.function)
         self._interface = Interface([self.function])
         setup = [parse_call(text, self.contract) for text in request.setup]
-        self.world = World(self.contract, request.arguments, setup)
+        self.world = World(self.contract, request.arguments, setup, request.stored)
         #: Whether the tokens have numbers.
         self.is_numbered = bool(self.function["inputs"])
+        #: Whether a token took so much gas that the others get only what they may take.
+        self._is_endless = False
         self.first = self._first() if request.first is None else request.first
-        self.count = request.count if self.is_numbered else 1
+        if not 0 <= self.first < END:
+            raise InputError(f"the first token must be from 0 to 2^256 - 1, not {self.first}")
+        wanted = self._supply() if request.count is None else request.count
+        self.count = min(wanted, END - self.first) if self.is_numbered else 1
+
+    @property
+    def problems(self) -> list[str]:
+        """What is wrong with the deployment and the calls, each in one line."""
+        return self.world.problems
+
+    def hint(self, tokens: Sequence[Token]) -> str | None:
+        """Return what the author may have forgotten, if no token could be read."""
+        if self.request.setup or not self.is_numbered or not tokens or any(token.gas is not None for token in tokens):
+            return None
+        return "no token could be read: if they must be minted first, call the contract with `setup`, as in 'mint(3)'"
 
     def tokens(self) -> Generator[Token, None, None]:
         """Yield the tokens in the order of their numbers; several are read at the same time."""
         numbers = iter(range(self.first, self.first + self.count))
         size = os.cpu_count() or 1
-        with ThreadPoolExecutor(size) as threads:
+        threads = ThreadPoolExecutor(size)
+        try:
             # as many waiting as are read: who stops early waits for few
             waiting = [threads.submit(self.token, number) for number in islice(numbers, 2 * size)]
             while waiting:
@@ -83,6 +109,8 @@ class Preview:
                 if following is not None:
                     waiting.append(threads.submit(self.token, following))
                 yield token
+        finally:
+            threads.shutdown(cancel_futures=True)
 
     def token(self, number: int) -> Token:
         """Read one token, and judge it."""
@@ -93,32 +121,57 @@ class Preview:
         problems = []
         if answer.status != Status.SUCCESS:
             # with more gas: does the limit fail, or the contract?
-            free = self.world.call(data, MOST_GAS)
+            free = answer if self._is_endless else self.world.call(data, MOST_GAS)
             if free.status != Status.SUCCESS:
-                return Token(number, problems=[f"{name}{self._shown(number)} fails: {self.world.reason(free)}"])
+                is_short = self._is_endless and free.status == Status.OUT_OF_GAS
+                self._is_endless |= free.gas > MOST_GAS // 2
+                reason = f"more than {limit:,} gas are needed" if is_short else self.world.reason(free)
+                return Token(number, problems=[f"{name}{self._shown(number)} fails: {reason}"])
             answer = free
             problems = [f"{name}{self._shown(number)} takes {answer.gas + intrinsic:,} gas, more than {limit:,} allow"]
         try:
             value = self._interface.decode(name, answer.output)
         except ValueError as error:
-            return Token(number, answer.gas + intrinsic, problems=[*problems, str(error)])
+            fault = f"{name}{self._shown(number)} returns {_output_fault(answer.output, error)}"
+            return Token(number, answer.gas + intrinsic, problems=[*problems, fault])
         document = judge(value) if name in METADATA else judge_picture(value)
         size = len(value.encode() if isinstance(value, str) else value)
         return Token(number, answer.gas + intrinsic, size, document, problems + document.problems)
 
     def _first(self) -> int:
         """Return 1 where there is no token 0, but a token 1."""
-        return int(self.is_numbered and not self._is_there(0) and self._is_there(1))
+        if not self.is_numbered or not self._is_missing(self.world.call(self._data(0), MAX_GAS)):
+            return 0
+        return int(self.world.call(self._data(1)).status == Status.SUCCESS)
 
-    def _is_there(self, number: int) -> bool:
-        answer: Answer = self.world.call(self._data(number))
-        return answer.status == Status.SUCCESS
+    def _is_missing(self, answer: Answer) -> bool:
+        """Return whether a call failed as calls for tokens do that do not exist; other failures are to be shown."""
+        return answer.status == Status.REVERT and (
+            not answer.output or NONEXISTENT.search(self.world.reason(answer)) is not None
+        )
+
+    def _supply(self) -> int:
+        """Return how many tokens there are, up to `MOST_TOKENS`; also that many where nobody knows."""
+        if any(each["type"] == "function" and each["name"] == "totalSupply" for each in self.contract.abi):
+            answer = self.world.call(SUPPLY)
+            if answer.status == Status.SUCCESS and len(answer.output) == 32:
+                return min(int.from_bytes(answer.output), MOST_TOKENS) or MOST_TOKENS
+        return MOST_TOKENS
 
     def _data(self, number: int) -> bytes:
         return self._interface.encode(self.function["name"], *([number] if self.is_numbered else []))
 
     def _shown(self, number: int) -> str:
         return f"({number})" if self.is_numbered else "()"
+
+
+def _output_fault(output: bytes, error: ValueError) -> str:
+    """Return what is wrong with the output of a function that returns text or bytes."""
+    if not output:
+        return "nothing"
+    if isinstance(error, UnicodeDecodeError):
+        return f"no valid {unicode_fault(error)}"
+    return f"{len(output)} bytes that are not text or bytes as the ABI encodes them"
 
 
 def _chosen(contracts: list[Compiled], request: Request) -> Compiled:

@@ -2,38 +2,64 @@
 
 from __future__ import annotations
 
-import os
+import re
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 from ..artifacts import known_errors
 from ..chain import RevmChain, describe_revert
 from ..deploy import CONTRACTS
 from ..errors import InputError
-from ..ethereum import Errors, error_table
+from ..ethereum import Errors, error_table, intrinsic_gas
 from ..evm import Answer, Instance, Status
-from ._arguments import Call, constructor_arguments
+from ._arguments import Call, constructor_arguments, contract_of
+from ._library import library_codes
 from ._project import Compiled
 
 #: Of a deployment or a call that changes something, and of one that only reads; it ends endless loops.
 MOST_GAS = 1_000_000_000
+#: The gas of one transaction on Ethereum (EIP-7825), and of a call on some nodes.
+MAX_GAS = 1 << 24
+#: Precompiled contracts of Cancun that the embedded EVM does not have.
+PRECOMPILED = {
+    1: "ecrecover",
+    2: "sha256",
+    3: "ripemd160",
+    5: "modexp",
+    6: "ecadd",
+    7: "ecmul",
+    8: "ecpairing",
+    9: "blake2f",
+    10: "kzg",
+}
 
 
 class World:
     """The contract, deployed and set up. Threads call it at the same time, each in an instance of its own."""
 
-    def __init__(self, contract: Compiled, given: Sequence[str] = (), setup: Sequence[Call] = ()) -> None:
-        """Deploy the contract and send the calls. given: as of `constructor_arguments`.
+    def __init__(
+        self,
+        contract: Compiled,
+        given: Sequence[str] = (),
+        setup: Sequence[Call] = (),
+        stored: Mapping[bytes, bytes] | None = None,
+    ) -> None:
+        """Deploy the contract and send the calls.
 
-        InputError if the constructor or a call fails.
+        given: as of `constructor_arguments`. stored: code of further contracts, by address. InputError if the
+        constructor or a call fails.
         """
         self.contract, self.setup = contract, setup
         chain = RevmChain()
         addresses = {name: chain.address(name) for name in CONTRACTS}
-        self._codes = chain.codes()
+        self._codes = {**chain.codes(), **(stored or {})}
+        if _needs_library(contract, addresses["Library"]):
+            self._codes |= library_codes(addresses["Library"], addresses["Studio"])
         self._creation = contract.creation + constructor_arguments(contract, given, addresses)
         self.errors: Errors = {**known_errors(), **error_table(contract.abi)}
+        #: Transactions that take more gas than one may, each in one line.
+        self.problems: list[str] = []
         self._free: list[Instance] = []
         self._lock = threading.Lock()
         self.address = b""
@@ -50,8 +76,12 @@ class World:
         if answer.status == Status.REVERT:
             return describe_revert(answer.output, self.errors) if answer.output else "reverted without a reason"
         if answer.status == Status.OUT_OF_GAS:
-            return f"out of gas: {MOST_GAS:,} do not suffice"
+            return f"out of gas: {MOST_GAS:,} do not suffice; is there an endless loop?"
         said = answer.output.decode(errors="replace")
+        precompiled = re.search("precompiled contract 0x([0-9a-fA-F]+)", said)
+        if precompiled:
+            name = PRECOMPILED.get(int(precompiled[1], 16), precompiled[0])
+            return f"it calls {name}, a precompiled contract that the embedded EVM does not have"
         if said in ("OpcodeNotFound", "NotActivated"):
             return "the embedded EVM has the rules of Cancun, and does not know an instruction: compile for cancun"
         return f"failed: {said}"
@@ -75,15 +105,34 @@ class World:
                 reason = "its code has more than 24,576 bytes (EIP-170): turn the optimizer on, or split it"
             raise InputError(f"{self.contract.name} cannot be deployed: {reason}")
         self.address = made.output
+        problems = []
+        gas = made.gas + _creation_gas(self._creation)
+        if gas > MAX_GAS:
+            problems.append(_too_dear(f"the deployment of {self.contract.name}", gas))
         for call in self.setup:
+            most = 0
             for number in range(call.times):
                 answer = evm.send(self.address, call.data, MOST_GAS, call.value)
                 if answer.status != Status.SUCCESS:
                     which = f" (number {number + 1} of {call.times})" if call.times > 1 else ""
                     raise InputError(f"the call {call.text}{which} failed: {self.reason(answer)}")
+                most = max(most, answer.gas + intrinsic_gas(call.data))
+            if most > MAX_GAS:
+                problems.append(_too_dear(f"the call {call.text}", most))
+        self.problems = problems
         return evm
 
 
-def workers() -> int:
-    """Return how many calls run at the same time."""
-    return os.cpu_count() or 1
+def _needs_library(contract: Compiled, library: bytes) -> bool:
+    """Return whether the contract may ask the library: it is given its address, or has it in its code."""
+    taken = [part for entry in contract.abi if entry["type"] == "constructor" for part in entry["inputs"]]
+    return library in contract.creation or "Library" in map(contract_of, taken)
+
+
+def _creation_gas(creation: bytes) -> int:
+    """Return the gas of a transaction that creates a contract before its execution (EIP-2, EIP-3860)."""
+    return intrinsic_gas(creation) + 32_000 + 2 * -(-len(creation) // 32)
+
+
+def _too_dear(what: str, gas: int) -> str:
+    return f"{what} takes {gas:,} gas, more than {MAX_GAS:,}, the most of one transaction"
