@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from PIL import Image as PillowImage
 
+from preview.small_contracts import SVG, Made, answering, contract, function, output
 from shackled.cli.app import run
 from shackled.errors import InputError
 from shackled.preview import (
@@ -56,20 +57,9 @@ def odd(source: Path) -> Compiled:
     return found
 
 
-class Compiler(Project):
-    """A project that is compiled already."""
-
-    def __init__(self, source: Path, found: Compiled) -> None:
-        super().__init__(source)
-        self.found = found
-
-    def compile(self) -> list[Compiled]:
-        return [self.found]
-
-
 @pytest.fixture
 def project(source: Path, odd: Compiled) -> Project:
-    return Compiler(source, odd)
+    return Made(source, odd)
 
 
 def request(**changes: Any) -> Request:
@@ -113,7 +103,7 @@ def test_calls_that_fail_and_values_that_do_not_fit(odd: Compiled) -> None:
     for arguments, setup, message in (
         ([], [], "needs price_ \\(uint256\\): give it with `arg`"),
         (["1", "2"], [], "takes 1 values, not 2"),
-        (["one"], [], "price_ of the constructor must be a value of the type uint256, not 'one'"),
+        (["one"], [], "price_ of the constructor must be a uint256, 0 to 2\\^256 - 1, not 'one'"),
         (["1"], ["mint(1)"], "the call mint\\(1\\) failed: the price"),
         (["0"], ["mint(1) x 2", "minted() x 2", "tokenURI(2)"], "tokenURI\\(2\\) failed: Absent\\(id=2"),
         (["0"], ["mint()"], "no function mint of 0 values: it takes 1"),
@@ -140,6 +130,18 @@ def test_files_that_cannot_be_previewed(source: Path, project: Project, tmp_path
         Preview(project, request(function="draw"))
 
 
+@needs_solc
+def test_sources_that_cannot_be_read(source: Path) -> None:
+    path = source.with_name("Latin.sol")
+    path.write_bytes(b"pragma solidity ^0.8.0;\n// \xe9\ncontract Latin {}")
+    project = Project(path)
+    with pytest.raises(InputError, match=r"Latin\.sol cannot be read: not UTF-8 at line 2"):
+        project.compile()
+    path.unlink()
+    with pytest.raises(InputError, match=r"Latin\.sol cannot be read: No such file"):
+        project.compile()
+
+
 def test_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "A.sol").write_text("contract A {}")
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -148,6 +150,24 @@ def test_no_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "foundry.toml").write_text("")
     with pytest.raises(InputError, match="a project of Foundry, but there is no forge"):
         Project(tmp_path / "A.sol").compile()
+
+
+def test_watched_sources(tmp_path: Path) -> None:
+    """Of the folders of libraries, only those directly below the project are left out."""
+    (tmp_path / "foundry.toml").write_text("")
+    for name in (
+        "src/Token.sol",
+        "src/lib/Own.sol",
+        "src/out/Own.sol",
+        "lib/a/A.sol",
+        "out/B.sol",
+        "src/node_modules/C.sol",
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    stamps = Project(tmp_path / "src" / "Token.sol").stamps()
+    names = {path.relative_to(tmp_path).as_posix() for path in stamps}
+    assert names == {"foundry.toml", "src/Token.sol", "src/lib/Own.sol", "src/out/Own.sol"}
 
 
 def test_values_of_all_types() -> None:
@@ -162,11 +182,71 @@ def test_values_of_all_types() -> None:
         ("[[1, 2], [3, 4]]", {"type": "uint8[2][]"}, [[1, 2], [3, 4]]),
         ('[[1, "a"]]', pair, [(1, "a")]),
         ("[true]", {"type": "bool[]"}, [True]),
+        ("[1, 2]", {"type": "uint8[2]"}, [1, 2]),
+        ("255", {"type": "uint8"}, 255),
+        ("-32768", {"type": "int16"}, -32768),
     ):
         assert parse_value(text, parameter, "it") == value
     for text, kind in (("yes", "bool"), ("1", "uint8[]"), ("0x1", "bytes"), ("[[1]]", "uint8[]"), ("0x12", "address")):
         with pytest.raises(InputError, match="it"):
             parse_value(text, {"type": kind}, "it")
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "message"),
+    [
+        ("300", "uint8", "it must be a uint8, 0 to 255, not 300"),
+        ("-1", "uint8", "it must be a uint8, 0 to 255, not -1"),
+        ("99999", "int16", "it must be an int16, -32768 to 32767, not 99999"),
+        (str(1 << 255), "int256", "it must be an int256, -2^255 to 2^255 - 1, not 5789"),
+        ("9" * 5000, "uint256", "it must be a uint256, 0 to 2^256 - 1, not '999"),
+        ("0x" + "00" * 33, "bytes32", "it must be a bytes32, 32 bytes in hexadecimal, not 33 bytes"),
+        ("[1]", "uint8[2]", "it must have a list of 2 values for uint8[2], not [1]"),
+        ("[[300]]", "uint8[][]", "it must be a uint8, 0 to 255, not 300"),
+        ("[null]", "string[]", "it must have a value for string, not null"),
+        ("\udce9", "string", "it must be a string"),
+    ],
+)
+def test_values_out_of_range(text: str, kind: str, message: str) -> None:
+    with pytest.raises(InputError) as raised:
+        parse_value(text, {"type": kind}, "it")
+    assert str(raised.value).startswith(message)
+    assert len(str(raised.value)) < 150
+
+
+SMALL = contract(
+    b"",
+    function("mint", "uint256", stateMutability="payable"),
+    function("set", "uint8", stateMutability="nonpayable"),
+    function("set", "address", stateMutability="nonpayable"),
+)
+
+
+@pytest.mark.parametrize(
+    ("amount", "wei"),
+    [("0.07 ether", 7 * 10**16), ("0.000_000_001gwei", 1), ("1_000", 1000), ("3 wei", 3), ("0.5 wei", None)]
+    + [(amount, None) for amount in ("1.2.3 ether", ". ether", "9" * 80, "", "1 eth", "0.0000000001 gwei", "-1")],
+)
+def test_amounts_of_ether_are_exact(amount: str, wei: int | None) -> None:
+    text = f"mint{{value: {amount}}}(1)"
+    if wei is not None:
+        assert parse_call(text, SMALL).value == wei
+        return
+    with pytest.raises(InputError, match=r"the value of mint must be whole in wei, such as 0\.07 ether"):
+        parse_call(text, SMALL)
+
+
+def test_calls_of_overloaded_functions() -> None:
+    address = "0x" + "11" * 20
+    assert parse_call("set(5)", SMALL).data[4:] == bytes(31) + b"\5"
+    assert parse_call(f"set({address})", SMALL).data[4:] == bytes(12) + b"\x11" * 20
+    for text, message in (
+        ("set(300)", "must be a uint8, 0 to 255, not 300; or set: value0 must be an address"),
+        ("set{value: 1}(5)", "set is not payable: leave out its value"),
+        ("set(5) x 0", "a call must be like mint"),
+    ):
+        with pytest.raises(InputError, match=message):
+            parse_call(text, SMALL)
 
 
 def uri(document: Any) -> str:
@@ -208,6 +288,7 @@ HOSTILE = {
     uri('{"name": "\\ud800"}'): "not valid JSON",
     uri("[]"): "not an object",
     "data:application/json;base64,!": "not valid Base64",
+    "data:application/json,%ff": "the tokenURI is not valid UTF-8: byte 0 is 0xff",
 }
 
 
@@ -235,6 +316,14 @@ def test_fields_that_are_wrong(key: str) -> None:
     assert message in problem
 
 
+def test_token_uris_that_marketplaces_do_not_show() -> None:
+    fields = {"name": "One", "image": picture(), "description": "a" * 100_000}
+    (problem,) = judge("data:application/json," + json.dumps(fields)).problems
+    assert problem.endswith("bytes; marketplaces show no more than 100,000")
+    (problem,) = judge("data:application/json," + json.dumps({"name": "Token #1", "image": picture()})).problems
+    assert "the tokenURI has a # at position 38, where browsers end it: write %23" in problem
+
+
 def test_pictures_that_cannot_be_decoded() -> None:
     whole = base64.b64decode(picture(3).partition(",")[2])
     bomb = "<!DOCTYPE svg [" + "".join(
@@ -247,6 +336,12 @@ def test_pictures_that_cannot_be_decoded() -> None:
         ("<html/>", "its root is html"),
         (bomb + "]><svg xmlns='http://www.w3.org/2000/svg'>&e8;</svg>", "not a valid SVG"),
         ("https://example.org/1.png", "not on the chain"),
+        ("<svg/>", "xmlns is missing: write <svg xmlns="),
+        (b"<svg>\xff</svg>", "not a valid UTF-8: byte 5 is 0xff"),
+        (b"", "not a valid SVG: it is empty"),
+        ("", "the picture is empty"),
+        ("data:image/svg+xml," + SVG.replace("/>", " fill='#fff'/>"), "a # at position 65, where browsers end it"),
+        ("data:image/svg+xml," + SVG.replace("/>", " width='50%'/>"), "a % at position 68 without two hexadecimal"),
     ):
         (problem,) = judge_picture(content).problems
         assert message in problem
@@ -268,6 +363,40 @@ def test_the_command_checks(source: Path, tmp_path: Path, capsys: pytest.Capture
     assert "--output needs --check" in capsys.readouterr().err
 
 
+def test_the_page_survives_every_error(tmp_path: Path) -> None:
+    """Also mistakes of the preview itself."""
+    source = tmp_path / "Small.sol"
+    source.write_text("contract Small {}")
+    faults = [RuntimeError("a mistake"), InputError("no"), None]
+
+    class Faulty(Made):
+        def compile(self) -> list[Compiled]:
+            fault = faults.pop(0)
+            if fault is not None:
+                raise fault
+            return super().compile()
+
+    live = Live(Faulty(source, contract(answering(output(SVG), output(SVG)))), Request(count=1))
+
+    async def states() -> list[dict[str, Any]]:
+        following = asyncio.create_task(live.follow())
+        found = []
+        async for event in live.events():
+            found.append(json.loads(event.removeprefix("data: ")))
+            if found[-1].get("status") == "failed":
+                source.write_text("contract Small {}" + " " * len(found))
+            elif found[-1].get("status") == "done":
+                # ends the events too
+                live.end()
+        await following
+        return found
+
+    found = asyncio.run(asyncio.wait_for(states(), 30))
+    assert [m["error"] for m in found if m.get("status") == "failed"] == ["RuntimeError: a mistake", "no"]
+    assert found[-1]["status"] == "done"
+    assert found[-1]["error"] == ""
+
+
 @needs_solc
 def test_the_page_follows_the_sources(source: Path) -> None:
     """It shows tokens, errors of the compiler, and tokens again; files of tokens run nothing."""
@@ -275,6 +404,7 @@ def test_the_page_follows_the_sources(source: Path) -> None:
     text = source.read_text("utf-8")
     live = Live(Project(source), Request(arguments=("0",), setup=("mint(4)",), count=2))
     app = make_app(live)
+    kept: list[bool] = []
 
     async def states() -> list[dict[str, Any]]:
         following = asyncio.create_task(live.follow())
@@ -283,16 +413,20 @@ def test_the_page_follows_the_sources(source: Path) -> None:
             message = json.loads(event.removeprefix("data: "))
             found.append(message)
             if message.get("status") in ("done", "failed"):
+                kept.append(live.token(1, 0) is not None)
                 if not saves:
                     break
                 source.write_text(saves.pop(0), "utf-8")
-        following.cancel()
+        live.end()
+        await following
         return found
 
     found = asyncio.run(states())
     assert [m["status"] for m in found if "status" in m and m["version"] == 2] == ["compiling", "failed"]
+    # the tokens of before stay, with their files, until all are read again
+    assert kept == [True, True, False]
     assert any("--> Odd.sol" in m.get("error", "") for m in found)
-    assert [m["token"]["number"] for m in found if m["version"] == 3 and "token" in m] == [0, 1]
+    assert [m["token"]["number"] for m in found if m["version"] == 3 and "token" in m] == ["0", "1"]
     page = get(app, "/")
     assert page.status == 200
     assert "script-src 'self'" in page.headers["content-security-policy"]

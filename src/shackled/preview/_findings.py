@@ -19,7 +19,7 @@ def folded(tokens: Iterable[Token]) -> list[tuple[str, str]]:
     groups: dict[str, list[tuple[int, str]]] = {}
     for token in tokens:
         for problem in token.problems:
-            alike = re.sub(rf"\b{token.number}\b|[\d,]+ gas\b", "#", problem)
+            alike = re.sub(rf"[\d,]+ gas\b|\b{token.number}\b", "#", problem)
             groups.setdefault(alike, []).append((token.number, problem))
     return [(_ranges([number for number, _ in group]), _words(group)) for group in groups.values()]
 

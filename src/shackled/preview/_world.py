@@ -53,9 +53,10 @@ class World:
         self.contract, self.setup = contract, setup
         chain = RevmChain()
         addresses = {name: chain.address(name) for name in CONTRACTS}
-        self._codes = {**chain.codes(), **(stored or {})}
+        #: Code of the contracts of the package and of what the Studio stores, by address.
+        self.codes = {**chain.codes(), **(stored or {})}
         if _needs_library(contract, addresses["Library"]):
-            self._codes |= library_codes(addresses["Library"], addresses["Studio"])
+            self.codes |= library_codes(addresses["Library"], addresses["Studio"])
         self._creation = contract.creation + constructor_arguments(contract, given, addresses)
         self.errors: Errors = {**known_errors(), **error_table(contract.abi)}
         #: Transactions that take more gas than one may, each in one line.
@@ -97,7 +98,7 @@ class World:
 
     def _new(self) -> Instance:
         evm = Instance()
-        evm.hold(self._codes)
+        evm.hold(self.codes)
         made = evm.deploy(self._creation, MOST_GAS)
         if made.status != Status.SUCCESS:
             reason = self.reason(made)

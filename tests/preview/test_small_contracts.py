@@ -1,0 +1,139 @@
+"""The preview of contracts of a few instructions: which tokens are read, and what is said of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, function, output
+from shackled.ethereum import keccak256, word
+from shackled.evm import Answer
+from shackled.preview import Compiled, Preview, Request, Token, folded
+
+PANIC = bytes.fromhex("4e487b71")
+SUPPLY = function("totalSupply", output="uint256")
+
+
+@pytest.fixture
+def preview(tmp_path: Path) -> Any:
+    """Make a preview of a contract."""
+    source = tmp_path / "Small.sol"
+    source.write_text("contract Small {}")
+
+    def make(found: Compiled, **request: Any) -> Preview:
+        return Preview(Made(source, found), Request(**request))
+
+    return make
+
+
+def error(words: str) -> bytes:
+    """Return what `revert` sends with words."""
+    return bytes.fromhex("08c379a0") + output(words)
+
+
+@pytest.mark.parametrize(
+    ("data", "first"),
+    [
+        (b"", 1),
+        (error("ERC721: invalid token ID"), 1),
+        (error("locked"), 0),
+        (PANIC + word(0x11), 0),
+    ],
+)
+def test_token_0_is_left_out_only_where_it_is_missing(preview: Any, data: bytes, first: int) -> None:
+    assert preview(contract(answering(data, output(SVG), REVERT))).first == first
+
+
+def test_a_custom_error_says_that_a_token_is_missing(preview: Any) -> None:
+    entry = {"type": "error", "name": "TokenDoesNotExist", "inputs": []}
+    data = keccak256(b"TokenDoesNotExist()")[:4]
+    found = contract(answering(data, output(SVG), REVERT), function("image", "uint256"), entry)
+    assert preview(found).first == 1
+
+
+@pytest.mark.parametrize(("supply", "count"), [(16, 16), (10_000, 256), (0, 256)])
+def test_as_many_tokens_as_there_are(preview: Any, supply: int, count: int) -> None:
+    # `totalSupply` is a call without a number, which reads as 0
+    found = contract(answering(word(supply), output(SVG)), function("image", "uint256"), SUPPLY)
+    assert preview(found).count == count
+    assert preview(found, count=3).count == 3
+
+
+def test_first_tokens_up_to_the_greatest_number(preview: Any) -> None:
+    found = contract(answering(output(SVG), output(SVG)))
+    last = (1 << 256) - 1
+    assert [token.number for token in preview(found, first=last).tokens()] == [last]
+    with pytest.raises(ValueError, match=r"the first token must be from 0 to 2\^256 - 1"):
+        preview(found, first=last + 1)
+
+
+@pytest.mark.parametrize(
+    ("data", "ends", "problem"),
+    [
+        (PANIC + word(0x11), REVERT, "image(0) fails: arithmetic overflow (Panic 0x11)"),
+        (PANIC + word(0x99), REVERT, "image(0) fails: panic (Panic 0x99)"),
+        (b"", REVERT, "image(0) fails: reverted without a reason"),
+        (b"", 0xF3, "image(0) returns nothing"),
+        (output(b"a\xff"), 0xF3, "image(0) returns no valid UTF-8: byte 1 is 0xff"),
+        (b"\1", 0xF3, "image(0) returns 1 bytes that are not text or bytes as the ABI encodes them"),
+    ],
+)
+def test_outputs_that_cannot_be_read(preview: Any, data: bytes, ends: int, problem: str) -> None:
+    assert preview(contract(answering(data, zero_ends=ends)), first=0).token(0).problems == [problem]
+
+
+def test_a_precompiled_contract_that_is_missing(preview: Any) -> None:
+    # STATICCALL of the contract 2
+    code = bytes.fromhex("5f5f5f5f60025afa00")
+    (problem,) = preview(contract(code)).token(0).problems
+    assert problem == "image(0) fails: it calls sha256, a precompiled contract that the embedded EVM does not have"
+
+
+def test_an_endless_loop_takes_its_time_once(preview: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shackled.preview._preview.MOST_GAS", 1 << 26)
+    made = preview(contract(ENDLESS), max_gas=1 << 20)
+    allowed: list[int] = []
+    call = made.world.call
+
+    def counted(data: bytes, gas: int) -> Answer:
+        allowed.append(gas)
+        answer: Answer = call(data, gas)
+        return answer
+
+    monkeypatch.setattr(made.world, "call", counted)
+    problems = [made.token(number).problems[0] for number in range(4)]
+    assert "is there an endless loop?" in problems[0]
+    assert problems[3] == "image(3) fails: more than 1,048,576 gas are needed"
+    assert allowed.count(1 << 26) == 1
+
+
+def test_transactions_that_take_more_gas_than_one_may(preview: Any) -> None:
+    found = contract(DEAR, function("image", "uint256"), function("big"))
+    (problem,) = preview(found, setup=("big()",)).problems
+    assert problem.startswith("the call big() takes 17,")
+    assert problem.endswith("gas, more than 16,777,216, the most of one transaction")
+    (problem,) = preview(Compiled("Dear", found.abi, DEAR)).problems
+    assert problem.startswith("the deployment of Dear takes 17,")
+    assert preview(contract(answering(output(SVG)))).problems == []
+
+
+def test_a_hint_where_no_token_can_be_read(preview: Any) -> None:
+    made = preview(contract(answering(b"", b"", REVERT), function("image", "uint256")), first=0, count=1)
+    assert "`setup`" in made.hint(list(made.tokens()))
+    assert made.hint([Token(0, gas=1)]) is None
+
+
+def test_equal_problems_of_many_tokens_are_one_line() -> None:
+    tokens = [Token(number, problems=[f"image({number}) fails: No(id={number})"]) for number in (3, 4, 5, 9, 16)]
+    tokens += [
+        Token(number, problems=[f"image({number}) takes {number}6,777,217 gas", "no name"]) for number in (16, 17)
+    ]
+    assert folded(tokens) == [
+        ("3 to 5, 9, 16", "image(3) fails: No(id=3); the others alike"),
+        ("16 to 17", "image(16) takes 166,777,217 gas; the others alike"),
+        ("16 to 17", "no name"),
+    ]
+    (line,) = folded([Token(number, problems=["no"]) for number in range(0, 100, 2)])
+    assert line[0].endswith("36, 38 and 30 more")
