@@ -88,9 +88,9 @@ contract BuilderProbe {
             if (step == "p") stage.add(hex"12", StageMaker.unlit());
             if (step == "P") stage.paint(0, 0xabcdef);
             if (step == "L") stage.paint(0x123456);
-            if (step == "f") stage.fade(StageMaker.fraction(1, 8));
+            if (step == "f") stage.opacity(StageMaker.fraction(1, 8));
             if (step == "s") stage.sun(StageMaker.units(1, 2, 3), 0xffffff);
-            if (step == "t") stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(0, 1, 0), 90, 50, 0xffffff);
+            if (step == "t") stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(0, 1, 0), 30, 50, 0xffffff);
             if (step == "d") stage.dark();
             if (step == "w") stage.shadow();
             if (step == "l") stage.look(StageMaker.units(400, 0, 0), StageMaker.units(0, 0, 0));
@@ -98,6 +98,17 @@ contract BuilderProbe {
             if (step == "n") stage.fit(StageMaker.units(0, 0, 0));
             if (step == "v") stage.fieldOfView(180);
             if (step == "o") stage.orthographic(0);
+            if (step == "1") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(0, 1, 0), 50, 49, 0);
+            if (step == "2") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(0, 1, 0), 0, 181, 0);
+            if (step == "3") stage.spot(StageMaker.units(0, 0, 0), StageMaker.units(1 << 31, 0, 0), 0, 1, 0);
+            if (step == "4") stage.hemisphere(0, 1 << 24);
+            if (step == "5") stage.rim(1 << 24, 1);
+            if (step == "6") stage.rim(0, 257);
+            if (step == "7") stage.fog(0, 0, 1 << 32);
+            if (step == "8") stage.tone((1 << 24) + 100, true, true);
+            if (step == "9") stage.opacity(StageMaker.unit(257));
+            if (step == "g") stage.ground(0, StageMaker.units(0, 0, 0), 1 << 32);
+            if (step == "x") stage.texture(1, 1, 4, "", new bytes(3), new int256[2][](8));
             if (step == "r") stage.place(Framing.box(0, 0, 0, 1, 0, 1));
         }
         return stage.scene;
@@ -127,14 +138,14 @@ contract BuilderProbe {
         Stage memory stage = StageMaker.stage(20, 10, 3);
         stage.antialias();
         stage.add(hex"0000000000", StageMaker.unlit());
-        stage.fade(99);
-        stage.fade(50);
+        stage.opacity(99);
+        stage.opacity(50);
         stage.sun(StageMaker.units(-1, 2, 3), 0xffffff);
-        stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), 90, -50, 0x808080);
+        stage.spot(StageMaker.units(10, -20, 30), StageMaker.units(0, 1, -2), StageMaker.fraction(45, 2), StageMaker.unit(120), 0x808080);
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.add(hex"0000000000", StageMaker.unlit());
-        stage.fade(0);
-        stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 100, 100, 0x010203);
+        stage.opacity(0);
+        stage.spot(StageMaker.units(1, 2, 3), StageMaker.units(-1, 0, 0), 0, 180, 0x010203);
         stage.antialias();
         stage.tone(150, true, false);
         stage.fog(0xc0ffee, 2, 5);
@@ -166,7 +177,7 @@ contract BuilderProbe {
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.opacities("");
         stage.add(m.pack(), StageMaker.unlit());
-        stage.fade(50);
+        stage.opacity(50);
         stage.opacities(levels);
         stage.antialias();
         return stage.scene;
