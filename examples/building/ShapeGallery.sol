@@ -44,9 +44,9 @@ contract ShapeGallery {
         return shown(m.packSmooth(), true);
     }
 
-    function ring() external pure returns (Scene memory) {
+    function torus() external pure returns (Scene memory) {
         Model memory m = ModelMaker.model();
-        m.ring(0, 0, 0, 100, 30, 32, 16, STRAW);
+        m.torus(0, 0, 0, 100, 30, 32, 16, STRAW);
         return shown(m.packSmooth(), true);
     }
 

@@ -68,8 +68,8 @@ library StageMaker {
         return stage(width, height, 4);
     }
 
-    /// @notice Returns an empty scene: the eye 1,000 units in front of the origin, a field of view of 50 degrees, white ambient light, a sun
-    /// from the upper left until another light is added, a dark background.
+    /// @notice Returns an empty scene: the eye 1,000 units in front of the origin, a field of view of 50 degrees, white ambient light, a
+    /// sun from the upper left until another light is added, a dark background.
     /// @param maxObjects Initial capacity for objects; the right number saves the gas of growing.
     function stage(uint256 width, uint256 height, uint256 maxObjects) internal pure returns (Stage memory made) {
         Scene memory s = made.scene;
@@ -303,8 +303,8 @@ library StageMaker {
         }
     }
 
-    /// @notice Adds a horizontal, matte disc that receives shadows and casts none. It is opaque in the middle and fades out toward its edge.
-    /// Place it just below the objects, and add it after `fit`.
+    /// @notice Adds a horizontal, matte disc that receives shadows and casts none. It is opaque in the middle and fades out toward its
+    /// edge. Place it just below the objects, and add it after `fit`.
     /// @param color 0xRRGGBB.
     /// @param radius Whole units, up to 67,108,864.
     function ground(Stage memory made, uint256 color, Vector memory middle, uint256 radius) internal pure returns (Object memory object) {
