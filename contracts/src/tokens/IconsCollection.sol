@@ -120,7 +120,7 @@ contract IconsCollection is Collection, StudioErrors {
         emit Sealed(icons.length);
     }
 
-    /// @notice Sets the phase, which determines who may mint. Reverts until the collection is sealed.
+    /// @notice Sets the phase, which determines who may mint. Must be `Closed` until the collection is sealed.
     function setPhase(Phase phase_) public override {
         if (phase_ != Phase.Closed && !isSealed) revert NotSealed();
         super.setPhase(phase_);
