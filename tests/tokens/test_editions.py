@@ -200,6 +200,16 @@ def test_the_whole_picture_is_drawn(show: Show) -> None:
         assert 0 < show.add(scene=scene, scale=4).execution - drawing < 200_000
 
 
+def test_the_picture_is_drawn_at_its_scale(show: Show) -> None:
+    """What fits at a scale of 1 may not fit at 8."""
+    plain = evolve(icon_scene("icons/lightning"), width=480, height=440, objects=())
+    scene = store_scene(show.s.studio, plain)
+    assert show.s.studio.gas_of("renderDataURI", scene, 1) < 2**24 < show.s.studio.gas_of("renderDataURI", scene, 8)
+    show.add(scene=scene)
+    with refused("DrawingOutOfGas", scene, 2**24):
+        show.add(scene=scene, scale=8)
+
+
 def test_the_number_of_an_edition_fits_beside_the_owner(show: Show) -> None:
     storage = show.world.of(show.editions.address).storage
     (slot,) = (slot for slot, value in storage.items() if value == 1 and slot < 32)
@@ -246,6 +256,12 @@ def test_every_name_is_valid_json(shared: Show, name: str) -> None:
     ).map(b"".join)
 )
 @example(b"caf\xe9\xff")
+@example(b"\xe0\x80\x80")
+@example(b"\xf0\x80\x80\x80")
+@example(b"\xf4\x90\x80\x80")
+@example(b"\xf8\x90\x80\x80")
+@example(b"\xc3a")
+@example(b"\xe2\x82a")
 @example(b"\xe2\x82")
 def test_names_are_text(shared: Show, name: bytes) -> None:
     """Python's decoder says which bytes are UTF-8, and where they are not."""

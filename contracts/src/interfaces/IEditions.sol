@@ -15,6 +15,7 @@ interface IEditions is StudioErrors {
         address indexed scene,
         string name,
         uint256 scale,
+        bool model,
         uint256 price,
         uint256 supply,
         uint256 royalty
@@ -47,7 +48,7 @@ interface IEditions is StudioErrors {
     /// @notice Returns the supply value of an open edition, which has no limit until its artist closes it.
     function OPEN() external view returns (uint32);
 
-    /// @notice Returns the gas limit for drawing a new scene: the limit of a transaction on Ethereum (EIP-7825).
+    /// @notice Returns the gas limit for the metadata of a new edition: that of a transaction on Ethereum (EIP-7825).
     function DRAWING_GAS() external view returns (uint256);
 
     /// @notice Returns the Studio, which stores and draws the scenes.
@@ -58,6 +59,7 @@ interface IEditions is StudioErrors {
     /// @param name_ The name: 1 to 64 bytes of UTF-8.
     /// @param scene The pointer to the scene, as the Studio returned it.
     /// @param scale The enlargement of the picture in `tokenURI`, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+    /// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
     /// @param price The price of a token, in wei.
     /// @param supply The maximum number of tokens, including `copies`; `OPEN` for no limit.
     /// @param royalty The royalty of a resale, in basis points: 0..1,000.
@@ -67,6 +69,7 @@ interface IEditions is StudioErrors {
         string calldata name_,
         address scene,
         uint8 scale,
+        bool model,
         uint96 price,
         uint32 supply,
         uint16 royalty,
@@ -99,6 +102,10 @@ interface IEditions is StudioErrors {
 
     /// @notice Returns the amount that the artist can withdraw from an edition, in wei.
     function proceeds(uint256 edition) external view returns (uint256);
+
+    /// @notice Returns the metadata of an edition: that of its tokens, without a number in the name.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
+    function editionURI(uint256 edition) external view returns (string memory);
 
     /// @notice Returns the metadata of the collection (ERC-7572). Its picture is a fixed octahedron wireframe.
     /// @return A `data:` URI of JSON.

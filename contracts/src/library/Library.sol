@@ -82,6 +82,7 @@ contract Library {
             if (item.high[k] - item.low[k] > longest) longest = item.high[k] - item.low[k];
         }
         Fixed scale = Fixed.wrap(size.raw() / longest);
+        if (scale.raw() == 0) revert SizeOutOfRange(size.raw());
         list = new Object[](item.meshes.length);
         for (uint256 k; k != list.length; ++k) {
             Object memory object = list[k];

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Bytes} from "@openzeppelin/contracts/utils/Bytes.sol";
 import {Strings} from "@openzeppelin/contracts/utils/Strings.sol";
 import {Genesis} from "../genesis/Genesis.sol";
+import {IGenesis} from "../interfaces/IGenesis.sol";
 import {Studio} from "../studio/Studio.sol";
 import {Item} from "./Item.sol";
 import {Library} from "./Library.sol";
@@ -112,16 +113,26 @@ contract Web {
     }
 
     function ofGenesis(string memory name, uint256 scale) private view returns (uint16, string memory, KeyValue[] memory) {
-        (bool isSeed, uint256 seed) = name.tryParseHexUint();
-        if (bytes(name).length != 66 || bytes(name)[1] != "x") {
+        bytes memory text = bytes(name);
+        (bool isSeed, uint256 seed) = (false, 0);
+        // the parsers revert for numbers of more than 256 bits
+        if (text.length == 66 && text[1] == "x") (isSeed, seed) = name.tryParseHexUint();
+        else if (text.length != 0 && text.length < 78) {
             (isSeed, seed) = name.tryParseUint();
             seed = uint256(keccak256(bytes(string.concat("shackled-", seed.toString()))));
         }
-        if (!isSeed || bytes(name).length == 0) return refused(404, "Give a number, or a seed as 0x and 64 hexadecimal digits.");
+        if (!isSeed) return refused(404, "Give a number, or a seed as 0x and 64 hexadecimal digits.");
         try genesis.render(bytes32(seed)) returns (bytes memory bitmap) {
             return found("image/png", string(studio.encoder().encode(bitmap, scale)));
-        } catch {
-            return refused(404, "This seed has no piece, or the call has too little gas.");
+        } catch (bytes memory reason) {
+            bytes4 code = bytes4(reason);
+            if (code == IGenesis.NoTriangle.selector || code == IGenesis.NoPrismToChoose.selector) {
+                return refused(404, "This seed yields no piece.");
+            }
+            // the call had too little gas
+            assembly ("memory-safe") {
+                revert(add(reason, 0x20), mload(reason))
+            }
         }
     }
 

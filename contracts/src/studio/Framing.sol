@@ -101,8 +101,11 @@ library Framing {
             distance = depth + ONE;
         } else {
             distance = height / tangent - z;
-            // a line along the viewing direction fits at any distance
-            if (!(distance > depth)) distance = depth + ONE;
+            // objects that are long along the viewing direction may fit at any distance: as in Python, a thousandth of their size is left
+            // before the eye, so that the near plane clips nothing
+            Fixed size = larger(depth, height);
+            Fixed least = depth + (size.raw() == 0 ? ONE : Fixed.wrap(size.raw() / 500 + 1));
+            distance = larger(distance, least);
             // small scenes are seen from closer than 1 unit
             camera.near = smaller(ONE, Fixed.wrap(distance.raw() / 1024 + 1));
         }

@@ -10,6 +10,7 @@ pragma solidity ^0.8.25;
 /// @param closed Whether minting has ended.
 /// @param royalty The royalty of a resale, in basis points.
 /// @param scale The enlargement of the picture in `tokenURI`: each pixel becomes a square of `scale` x `scale` pixels.
+/// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
 /// @param scene The pointer to the scene, as the Studio returned it.
 /// @param name The name of the edition.
 struct Edition {
@@ -21,6 +22,7 @@ struct Edition {
     bool closed;
     uint16 royalty;
     uint8 scale;
+    bool model;
     address scene;
     string name;
 }

@@ -27,7 +27,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
 
     /// @notice The supply value of an open edition, which has no limit until its artist closes it.
     uint32 public constant OPEN = type(uint32).max;
-    /// @notice The gas limit for drawing a new scene: the limit of a transaction on Ethereum (EIP-7825).
+    /// @notice The gas limit for the metadata of a new edition: that of a transaction on Ethereum (EIP-7825).
     uint256 public constant DRAWING_GAS = 1 << 24;
     uint256 internal constant MAX_NAME = 64;
     uint256 internal constant HIGHEST_ROYALTY = 1000;
@@ -53,6 +53,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         address indexed scene,
         string name,
         uint256 scale,
+        bool model,
         uint256 price,
         uint256 supply,
         uint256 royalty
@@ -92,6 +93,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
     /// @param name_ The name: 1 to 64 bytes of UTF-8.
     /// @param scene The pointer to the scene, as the Studio returned it.
     /// @param scale The enlargement of the picture in `tokenURI`, 1..8: each pixel becomes a square of `scale` x `scale` pixels.
+    /// @param model Whether the metadata contains the scene as a GLB model, in `animation_url`.
     /// @param price The price of a token, in wei.
     /// @param supply The maximum number of tokens, including `copies`; `OPEN` for no limit.
     /// @param royalty The royalty of a resale, in basis points: 0..1,000.
@@ -101,6 +103,7 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         string calldata name_,
         address scene,
         uint8 scale,
+        bool model,
         uint96 price,
         uint32 supply,
         uint16 royalty,
@@ -116,9 +119,9 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
         if (royalty > HIGHEST_ROYALTY) revert Royalty(royalty, HIGHEST_ROYALTY);
         if (copies > MOST_AT_ONCE) revert Quantity(copies, MOST_AT_ONCE);
         if (copies > supply) revert NothingLeft(copies, supply);
-        draw(scene, scale);
-        editions.push(Edition(msg.sender, price, supply, copies, copies, false, royalty, scale, scene, name_));
-        emit EditionAdded(edition, msg.sender, scene, name_, scale, price, supply, royalty);
+        editions.push(Edition(msg.sender, price, supply, copies, copies, false, royalty, scale, model, scene, name_));
+        draw(edition, scene);
+        emit EditionAdded(edition, msg.sender, scene, name_, scale, model, price, supply, royalty);
         if (copies != 0) hand(edition, copies);
     }
 
@@ -222,15 +225,14 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
     /// @return A `data:` URI of JSON that contains the picture as a PNG.
     function tokenURI(uint256 tokenId) public view override(ERC721A, IERC721A) returns (string memory) {
         if (!_exists(tokenId)) revert URIQueryForNonexistentToken();
-        uint256 edition = editionOf(tokenId);
-        Edition storage it = editions[edition];
-        string memory name_ = string.concat(Strings.escapeJSON(it.name), " #", tokenId.toString());
-        string memory supply = it.supply == OPEN ? "open" : uint256(it.supply).toString();
-        string memory traits = string.concat(
-            Json.trait("Edition", edition), ",", Json.trait("Artist", it.artist.toChecksumHexString()), ",", Json.trait("Supply", supply)
-        );
-        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
-        show(Json.token(name_, DESCRIPTION, fields, traits), drawing(it.scene, it.scale));
+        showEdition(editionOf(tokenId), string.concat(" #", tokenId.toString()));
+    }
+
+    /// @notice Returns the metadata of an edition: that of its tokens, without a number in the name.
+    /// @return A `data:` URI of JSON that contains the picture as a PNG.
+    function editionURI(uint256 edition) external view returns (string memory) {
+        known(edition);
+        showEdition(edition, "");
     }
 
     /// @notice Returns the metadata of the collection (ERC-7572). Its picture is a fixed octahedron wireframe.
@@ -254,14 +256,14 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
 
     // ---- pictures ----
 
-    /// @dev Draws a scene and discards the picture.
-    function draw(address scene, uint256 scale) private view {
-        bytes memory request = drawing(scene, scale);
+    /// @dev Computes the metadata of an edition and discards it. Reverts as the drawing does.
+    function draw(uint256 edition, address scene) private view {
+        bytes memory request = abi.encodeCall(this.editionURI, (edition));
+        uint256 available = gasleft();
         bool done;
         uint256 answered;
-        address source = address(studio);
         assembly ("memory-safe") {
-            done := staticcall(DRAWING_GAS, source, add(request, 0x20), mload(request), 0, 0)
+            done := staticcall(DRAWING_GAS, address(), add(request, 0x20), mload(request), 0, 0)
             answered := returndatasize()
             if iszero(or(done, iszero(answered))) {
                 let begin := mload(0x40)
@@ -269,12 +271,26 @@ contract Editions is ERC721AQueryable, IERC2981, StudioErrors {
                 revert(begin, answered)
             }
         }
-        if (!done) revert DrawingOutOfGas(scene, DRAWING_GAS);
+        if (done) return;
+        // bytes that cannot be decoded as a scene also revert without data, but use little gas
+        uint256 limit = available < DRAWING_GAS ? available : DRAWING_GAS;
+        if (available - gasleft() < limit / 2) revert NotAScene(scene);
+        revert DrawingOutOfGas(scene, DRAWING_GAS);
     }
 
-    /// @dev Returns the calldata with which the Studio draws a scene.
-    function drawing(address scene, uint256 scale) private pure returns (bytes memory) {
-        return abi.encodeWithSignature("renderDataURI(address,uint256)", scene, scale);
+    /// @dev Ends the call with the metadata of an edition.
+    /// @param suffix The end of the name.
+    function showEdition(uint256 edition, string memory suffix) private view {
+        Edition storage it = editions[edition];
+        string memory name_ = string.concat(Strings.escapeJSON(it.name), suffix);
+        string memory supply = it.supply == OPEN ? "open" : uint256(it.supply).toString();
+        string memory traits = string.concat(
+            Json.trait("Edition", edition), ",", Json.trait("Artist", it.artist.toChecksumHexString()), ",", Json.trait("Supply", supply)
+        );
+        string memory fields = Json.field("external_url", Json.picture(address(studio), it.scene, it.scale));
+        if (it.model) fields = string.concat(fields, Json.field("animation_url", studio.glbDataURI(it.scene)));
+        bytes memory request = abi.encodeWithSignature("renderDataURI(address,uint256)", it.scene, it.scale);
+        show(Json.token(name_, DESCRIPTION, fields, traits), request);
     }
 
     /// @dev Ends the call with the `data:` URI of a document.

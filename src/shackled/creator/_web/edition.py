@@ -80,7 +80,8 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
-    chain = chain_name(await wallet.number("eth_chainId"))
+    number_of_chain = await wallet.number("eth_chainId")
+    chain = chain_name(number_of_chain)
     if await _code(wallet, calls.collection) != calls.code:
         raise InputError(
             f"{chain} has no collection of editions at {calls.collection}: switch the wallet to a chain that has, or "
@@ -90,7 +91,7 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     for number, each in enumerate(missing, 1):
         await tell(f"Storing the scene, {number} of {len(missing)}: about {each.gas:,} gas. Confirm it in the wallet …")
         transaction = {"from": account, "to": calls.studio, "data": to_hex(each.data), "value": "0x0"}
-        await wallet.send(transaction, tell)
+        await wallet.send(transaction, tell, number_of_chain)
         if await _code(wallet, each.pointer) != each.code:
             raise WalletError(f"the transaction succeeded, but the scene is not at {each.pointer} on {chain}")
     terms, transaction = calls.terms, {"from": account, "to": calls.collection, "data": to_hex(calls.add)}
@@ -98,7 +99,7 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
         f"Adding the edition: {terms.name}, {ether(terms.price)} a token, about {calls.gas:,} gas. This can never be "
         "changed. Confirm it in the wallet …"
     )
-    receipt = await wallet.send(transaction | {"value": "0x0"}, tell)
+    receipt = await wallet.send(transaction | {"value": "0x0"}, tell, number_of_chain)
     added = events(receipt, calls.collection, ADDED)
     if len(added) != 1:
         raise WalletError("the transaction succeeded, but its receipt names no new edition")
