@@ -101,7 +101,7 @@ def test_out_of_gas_says_the_limit(chain: EmbeddedChain) -> None:
     data = encode(artifact("Renderer").selectors["render"], SCENE)
     used = chain.call("Renderer", data).gas
     for limit in (5_000, used // 2):
-        with pytest.raises(OutOfGasError, match=f"^the call ran out of gas: {limit:,} did not suffice$"):
+        with pytest.raises(OutOfGasError, match=f"^the call ran out of gas: {limit:,} gas is not enough$"):
             chain.call("Renderer", data, limit)
     assert type(chain)(2 * used).call("Renderer", data).gas == used
 

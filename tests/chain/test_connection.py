@@ -81,10 +81,10 @@ def test_an_answer() -> None:
             NodeBusyError,
             "limits the rate of requests (HTTP status 503); try again in 3 s",
         ),
-        (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is out of order"),
-        (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is out of order"),
+        (Reply(b"", 500), NodeUnreachableError, "HTTP status 500: it is temporarily unavailable"),
+        (Reply(b"", 599), NodeUnreachableError, "HTTP status 599: it is temporarily unavailable"),
         (Reply(b"", 499), NodeError, "HTTP status 499; check its address"),
-        (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is out of order"),
+        (Reply(b"", 502), NodeUnreachableError, "HTTP status 502: it is temporarily unavailable"),
         *[
             (Reply(b"", status), NodeTimeoutError, f"HTTP status {status}: it took too long")
             for status in (408, 504, 522, 524)
@@ -95,7 +95,7 @@ def test_an_answer() -> None:
             NodeError,
             "HTTP status 401: it needs a key",
         ),
-        (failure("invalid project id", -32002, status=401), NodeError, "says: invalid project id"),
+        (failure("invalid project id", -32002, status=401), NodeError, "answered: invalid project id"),
         (Reply(b"", 404), NodeError, "HTTP status 404: there is no node at this path"),
         (Reply(b"", 405), NodeError, "HTTP status 405: there is no node at this path"),
         (Reply(b"", 299), NodeError, "HTTP status 299; check its address"),
@@ -109,7 +109,7 @@ def test_an_answer() -> None:
         (Reply(b"x" * 100, 418), NodeError, f"({'x' * 100}); check"),
         (Reply(b"<i" + b" " * 1990 + b">" + b"late" * 9, 418), NodeError, "(latelat); check"),
         (failure("daily limit", 429, status=429), NodeBusyError, "limits the rate"),
-        (failure("invalid project id", -32000, status=400), NodeError, "says: invalid project id"),
+        (failure("invalid project id", -32000, status=400), NodeError, "answered: invalid project id"),
     ],
 )
 def test_answers_over_http_that_are_none(reply: Reply, kind: type[ChainError], words: str) -> None:
@@ -251,7 +251,7 @@ def test_each_word_tells(kind: type[ChainError], message: str) -> None:
         (NodeBusyError, 429, "limits the rate of requests (no); try again later"),
         (NodeError, -32601, "does not support a method that is needed (no); use another node"),
         (RevertError, 3, "the call was reverted: no"),
-        *[(NodeError, code, "says: no") for code in (-32009, -32006, -32004, -32600, -32602, 2, 4, 428, 430, None)],
+        *[(NodeError, code, "answered: no") for code in (-32009, -32006, -32004, -32600, -32602, 2, 4, 428, 430, None)],
     ],
 )
 def test_numbers_tell_where_words_do_not(kind: type[ChainError], code: int, words: str) -> None:
@@ -310,9 +310,9 @@ def test_reverts_whose_words_are_of_something_else() -> None:
     # words in what is no data of a revert tell as well; no data is none
     with pytest.raises(OutOfGasError):
         ask(failure("transaction failed", -32000, "out of gas"))
-    with pytest.raises(NodeError, match=r"says: failed$"):
+    with pytest.raises(NodeError, match=r"answered: failed$"):
         ask(failure("failed", -32000, "0x"))
-    with pytest.raises(NodeError, match=r"says: failed$"):
+    with pytest.raises(NodeError, match=r"answered: failed$"):
         ask(failure("failed", -32000, {"message": "out of gas", "data": "0x"}))
     with pytest.raises(RevertError):
         ask(failure("VM Exception: revert", -32000, {"why": "later"}))
@@ -326,9 +326,9 @@ def test_long_messages_are_cut(size: int) -> None:
 
 
 def test_an_error_that_is_no_object() -> None:
-    with pytest.raises(NodeError, match=r"says: plainly no$"):
+    with pytest.raises(NodeError, match=r"answered: plainly no$"):
         ask(Reply(b'{"jsonrpc": "2.0", "id": null, "error": "plainly no"}'))
-    with pytest.raises(NodeError, match=r"says: \{'code': -1\}$"):
+    with pytest.raises(NodeError, match=r"answered: \{'code': -1\}$"):
         ask(Reply(b'{"jsonrpc": "2.0", "id": null, "error": {"code": -1}}'))
 
 

@@ -120,10 +120,10 @@ def check(node: NodeChain, embedded: EmbeddedChain, way: str) -> None:
     with pytest.raises(RenderError, match=r"^the contract refused: CanvasSize\(width=0, height=3\)$"):
         node.call("Renderer", bytes(data))
     data = bytearray(encode(artifact("Renderer").selectors["render"], SCENES["smooth"]))
-    with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
+    with pytest.raises(OutOfGasError, match="50,000 gas is not enough"):
         node.call("Renderer", bytes(data), 50_000)
     for limit in (0, 2_000):
-        with pytest.raises(OutOfGasError, match=f"{limit:,} did not suffice"):
+        with pytest.raises(OutOfGasError, match=f"{limit:,} gas is not enough"):
             node.call("Renderer", bytes(data), limit)
     # neither is taken for the other
     with pytest.raises(RenderError, match="not a scene") as refused:
@@ -192,7 +192,7 @@ def test_deployed_on_a_node_that_only_calls(deployed: Anvil, embedded: EmbeddedC
         assert (drawing.bmp, drawing.gas) == (embedded.draw(SCENES["smooth"]).bmp, None)
         assert node.gas_limit < 30_000_000
         data = encode(artifact("Renderer").selectors["render"], SCENES["smooth"])
-        with pytest.raises(OutOfGasError, match="50,000 did not suffice"):
+        with pytest.raises(OutOfGasError, match="50,000 gas is not enough"):
             node.call("Renderer", data, 50_000)
 
 

@@ -234,7 +234,7 @@ def test_asking(node: Anvil, folder: Path, answer: str, code: int, blocks: int) 
         os.close(ours)
     text = out.decode()
     assert process.returncode == code
-    assert text.index(f"{deployments(['Engine'])[0].gas:,}") < text.index("pay for it?")
+    assert text.index(f"{deployments(['Engine'])[0].gas:,}") < text.index("Send from 0x")
     assert int(node.rpc("eth_blockNumber"), 16) == blocks
     assert KEY[2:] not in text
 

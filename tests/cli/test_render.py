@@ -263,7 +263,7 @@ def test_an_empty_picture_is_told(arguments: list[str], capsys: pytest.CaptureFi
     Path("empty.json").write_text("{}", "utf-8")
     assert run(["render", *arguments, "--size", "16"]) == 0
     output, messages = capsys.readouterr()
-    assert messages.splitlines()[-1] == "nothing of the scene is visible: the picture shows its background only"
+    assert messages.splitlines()[-1] == "nothing is visible; the picture shows only the background"
     if "--json" in arguments:
         assert json.loads(output)["lit_pixels"] == 0
 
@@ -318,7 +318,7 @@ def test_refusals_and_interrupts_exit_with_1(
 
     monkeypatch.setattr("shackled._render.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     assert run(["render", "shape.obj"]) == 1
-    assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 did not suffice\n"
+    assert capsys.readouterr().err == "shackled: the call ran out of gas: 50,000 gas is not enough\n"
 
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt

@@ -158,7 +158,7 @@ def test_stopped_and_resumed(capsys: pytest.CaptureFixture[str], monkeypatch: py
     assert run(["render", "shape.obj", "--size", "48", *options, "-o", "spin.gif"]) == 1
     messages = capsys.readouterr().err.splitlines()
     assert messages[-2:] == [
-        "shackled: finished parts are kept in spin.gif.parts: the same command goes on from there",
+        "shackled: finished parts are kept in spin.gif.parts: run the same command to resume",
         "shackled: stopped",
     ]
     assert not Path("spin.gif").exists()
@@ -241,7 +241,7 @@ def test_a_picture_that_cannot_be_written_keeps_its_parts(
         assert run(["render", "shape.obj", "--size", "48", "--tile", "48x12"]) == 1
     lines = capsys.readouterr().err.splitlines()
     assert lines[1:] == [
-        "shackled: finished parts are kept in shape.png.parts: the same command goes on from there",
+        "shackled: finished parts are kept in shape.png.parts: run the same command to resume",
         "shackled: shape.png cannot be written: No space left on device",
     ]
     assert len(list(Path("shape.png.parts").glob("*.part"))) == 4

@@ -132,7 +132,7 @@ def changed(receipt: dict[str, Any], place: int, value: str) -> dict[str, Any]:
         (
             lambda: lying("eth_call", lambda data, _: data.replace(f"{10**16:064x}", f"{10**15:064x}")),
             WalletError,
-            "edition 0, which the wallet says was added, is another one",
+            "edition 0, which the wallet reports as added, does not match the terms",
             -1,
         ),
         (lambda: lying("eth_call", lambda *_: "0x12"), WalletError, "could not be read", -1),

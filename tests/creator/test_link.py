@@ -53,12 +53,12 @@ def packed(document: object) -> str:
         (to_link(State(Source("piece", "teapot")))[:-2], "the link is damaged"),
         (to_link(State(Source("piece", "teapot"))) + "AAAA", "the link is damaged"),
         ("1" + "A" * 5000, "the link is too long: 5,001 characters, at most 4,096 are read"),
-        (packed([1]), "the link is not of a picture: the state must be a table, not [1]"),
+        (packed([1]), "the link does not describe a picture: the state must be a table, not [1]"),
         (
             packed({"source": {"kind": "piece", "name": "<b>"}}),
-            "the link is not of a picture: the name of a source must",
+            "the link does not describe a picture: the name of a source must",
         ),
-        (packed("[" * 3000), "the link is not of a picture: the state must be a table"),
+        (packed("[" * 3000), "the link does not describe a picture: the state must be a table"),
         (packed({"source": "A" * 1_000_000}), "the link holds more than 8,192 bytes"),
         (
             packed({"source": {"kind": "piece", "name": "teapot"}, "camera": {"fov": 1e999}}),

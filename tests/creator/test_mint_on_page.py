@@ -140,7 +140,7 @@ def test_the_wallet_is_asked_to_change_the_chain(browser: Any, server: Started) 
 @pytest.mark.parametrize(
     ("chain", "words"),
     [
-        (Chain(error="Nonce too low", of="eth_sendTransaction"), "the wallet says: Nonce too low"),
+        (Chain(error="Nonce too low", of="eth_sendTransaction"), "the wallet reports: Nonce too low"),
         (Chain(phase=0), "the sale is closed"),
         (
             Chain(

@@ -280,9 +280,9 @@ def test_what_is_right_dragged_is_shifted(visit: NewPage) -> None:
 def test_what_is_out_of_sight_is_told(visit: NewPage) -> None:
     page = visit()
     after(page, lambda: set_number(page, "camera.target.x", "90"))
-    assert "F fits it" in page.inner_text("[data-text=size]")
+    assert "press F to fit it" in page.inner_text("[data-text=size]")
     after(page, press(page, "f"))
-    assert "F fits it" not in page.inner_text("[data-text=size]")
+    assert "press F to fit it" not in page.inner_text("[data-text=size]")
 
 
 @pytest.mark.parametrize("wide", [1, 2, 4])

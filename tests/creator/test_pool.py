@@ -252,7 +252,7 @@ def test_one_visitor_does_not_fill_the_line(monkeypatch: pytest.MonkeyPatch) -> 
     [
         ("vanish", (), "the worker process of the test ended"),
         ("eat", (), "the test needs more memory than the limit"),
-        ("stumble", (), r"the test failed by an internal error \(ZeroDivisionError\)"),
+        ("stumble", (), r"the test failed with an internal error \(ZeroDivisionError\)"),
     ],
 )
 def test_a_worker_that_fails_costs_one_error(task: str, arguments: tuple[Any, ...], message: str) -> None:

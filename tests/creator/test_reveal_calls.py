@@ -83,7 +83,7 @@ def test_the_page_waits_for_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
     reveal, told = find(chain)
     assert reveal is not None
     assert len(pauses) == 4
-    assert any("1 block to wait for" in words for words in told)
+    assert any("can be revealed in 1 block." in words for words in told)
     assert reveal.later == ""
 
 
@@ -109,7 +109,8 @@ def test_rounds_that_wait_are_told(chain: RevealChain) -> None:
     chain.stage.mint()
     reveal = found(chain)
     assert [each.number for each in reveal.rounds] == [0]
-    assert reveal.later == f"1 round more to come, the next one with block {chain.genesis.call('blockOf', later):,}."
+    block = chain.genesis.call("blockOf", later)
+    assert reveal.later == f"1 round cannot be revealed yet; the next one needs block {block:,}."
     assert send(reveal, chain).endswith(reveal.later)
 
 
@@ -130,7 +131,7 @@ def test_older_blocks_are_for_the_command(chain: RevealChain) -> None:
 def test_what_others_have_revealed_is_not_sent(chain: RevealChain) -> None:
     reveal = found(chain)
     chain.stage.reveal(0)
-    with pytest.raises(InputError, match="somebody else has revealed these tokens already"):
+    with pytest.raises(InputError, match="these tokens are revealed already"):
         send(reveal, chain)
     assert chain.sent == []
     assert find(chain)[0] is None

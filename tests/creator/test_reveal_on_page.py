@@ -71,7 +71,7 @@ def test_anybody_reveals_in_the_browser(browser: Any, server: Started) -> None:
     # the block is to come: the page waits for it
     page.fill("#reveal input[name=collection]", chain.genesis.address)
     page.click(find)
-    assert f"from block {chain.block:,}: 3 blocks to wait for" in words_of(page, "The seeds come")
+    assert f"from block {chain.block:,}; the round can be revealed in 3 blocks" in words_of(page, "The seeds come")
     assert page.locator("#reveal-data").count() == 0
     chain.mine(missing=0)
     page.wait_for_selector("#reveal-data")

@@ -299,6 +299,6 @@ def test_a_node_that_dies_meanwhile() -> None:
         def dead(request: dict[str, Any]) -> Reply:
             return answer(request) if node.process.poll() is None else Reply(b"", 502)
 
-        words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .* out of order"
+        words = r"^the transaction 0x\w{64} was sent, check what became of it before .*: .* temporarily unavailable"
         with serving(dead) as url, pytest.raises(NodeUnreachableError, match=words):
             transactor(url, patience=0.5).send(quoted(transactor(node.url)))

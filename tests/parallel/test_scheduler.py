@@ -145,7 +145,7 @@ def test_a_place_learns_what_is_too_large(error: BaseException) -> None:
 
 def test_what_cannot_be_cut_any_more() -> None:
     place = Shaky("a", lambda n, tile: OutOfGasError("the call ran out of gas"))
-    with pytest.raises(OutOfGasError, match=r"^the call ran out of gas; a part of .* is still too much: .*`max_triang"):
+    with pytest.raises(OutOfGasError, match=r"^the call ran out of gas; a tile of .* cannot be split: .*`max_triang"):
         run([place])
 
 

@@ -119,7 +119,7 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
     resumed = False
     with pytest.raises(type(stop)):
         render_frames(frames, where, keep=keep)
-    assert said == [f"finished parts are kept in {keep}: the same command goes on from there"]
+    assert said == [f"finished parts are kept in {keep}: run the same command to resume"]
     assert len(list(keep.glob("*.part"))) == 8
     resumed = True
     again = render_frames(frames, where, keep=keep)

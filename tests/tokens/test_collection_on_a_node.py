@@ -84,7 +84,7 @@ def test_the_same_collection_is_not_deployed_twice(node: Node, address: str, sha
 def test_costs_are_told_and_nothing_is_sent_unasked(node: Node, address: str, shackled: Shackled) -> None:
     before = node.web3.eth.block_number
     said = shackled("token", "deploy", "genesis", "--salt", "5", user=OWNER, expect=2)
-    words = "it costs about .* gas as the node estimates, .* as counted here; at most .* ether in all"
+    words = r"price: about .* for gas \(.* estimated by the node, .* counted locally\); at most .* ether in total"
     assert re.search(words, said.err)
     assert "nothing was sent" in said.error
     assert node.web3.eth.block_number == before
@@ -159,15 +159,15 @@ def test_what_a_node_says_does_not_hide_its_failure(address: str) -> None:
 
 def test_the_owner_changes_in_two_steps(node: Node, address: str, shackled: Shackled) -> None:
     contract = node.contract("GenesisCollection", address)
-    assert "is offered to nobody" in shackled("token", "take-over", "--yes", user=ALICE, expect=2).error
-    shackled("token", "hand-over", node.accounts[ALICE], "--yes", user=OWNER)
+    assert "is not offered to anyone" in shackled("token", "accept-ownership", "--yes", user=ALICE, expect=2).error
+    shackled("token", "transfer-ownership", node.accounts[ALICE], "--yes", user=OWNER)
     assert contract.functions.owner().call() == node.accounts[OWNER]
-    said = shackled("token", "take-over", "--yes", user=BOB, expect=2)
+    said = shackled("token", "accept-ownership", "--yes", user=BOB, expect=2)
     assert f"is offered to {node.accounts[ALICE]}, not to {node.accounts[BOB]}" in said.error
-    shackled("token", "take-over", "--yes", user=ALICE)
+    shackled("token", "accept-ownership", "--yes", user=ALICE)
     assert contract.functions.owner().call() == node.accounts[ALICE]
-    shackled("token", "hand-over", node.accounts[OWNER], "--yes", user=ALICE)
-    shackled("token", "take-over", "--yes", user=OWNER)
+    shackled("token", "transfer-ownership", node.accounts[OWNER], "--yes", user=ALICE)
+    shackled("token", "accept-ownership", "--yes", user=OWNER)
 
 
 def test_royalties_are_changed_by_the_owner(node: Node, address: str, shackled: Shackled) -> None:
@@ -196,7 +196,7 @@ def test_a_keystore_signs_too(
 def test_a_wrong_price_is_told_in_words(node: Node, address: str) -> None:
     collection = open_collection(Connection(node.url), address)
     node.contract("GenesisCollection", address).functions.setPhase(2).transact({"from": node.accounts[OWNER]})
-    with pytest.raises(RevertError, match=r"^the price is 0.2 ether, but 0.15 ether were sent$"):
+    with pytest.raises(RevertError, match=r"^the price is 0.2 ether, but 0.15 ether was sent$"):
         collection.contract.call("mint", 1, sender=node.accounts[BOB], value=15 * 10**16)
 
 

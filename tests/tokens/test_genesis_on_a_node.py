@@ -48,7 +48,7 @@ def test_the_whole_way_of_tokens(
     said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=BOB, expect=2)
     assert f"the account {node.accounts[BOB]} is not among the 2 accounts of the allow list" in said.error
     said = shackled("token", "mint", 2, "--allow-list", allow_list, "--yes", user=ALICE)
-    assert "it costs 0.4 ether and about" in said.err
+    assert "price: 0.4 ether, plus about" in said.err
     assert "minted #0, #1" in said.out
     said = shackled("token", "mint", 1, "--allow-list", allow_list, "--yes", user=ALICE, expect=1)
     assert said.error == "shackled: the allow list allows the account 2 in all: 2 minted, 1 more wanted"

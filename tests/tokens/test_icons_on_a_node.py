@@ -60,9 +60,9 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     said = shackled("token", "add", "heart", "--price", "0.01", "--supply", 3, "--yes", user=ALICE, expect=1)
     assert "only the owner may do this" in said.error
     shackled("token", "add", "heart", "--price", "0.01", "--supply", 3, "--yes", user=OWNER)
-    assert "has 3 icons, for ever" in shackled("token", "seal", "--yes", user=OWNER).out
+    assert "is sealed with 3 icons" in shackled("token", "seal", "--yes", user=OWNER).out
     said = shackled("token", "add", "heart", "--yes", user=OWNER, expect=1)
-    assert said.error == "shackled: the set of icons is fixed for ever: none can be added"
+    assert said.error == "shackled: the set of icons is sealed: none can be added"
     shackled("token", "phase", "public", *icons, user=OWNER)
 
     # sold out, kind by kind
@@ -71,7 +71,7 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     said = shackled("token", "mint", 1, "--icon", "rocket", *icons, user=ALICE, expect=2)
     assert "there is no icon 'rocket' in Shackled Icons; its icons are 0 Diamond, 1 Tetrahedron, 2 Heart" in said.error
     said = shackled("token", "mint", 2, "--icon", "diamond", *icons, user=ALICE)
-    assert "it costs 0.02 ether and about" in said.err
+    assert "price: 0.02 ether, plus about" in said.err
     assert "minted #0, #1" in said.out
     said = shackled("token", "mint", 1, "--icon", "0", *icons, user=BOB, expect=1)
     assert said.error == "shackled: sold out: 1 wanted, none left"

@@ -126,7 +126,7 @@ def test_fewer_bits_are_cheaper(shackled: Shackled) -> None:
 
 def test_the_price_is_known_before_an_account_is_named(shackled: Shackled) -> None:
     said = shackled("mint", "icons/trophy", expect=2)
-    assert re.search("it costs about .* gas as the node estimates, .*; at most .* ether in all", said.err)
+    assert re.search(r"price: about .* for gas \(.* estimated by the node, .*\); at most .* ether in total", said.err)
     assert "nothing was sent: name an account" in said.error
 
 

@@ -125,7 +125,7 @@ def test_a_block_to_come_is_told_or_waited_for(
     monkeypatch.setattr("time.sleep", one_block)
     said = shackled("token", "reveal", "--calldata", "calls.json", "--wait")
     assert len(pauses) == 1
-    assert f"waiting for block {block}, 1 more to come" in said.err
+    assert f"waiting for block {block}: 1 more block" in said.err
     send(node, json.loads(Path("calls.json").read_text())["calls"][0])
     assert any(collection.contract.call("randomnessOf", 0))
 

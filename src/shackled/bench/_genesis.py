@@ -110,8 +110,9 @@ def _text(found: list[GenesisCost], gas: Column, theirs: list[tuple[int, int, in
     return (
         f"{len(found)} pieces, {min(faces)} to {max(faces)} triangles; on average"
         f" {before_gas.mean() / gas.mean():,.0f} times less gas than the {len(theirs)} pieces of the original that were"
-        f" measured. What a piece costs now follows the pixels it covers rather than its triangles. The dearest takes"
-        f" {millions(gas.max())}; {'none is' if not over else f'{over} are'} above the 16.777M of one transaction.\n\n"
+        f" measured. What a piece costs now follows the pixels it covers rather than its triangles. The most"
+        f" expensive takes {millions(gas.max())}; {'none is' if not over else f'{over} are'} above the 16.777M of one"
+        " transaction.\n\n"
         + table(["gas", "least", "median", "mean", "most"], ranks)
         + "\n\nLines by `numpy.polyfit`:\n\n"
         + table(["pieces", "number", "against", "line", "R2"], lines)

@@ -121,7 +121,7 @@ def http_failure(name: str, status: int, headers: Mapping[str, str], body: bytes
     if status == 503:
         return NodeBusyError(f"{said}: it is not available now; try again later, or use another node")
     if status >= 500:
-        return NodeUnreachableError(f"{said}: it is out of order; try again later, or use another node")
+        return NodeUnreachableError(f"{said}: it is temporarily unavailable; try again later, or use another node")
     if 300 <= status < 400:
         return NodeError(f"{said}: it redirects requests; give the address to which it redirects")
     return NodeError(f"{said}{_quote(_words(body))}; check its address")
@@ -166,7 +166,7 @@ def rpc_failure(name: str, error: Any) -> ChainError:
         return too_often(name, None, _quote(message))
     if code == NO_METHOD:
         return NodeError(f"the {name} does not support a method that is needed{_quote(message)}; use another node")
-    return NodeError(f"the {name} says: {_shorten(message)}")
+    return NodeError(f"the {name} answered: {_shorten(message)}")
 
 
 def too_often(name: str, seconds: float | None, said: str) -> NodeBusyError:
@@ -245,7 +245,7 @@ def describe_revert(data: bytes, errors: Errors | None = None) -> str:
 
 def out_of_gas(limit: int) -> OutOfGasError:
     """Return the error for a call that ran out of gas."""
-    return OutOfGasError(f"the call ran out of gas: {limit:,} did not suffice")
+    return OutOfGasError(f"the call ran out of gas: {limit:,} gas is not enough")
 
 
 def _quote(said: str) -> str:

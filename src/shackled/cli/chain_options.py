@@ -36,9 +36,8 @@ MaxFee = Annotated[
     float | None,
     option(
         "--max-fee",
-        "Maximum price of a unit of gas, in gwei. Without it: twice the base fee and a tip of at most 3, and the "
-        "command stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the "
-        "usual gas.",
+        "Maximum fee per gas, in gwei. Default: twice the base fee plus a tip of at most 3 gwei; the command then "
+        "stops if the node suggests a higher tip, reports no base fee, or estimates more than 10 times the usual gas.",
         "GWEI",
     ),
 ]
@@ -75,7 +74,7 @@ class SignerOptions:
     account: Annotated[
         Path | None,
         option(
-            "--account", f"Keystore file of the account. Its password is asked for, or read from {PASSWORD}.", "FILE"
+            "--account", f"Keystore file of the account. The password is prompted for, or read from {PASSWORD}.", "FILE"
         ),
     ] = None
     private_key_env: Annotated[
@@ -141,7 +140,7 @@ class PayerOptions(SignerOptions):
             return
         if not sys.stdin.isatty():
             raise InputError("nothing was sent: there is no terminal to ask for consent; --yes sends without asking")
-        if not typer.confirm(plain(f"Shall {transactor.name} pay for it?"), err=True):
+        if not typer.confirm(plain(f"Send from {checksum_address(transactor.address)}?"), err=True):
             raise typer.Abort
 
 
@@ -182,17 +181,17 @@ def print_price(quotes: Sequence[Quote]) -> None:
     likely = sum(each.likely for each in quotes) - value
     gas, counted = sum(each.expected for each in quotes), sum(each.call.gas for each in quotes)
     print_note(
-        "it costs "
-        + (f"{ether(value)} and " if value else "")
-        + f"about {roughly(likely)} for {gas:,} gas as the node estimates, {counted:,} as counted here; "
-        + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in all"
+        "price: "
+        + (f"{ether(value)}, plus " if value else "")
+        + f"about {roughly(likely)} for gas ({gas:,} estimated by the node, {counted:,} counted locally); "
+        + f"at most {at_most(sum(each.ceiling for each in quotes))} ether in total"
     )
 
 
 def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json: bool, **more: str) -> None:
     """Write transactions as JSON, so that a wallet can send them: the chain, and calls as in EIP-5792.
 
-    quotes: what each one is for, in the order in which they must be sent. as_json: also print it, with `more`.
+    quotes: by the purpose of each transaction, in the order of sending. as_json: also print the JSON, with `more`.
     """
     calls = []
     for name, each in quotes.items():
@@ -203,14 +202,16 @@ def write_calls(path: Path, chain_id: int, quotes: Mapping[str, Quote], as_json:
     write_output(path, (json.dumps(document, indent=1) + "\n").encode())
     if as_json:
         print_json({**more, **document})
+    gas = sum(each.gas for each in quotes.values())
+    them = "it" if len(calls) == 1 else "them, in this order"
     print_note(
-        f"nothing was sent: {path} has {plural(len(calls), 'transaction')}, which any account can send in this order, "
-        f"with {sum(each.gas for each in quotes.values()):,} gas in all"
+        f"nothing was sent: {path} has {plural(len(calls), 'transaction')}, {gas:,} gas in total; any account can send "
+        f"{them}"
     )
 
 
 def wallet_calls(plan: Plan) -> dict[str, Quote]:
-    """Return the transactions by which a wallet deploys what is missing, in order, by what they are for.
+    """Return the transactions by which a wallet deploys what is missing, in order, by their purpose.
 
     InputError if the chain has no deployment proxy, whose transaction is signed already.
     """

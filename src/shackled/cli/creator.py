@@ -23,7 +23,7 @@ def creator(
     ] = None,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
     host: Annotated[
-        str, typer.Option("--host", help="Address to listen at; any but 127.0.0.1 admits other machines.")
+        str, typer.Option("--host", help="Address to listen on; any other than 127.0.0.1 accepts other machines.")
     ] = "127.0.0.1",
     name: Annotated[
         list[str] | None,

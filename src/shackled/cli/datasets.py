@@ -115,7 +115,7 @@ def fetch(
         Path | None,
         typer.Option("--cache", help="Cache folder; $SHACKLED_CACHE or that of the system by default.", metavar="DIR"),
     ] = None,
-    again: Annotated[bool, typer.Option("--again", help="Prepare models again that are in the cache.")] = False,
+    again: Annotated[bool, typer.Option("--again", help="Prepare models again even if they are in the cache.")] = False,
 ) -> None:
     """Download third-party models, clean and simplify them, and keep the result."""
     from ..datasets import VARIABLE

@@ -32,24 +32,24 @@ def deploy(
         str | None,
         option(
             "--contracts",
-            "Names with commas, of Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
+            "Comma-separated names: Engine, FragmentEngine, AntialiasedEngine, AntialiasedFragmentEngine, "
             "EffectsEngine, Effects, Renderer, Original, Genesis, PngEncoder, Turntable, GlbEncoder, Studio, Library, "
-            "Web, Editions, GenesisMetadata; without it, all but the last. Contracts that they call are added.",
+            "Web, Editions, GenesisMetadata. Default: all but GenesisMetadata. Required contracts are added.",
             "NAMES",
         ),
     ] = None,
     calldata: Annotated[
         Path | None,
-        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
     standard_json: Annotated[
         Path | None,
         option("--standard-json", "Folder for the input of source verification; default: deployed-CHAIN.", "DIR"),
     ] = None,
-    rpc_timeout: Annotated[float, option("--rpc-timeout", "Timeout of an answer of the node.", "SECONDS")] = PATIENCE,
+    rpc_timeout: Annotated[float, option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS")] = PATIENCE,
 ) -> None:
-    """Deploy the contracts, at the same addresses on every chain. Contracts that are there already are skipped."""
+    """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
     from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments, write_verification
 
     node.check()

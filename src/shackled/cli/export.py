@@ -21,7 +21,7 @@ from .look_options import load_with, with_look
 from .option import option
 from .progress import LateBar
 
-#: Above these bytes of a page, or this gas of its picture, a note says so.
+#: Bytes of a page, and gas of its picture, above which a note is printed.
 LARGE = 1_500_000
 SLOW = 2_000_000_000
 
@@ -40,9 +40,9 @@ def export(
     *,
     look: dict[str, Any],
 ) -> None:
-    """Write a scene as a page of one file, on which anybody can turn it, in any browser and without a network.
+    """Write a scene as an interactive HTML page of one file, which needs no network, or as a .glb model.
 
-    A .glb file is a model for other viewers: one call of a contract makes it, as for a token.
+    The model is for other viewers; one call of a contract makes it, as for a token.
     """
     source = locate(input)
     stem = source.file_stem if isinstance(source, Piece) else source.stem
@@ -55,7 +55,7 @@ def export(
     started = time.perf_counter()
     if is_model:
         if title is not None:
-            raise InputError("--title is for pages, and the model has none")
+            raise InputError("--title is for pages: a model has no title")
         with LateBar("writing"):
             made = make_glb(load_with(input, look))
             made.save(path)
@@ -85,7 +85,7 @@ def export(
         "sha256": image.sha256,
     }
     if not image.covered_pixels:
-        print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
+        print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if size > LARGE:
         print(f"the page is large, {size / 1e6:.1f} MB: --max-triangles makes it smaller", file=sys.stderr)
     if image.gas is not None and image.gas > SLOW:

@@ -18,6 +18,8 @@ from .gas_tables import print_profile, print_report
 from .look_options import load_with, with_look
 from .option import option
 
+#: The chains that count gas.
+EVMS = tuple(name for name in CHAINS if name != "reference")
 #: The formats of --profile, by extension.
 FORMATS = (".json", ".svg")
 
@@ -29,7 +31,7 @@ def gas(
     look: dict[str, Any],
     chain: Annotated[
         str | None,
-        option("--chain", f"EVM to measure in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME"),
+        option("--chain", f"EVM to measure in: {', '.join(EVMS)}; default: revm.", "NAME"),
     ] = None,
     rpc: Annotated[
         str | None,
@@ -56,22 +58,22 @@ def gas(
     ] = None,
     stages: Annotated[bool, option("--stages/--no-stages", "Show gas by stage.")] = True,
     gas_price: Annotated[float, option("--gas-price", "Gas price in gwei.", "GWEI")] = 1.0,
-    eth_price: Annotated[float | None, option("--eth-price", "Price of an ether in US dollars.", "USD")] = None,
+    eth_price: Annotated[float | None, option("--eth-price", "Price of one ether in US dollars.", "USD")] = None,
     lower: Annotated[
-        int, option("--lower", "Lower bound of the search, gas that does not suffice.", "GAS", "Search")
+        int, option("--lower", "Lower bound of the search: an insufficient gas limit.", "GAS", "Search")
     ] = 0,
     upper: Annotated[
         int | None,
         option(
-            "--upper", "Upper bound of the search, gas that suffices; found by doubling by default.", "GAS", "Search"
+            "--upper", "Upper bound of the search: a sufficient gas limit. Default: found by doubling.", "GAS", "Search"
         ),
     ] = None,
 ) -> None:
     """Measure the gas of a picture: exactly, by binary search, by stage and by line, and compare it with limits."""
     path = None if profile is None else _check_profile(profile)
-    _check_price(gas_price, "--gas-price", "gwei a gas")
+    _check_price(gas_price, "--gas-price", "gwei per gas")
     if eth_price is not None:
-        _check_price(eth_price, "--eth-price", "US dollars an ether")
+        _check_price(eth_price, "--eth-price", "US dollars per ether")
     if path is not None and not stages:
         raise InputError("--profile and --no-stages exclude each other: give one of them")
     place = counting(open_chain(chain))

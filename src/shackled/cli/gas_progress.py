@@ -47,7 +47,7 @@ class Progress:
         if self._live is not None:
             self._live.update(self._view())
         elif not self._quiet:
-            verdict = "suffices" if step.enough else "runs out"
+            verdict = "sufficient" if step.enough else "insufficient"
             print(f"call {len(self._steps):2}: {step.limit:>14,} {verdict}; {bracket(step)}", file=sys.stderr)
 
     def _view(self) -> Table:
@@ -55,7 +55,7 @@ class Progress:
         table.columns[0].justify = table.columns[1].justify = "right"
         first = max(0, len(self._steps) - ROWS)
         for number, step in enumerate(self._steps[first:], first + 1):
-            verdict = Text("suffices", "green") if step.enough else Text("runs out", "red")
+            verdict = Text("sufficient", "green") if step.enough else Text("insufficient", "red")
             table.add_row(str(number), f"{step.limit:,}", verdict, _bar(step), bracket(step))
         return table
 

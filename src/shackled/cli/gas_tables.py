@@ -60,7 +60,7 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
     bracket = next(step for step in found.steps if step.upper is not None)
     last = found.steps[-1]
     ether = report.ether(gas_price)
-    dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} an ether"
+    dollars = "" if eth_price is None else f", {ether * eth_price:,.2f} US dollars at {eth_price:,g} per ether"
     per = (report.per(report.triangles), report.per(report.lit_pixels))
     figures = {
         "picture": f"{report.scene.width} x {report.scene.height} pixels; "
@@ -75,7 +75,9 @@ def _figures(report: GasReport, gas_price: float, eth_price: float | None) -> di
         ),
         "intrinsic": f"{exact.intrinsic_gas:,} to send the scene, not included in the figures above",
         "each": ", ".join(
-            f"{gas:,.0f} a {what}" for gas, what in zip(per, ("triangle", "lit pixel"), strict=True) if gas is not None
+            f"{gas:,.0f} per {what}"
+            for gas, what in zip(per, ("triangle", "lit pixel"), strict=True)
+            if gas is not None
         ),
         "transaction": f"{exact.transaction_gas:,} gas, {ether:.6g} ether at {gas_price:g} gwei{dollars}; "
         f"needs a limit of {report.request_limit:,}",

@@ -22,7 +22,9 @@ from .chain_options import (
 from .option import option
 from .output import print_line, print_note, print_table
 
-library = typer.Typer(no_args_is_help=True, help="Icons and common objects by name, stored once for every contract.")
+library = typer.Typer(
+    no_args_is_help=True, help="List and store the library: icons and common objects that any contract can draw."
+)
 
 
 @library.command("list")
@@ -71,14 +73,16 @@ def _row(item: dict[str, Any]) -> list[str]:
 def store(
     node: NodeOptions,
     payer: PayerOptions,
-    names: Annotated[list[str] | None, typer.Argument(help="Items; without any, all.", metavar="[NAME]...")] = None,
+    names: Annotated[
+        list[str] | None, typer.Argument(help="Items to store; default: all.", metavar="[NAME]...")
+    ] = None,
     calldata: Annotated[
         Path | None,
-        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Store items on a chain for ever, for every contract. What is stored already is skipped; the price comes first."""
+    """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
     from ..deploy import current_fees
     from ..library import chosen_items
     from ..tokens import SceneToStore, plan_storage
@@ -108,7 +112,7 @@ def store(
         payer.confirm(transactor)
         gas = sum(receipt.gas for receipt in send(plan, transactor, print_step))
     else:
-        print_note("all of it is stored already: nothing was sent")
+        print_note("all items are stored already: nothing was sent")
     pointers = {each.name: pointer for each, pointer in zip(wanted, plan.pointers, strict=True)}
     if as_json:
         print_json({"chain_id": connection.chain_id, "studio": plan.studio, "gas": gas, "pointers": pointers})

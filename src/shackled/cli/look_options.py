@@ -33,12 +33,13 @@ _KINDS: dict[Kind, tuple[Any, str | None, Callable[[Any, str], Any]]] = {
 
 #: Additions to the help, where values are written differently than in Python.
 _MORE = {
-    "size": " As 128 or 320x200.",
+    "size": " Written as 128 or 320x200.",
     "hemisphere": " `none` removes it.",
     "rim": " From 1, wide, to 16; 3 by default. `none` removes it.",
     "fog": " `none` removes it.",
     "ground": " `none` removes it.",
-    "lights": " As directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, each with :color or not; repeatable.",
+    "lights": " Written as directional:x,y,z, point:x,y,z or spot:x,y,z:direction:angle, each optionally with :color;"
+    " may be repeated.",
 }
 
 

@@ -28,9 +28,11 @@ def mint(
     input: Annotated[str, typer.Argument(help="A dataset piece, or a mesh or scene file.", metavar="INPUT")],
     node: NodeOptions,
     payer: PayerOptions,
-    licence: Annotated[str | None, option("--licence", "Licence of a file, which you have checked.", "TEXT")] = None,
+    licence: Annotated[
+        str | None, option("--licence", "Licence of a mesh or scene file; check it yourself.", "TEXT")
+    ] = None,
     output: Annotated[
-        str | None, option("-o --output", f"Write the picture that the chain draws: {one_of(FORMATS)}.", "FILE")
+        str | None, option("-o --output", f"Write the picture as rendered on the chain: {one_of(FORMATS)}.", "FILE")
     ] = None,
     size: Annotated[str | None, option("--size", "Pixels, as 128 or 320x200.", "SIZE")] = None,
     max_triangles: Annotated[
@@ -38,15 +40,18 @@ def mint(
     ] = None,
     position_bits: Annotated[
         int | None,
-        option("--position-bits", "Cheaper: round positions to a grid of 2^N steps, 4 to 16. Default: exact.", "N"),
+        option("--position-bits", "Round positions to a grid of 2^N steps, 4 to 16, to save gas. Default: exact.", "N"),
     ] = None,
     calldata: Annotated[
         Path | None,
-        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
     ] = None,
     as_json: Annotated[bool, option("--json", "Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Store an object on a chain for ever, so that every contract can draw it. The price is printed first."""
+    """Store an object on a chain, so that any contract can draw it (mints no token).
+
+    Prints the price first; cannot be undone.
+    """
 
     from .._load import load, locate
     from ..datasets import Piece
@@ -85,7 +90,7 @@ def mint(
             names = ", ".join(step.name for step in storage.parts.missing)
             print_note(f"deploying {names} first: {storage.parts.gas:,} gas")
         print_note(f"storing it: {storage.gas:,} gas; it cannot be undone")
-        # before the account is opened, so that nobody needs one to see the price
+        # before the account is opened, so that the price is shown without one
         print_price([*storage.parts.quotes, *storage.quotes])
         if calldata is not None:
             parts = {

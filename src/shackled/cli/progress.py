@@ -35,7 +35,7 @@ class LateBar:
             self._timer.start()
 
     def set(self, done: int, total: int) -> None:
-        """Set how far the task is; before that, the bar shows activity only."""
+        """Set the progress of the task; before the first call, the bar shows activity only."""
         with self._lock:
             self._done, self._total = done, total
             if self._bar is not None:
@@ -50,7 +50,7 @@ class LateBar:
                 print(line, file=sys.stderr, flush=True)
 
     def end(self) -> None:
-        """Remove the bar for good."""
+        """Remove the bar; it does not appear again."""
         with self._lock:
             timer, self._timer = self._timer, None
             bar, self._bar = self._bar, None
@@ -82,7 +82,7 @@ class LateBar:
 
 
 class JobProgress(Listener):
-    """Prints the estimated cost of a job of several parts, and shows a bar while it runs."""
+    """A listener that prints the estimated cost of a job of several parts, and shows a bar while it runs."""
 
     def __init__(self) -> None:
         """Start the timer of the bar."""

@@ -55,7 +55,7 @@ def render(
         ),
     ] = None,
     transparent: Annotated[
-        bool, option("--transparent", "Leave out the background: a .png or .svg file with alpha, for twice the gas.")
+        bool, option("--transparent", "Make the background transparent: .png or .svg, at twice the gas.")
     ] = False,
     as_json: Annotated[bool, option("--json", "Print a JSON object instead of text.")] = False,
     turntable: Annotated[
@@ -69,12 +69,12 @@ def render(
     one_call: Annotated[
         bool,
         option(
-            "--one-call", "Have one call of a contract make the whole animated PNG, as for a token.", None, "Turntable"
+            "--one-call", "Make the whole animated PNG in one call of a contract, as for a token.", None, "Turntable"
         ),
     ] = False,
     chain: Annotated[
         str | None,
-        option("--chain", f"EVM to render in: {', '.join(CHAINS)}; the fastest installed by default.", "NAME", "Where"),
+        option("--chain", f"Renderer: {', '.join(CHAINS)} (NumPy); default: revm.", "NAME", "Where"),
     ] = None,
     jobs: Annotated[
         int | None, option("--jobs", "Number of worker processes, or of concurrent calls per node.", "N", "Where")
@@ -83,7 +83,7 @@ def render(
         list[str] | None,
         typer.Option(
             "--rpc",
-            help="Node to render on, with or without deployed contracts; repeat for several, which share the work.",
+            help="Node to render on, with or without deployed contracts; may be repeated to share the work.",
             metavar="URL",
             envvar="SHACKLED_RPC",
             show_default=False,
@@ -111,7 +111,7 @@ def render(
         str | None,
         option(
             "--verify",
-            f"Pixels from nodes to verify here: {', '.join(VERIFY)}; all by default, some of large pictures.",
+            f"Pixels from nodes to verify locally: {', '.join(VERIFY)}; all by default, some of large pictures.",
             "PART",
             "Where",
         ),
@@ -167,7 +167,7 @@ def render(
             made.save(path, scene=scene)
     except BaseException:
         if keep is not None and keep.is_dir():
-            listener.warned(f"finished parts are kept in {keep}: the same command goes on from there")
+            listener.warned(f"finished parts are kept in {keep}: run the same command to resume")
         raise
     if keep is not None:
         remove_parts(keep)
@@ -177,7 +177,7 @@ def render(
     several = in_parts or transparent or turntable is not None
     report = _report(made, input, path, time.perf_counter() - started, counts, written, several)
     if all(frame.covered_pixels == 0 for frame in frames):
-        print("nothing of the scene is visible: the picture shows its background only", file=sys.stderr)
+        print("nothing is visible; the picture shows only the background", file=sys.stderr)
     if path.suffix.lower() == ".gif":
         _warn_of_palette([frame.pixels for frame in frames])
     print(json.dumps(report) if as_json else _words(report, None if chunk is None else len(chunk.data)))

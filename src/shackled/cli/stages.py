@@ -21,7 +21,8 @@ def stages(
     *,
     look: dict[str, Any],
     chain: Annotated[
-        str | None, typer.Option("--chain", help=f"EVM to render in: {', '.join(CHAINS)}.", metavar="NAME")
+        str | None,
+        typer.Option("--chain", help=f"Renderer: {', '.join(CHAINS)} (NumPy); default: revm.", metavar="NAME"),
     ] = None,
 ) -> None:
     """Draw the result of each stage of the pipeline: six pictures, and a strip of all."""

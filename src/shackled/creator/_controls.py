@@ -1,4 +1,4 @@
-"""What can be changed about a picture: the controls of the page, and the checks of their values.
+"""The controls of the page, which change a picture, and the checks of their values.
 
 A control that sets what the table `shackled.scene.SETTINGS` lists takes its range, unit, choices and help from it.
 """
@@ -163,7 +163,7 @@ CONTROLS: tuple[Control, ...] = (
         "lights",
         "Lights move with the camera",
         "switch",
-        help="Keep the lights where they are for the viewer.",
+        help="Keep the lights fixed relative to the camera.",
     ),
     _set("ambient_light", "lights", "Ambient light"),
     Control("hemisphere.on", "atmosphere", "Sky light", "switch", help=_SETTINGS["hemisphere"].text),
@@ -200,7 +200,7 @@ CONTROLS: tuple[Control, ...] = (
     ),
     _set("background.top", "background", "Top", "background", help="Colour at the top of the picture."),
     _set("background.bottom", "background", "Bottom", "background", help="Colour at the bottom of the picture."),
-    _set("cull", "drawing", "Leave out back faces", help="Faster; right for closed objects."),
+    _set("cull", "drawing", "Cull back faces", help="Faster; correct for closed objects."),
     _set("wireframe", "drawing", "Wireframe"),
     _set("invert", "drawing", "Invert"),
     _set("antialias", "drawing", "Anti-aliasing"),

@@ -58,7 +58,7 @@ def set_value(state: State, facts: Facts, path: str, value: Any) -> State:
 
 
 def is_changed(state: State, facts: Facts, path: str) -> bool:
-    """Whether a control shows another value than the source's; any value does where the objects differ."""
+    """Return whether a control shows another value than the source's; any value does where the objects differ."""
     return differs(control(path), state, filled(state, facts), filled(State(state.source), facts), facts)
 
 
@@ -135,7 +135,7 @@ def _check_light(number: Any, lamps: Sequence[Lamp]) -> None:
 def _tidy(of: Control, value: Any) -> Any:
     if of.kind != "number" or isinstance(value, bool) or not isinstance(value, int | float):
         return value
-    if not abs(value) < 1e9:  # too large for every control; also not a number
+    if not abs(value) < 1e9:  # too large for every control, or not a number
         return value
     if of.turn and abs(value) < 1e6:
         value = around(value)

@@ -39,7 +39,7 @@ LINK_DICTIONARY = (
 
 
 def is_local(address: str) -> bool:
-    """Whether an address of the page is a loopback address."""
+    """Return whether an address of the page is a loopback address."""
     host = urlsplit(address).hostname or ""
     try:
         return ipaddress.ip_address(host).is_loopback
@@ -79,4 +79,4 @@ def from_link(text: str) -> State:
     try:
         return from_document(value)
     except InputError as error:
-        raise InputError(f"the link is not of a picture: {error}") from None
+        raise InputError(f"the link does not describe a picture: {error}") from None

@@ -1,4 +1,4 @@
-"""How dragging, the wheel and fingers change a camera or a light.
+"""Changes of a camera or a light by dragging, the wheel and touch.
 
 Distances on the picture are parts of its height, x to the right and y down.
 """
@@ -18,7 +18,7 @@ from ._state import Lamp, Orbit, Pose, State, Vector
 TURN = 180.0
 #: Factor of the distance for one notch of the wheel.
 NOTCH = 1.1
-#: Part of half the picture that stays free around a fitted object.
+#: Free border around a fitted object, as a fraction of half the picture.
 MARGIN = 0.06
 
 

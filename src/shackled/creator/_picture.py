@@ -1,4 +1,4 @@
-"""What workers return: pictures, where they fit, and how they are encoded."""
+"""Results of workers: pictures, the limits that they fit, and their encodings."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ENVELOPE = 512
 
 @dataclass(frozen=True)
 class Fit:
-    """Whether a picture fits into one limit.
+    """The comparison of a picture with one limit.
 
     kind: "transaction" or "call". limit: in gas. needed: gas limit that the request needs, or an upper bound of it.
     reason: why it does not fit, if gas is not the reason, or "". source, date, remark: of the limit.

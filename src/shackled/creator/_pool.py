@@ -39,7 +39,10 @@ class Pool:
     """
 
     def __init__(self, workers: int | None = None, limits: Limits | None = None, node: str | None = None) -> None:
-        """workers: number of processes for live pictures, one per core by default. node: address for `compare`."""
+        """Start no worker yet.
+
+        workers: number of processes for live pictures, one per core by default. node: address for `compare`.
+        """
         self.limits = limits or Limits()
         self.store = Store(self.limits.stored)
         self._node = node
@@ -85,7 +88,7 @@ class Pool:
             return self.store.get(source.name).facts
         if source not in self._facts:
             facts: Facts = await self._ask(self._live, visitor, f"open {source.name}", "facts", source)
-            if len(self._facts) >= 1000:  # there is no end of seeds
+            if len(self._facts) >= 1000:  # the number of seeds is not limited
                 self._facts.clear()
             self._facts[source] = facts
         return self._facts[source]
@@ -229,7 +232,7 @@ class Pool:
             supply = lambda: {name: replace(self.store.get(name), data=b"")}  # noqa: E731
         result = await queue.ask(visitor, channel, task, arguments, newest, supply, progress)
         if result is None and not newest:
-            raise PoolError("the job was dropped, since the visitor has left")
+            raise PoolError("the job was dropped, because the visitor has left")
         return result
 
 

@@ -14,7 +14,7 @@ class Preset:
     """A look.
 
     lamps: with azimuths relative to the camera, so that the look does not depend on the direction of the view.
-    cull: None leaves out back faces if the object is closed.
+    cull: None culls back faces if the object is closed.
     """
 
     name: str
@@ -115,7 +115,7 @@ PRESETS: tuple[Preset, ...] = (
     Preset(
         "flat",
         "Unlit",
-        "Its own colours without light: the least gas.",
+        "Unlit colours; lowest gas.",
         Surface("unlit"),
         (),
         Backdrop("#f4f1ea", "#f4f1ea"),

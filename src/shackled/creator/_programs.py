@@ -1,4 +1,4 @@
-"""A picture as text that makes it again: a program in Python, and a command for cast, the tool of Foundry."""
+"""A picture as code that reproduces it: a program in Python, and a command for cast, the tool of Foundry."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ def _loaded(subject: Subject) -> list[str]:
 
 
 def _is_packed(subject: Subject) -> bool:
-    """Whether the source is an archive, which only the Creator can open."""
+    """Return whether the source is an archive, which only the Creator can open."""
     return subject.stored is not None and subject.stored.name.lower().endswith(".zip")
 
 

@@ -36,7 +36,7 @@ class Job:
     """A task that a visitor waits for.
 
     newest: whether it replaces waiting jobs of the same visitor and channel. supply: returns the uploads that a worker
-    may lack. worker: that does the task. stopped: whether nobody waits for the result any more.
+    may lack. worker: that does the task. stopped: whether its result is no longer awaited.
     """
 
     visitor: str
@@ -74,8 +74,8 @@ class Queue:
         """Start no worker yet.
 
         what: name of the work in messages. workers: number of processes. seconds: time limit of a job. grace: seconds
-        that a job may go on after nobody waits for it any more. niceness, guarded, make_tasks: of the workers; see
-        `prepare`.
+        that a job may continue after its result is no longer awaited. niceness, guarded, make_tasks: of the workers;
+        see `prepare`.
         """
         self._what = what
         self._seconds = seconds
@@ -169,7 +169,7 @@ class Queue:
         return [worker.pid for worker in self._workers if worker.pid is not None]
 
     def _arrive(self, visitor: str) -> None:
-        """Bring a visitor without jobs level with those who are being served: absence saves up no time."""
+        """Bring a visitor without jobs level with those who are being served: it gains no priority by absence."""
         if visitor in self._waiting or any(job.visitor == visitor for job in self._running):
             return
         if len(self._spent) > 4 * self._most:
@@ -235,7 +235,7 @@ class Queue:
                 result, seconds = await self._call(worker, job.task, job.arguments, job, job.supply())
             _settle(job, result)
         except Exception as error:
-            if isinstance(error, MemoryError | RecursionError):  # what is still in memory could disturb later jobs
+            if isinstance(error, MemoryError | RecursionError):  # what is still in memory could affect later jobs
                 await asyncio.to_thread(worker.end)
             if job.stopped:
                 _settle(job, None)
@@ -301,7 +301,7 @@ class Queue:
             return PoolError(f"the {self._what} could not be made")
         # details may be private: they are logged and not shown
         log.error("an error in a worker:\n%s", error.__cause__ or repr(error))
-        return PoolError(f"the {self._what} failed by an internal error ({type(error).__name__}); it has been logged")
+        return PoolError(f"the {self._what} failed with an internal error ({type(error).__name__}), which was logged")
 
 
 def _settle(job: Job, result: Any) -> None:

@@ -54,7 +54,7 @@ class ForbiddenError(PermissionError):
 
 
 def enter_sandbox() -> None:
-    """Import what readers may need, then set the audit hook for good. It is active only within `upload_folder`."""
+    """Import what readers may need, then set the audit hook permanently. It is active only within `upload_folder`."""
     global _entered
     if _entered:
         return

@@ -66,8 +66,8 @@ class Facts:
     """What is known of a source, small enough to be passed between processes.
 
     title: any characters; it must be escaped where it is shown. notice: attribution and conditions of use, or "".
-    licence: of the model as its source states it, or "" if unknown. triangles, vertices, objects: their numbers.
-    closed: whether back faces can be left out. defaults: a state with all values of the source; its own colours and all
+    licence: of the model as stated by its source, or "" if unknown. triangles, vertices, objects: their numbers.
+    closed: whether back faces can be culled. defaults: a state with all values of the source; its own colours and all
     triangles stay None. mixed: paths of controls in which the objects differ.
     """
 

@@ -1,4 +1,4 @@
-"""All choices of a visitor about a picture, as one small immutable value.
+"""All settings of a picture, as one small immutable value.
 
 None stands for the source's own value, so that an untouched state is exactly the scene of its source. Lengths are in
 radii of the source and positions relative to its middle, so that equal numbers look alike for objects of any size.
@@ -180,7 +180,7 @@ class Size:
 
 @dataclass(frozen=True)
 class State:
-    """All choices about a picture.
+    """All settings of a picture.
 
     lights_follow: whether the lights move with the camera. opacities: of the first objects; None takes that of the
     surface. max_triangles: larger meshes are simplified to this number.
@@ -232,7 +232,7 @@ def to_document(state: State) -> dict[str, Any]:
 
 
 def scene_key(state: State) -> str:
-    """Return a digest of all choices but those that turning, moving and zooming change."""
+    """Return a digest of all settings but those that turning, moving and zooming change."""
     camera = state.camera and replace(state.camera, azimuth=0.0, elevation=0.0, distance=1.0, target=(0.0, 0.0, 0.0))
     document = json.dumps(to_document(replace(state, camera=camera)))
     return hashlib.sha256(document.encode()).hexdigest()[:32]

@@ -1,4 +1,4 @@
-"""What a visitor may ask for, and the uploaded files in memory."""
+"""The limits of requests, and the uploaded files in memory."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files to download: the picture in several formats, and programs that make it without the Creator."""
+"""Files to download: the picture in several formats, and programs that render it without the Creator."""
 
 from __future__ import annotations
 
@@ -50,9 +50,7 @@ KINDS: tuple[FileKind, ...] = (
     FileKind(
         "scene", "Scene file", ".json", "application/json", False, "The scene with its meshes, for shackled render."
     ),
-    FileKind(
-        "page", "Page", ".html", "text/html", False, "A page of one file: anybody can turn the scene, in any browser."
-    ),
+    FileKind("page", "Page", ".html", "text/html", False, "A page of one file that shows the scene in any browser."),
     FileKind("file", "The uploaded file", "", "application/octet-stream", False, "The file as you uploaded it."),
     FileKind("calldata", "Calldata", ".hex", "text/plain", True, "The data of the call render(Scene), in hexadecimal."),
     FileKind(
@@ -64,10 +62,10 @@ KINDS: tuple[FileKind, ...] = (
         "-anywhere.sh",
         "text/x-shellscript",
         True,
-        "Sends the code of the contracts along, as a state override.",
+        "Sends the code of the contracts, as a state override.",
     ),
     FileKind("python", "Python", ".py", "text/x-python", True, "Renders the same picture, and checks the result."),
-    FileKind("solidity", "Solidity", ".sol", "text/plain", True, "A contract that holds the scene and renders it."),
+    FileKind("solidity", "Solidity", ".sol", "text/plain", True, "A contract that contains the scene and renders it."),
 )
 
 

@@ -1,4 +1,4 @@
-"""What worker processes do for visitors: each task is a method of `Tasks`."""
+"""The tasks of worker processes: each is a method of `Tasks`."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Recent(Generic[Key, Value]):
     """The most recently used values of a function."""
 
     def __init__(self, size: int) -> None:
-        """`size`: number of values that are kept."""
+        """Keep nothing yet. size: number of values that are kept."""
         self._size = size
         self._values: OrderedDict[Key, Value] = OrderedDict()
 
@@ -63,7 +63,7 @@ class Tasks:
     """
 
     def __init__(self, limits: Limits, progress: Callable[[int, int], None]) -> None:
-        """`progress`: called with (done, total) during long tasks."""
+        """Open the EVM. progress: called with (done, total) during long tasks."""
         self._limits = limits
         self._progress = progress
         self._uploads: Recent[str, tuple[Scene, Facts]] = Recent(KEPT)

@@ -109,7 +109,7 @@ _JSON_CHUNK = 0x4E4F534A
 
 
 def check_gltf(path: Path, data: bytes) -> None:
-    """InputError if a glTF or GLB file breaks a limit, or refers to a file that was not uploaded with it."""
+    """Raise InputError if a glTF or GLB file breaks a limit, or refers to a file that was not uploaded with it."""
     document = _document(data)
     if document is None:
         raise InputError("it is not valid glTF: its JSON is damaged or missing")
@@ -145,7 +145,7 @@ def _check_sizes(document: dict[str, Any]) -> None:
 
 
 def _check_nodes(document: dict[str, Any]) -> None:
-    """InputError unless the nodes are trees, as the standard demands: shared nodes would multiply their descendants."""
+    """Raise InputError unless the nodes are trees, as glTF requires: shared nodes would multiply their descendants."""
     nodes = _tables(document, "nodes")
     parents = [0] * len(nodes)
     corners = 0

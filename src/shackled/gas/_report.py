@@ -46,7 +46,7 @@ class GasReport:
         return self.exact.gas / count if count else None
 
     def ether(self, gas_price: float) -> float:
-        """Return the price of a transaction, at so many gwei a gas."""
+        """Return the price of a transaction, by the price of gas in gwei."""
         return self.exact.transaction_gas * gas_price / GWEI_PER_ETHER
 
     def to_json(self, gas_price: float, eth_price: float | None) -> dict[str, Any]:

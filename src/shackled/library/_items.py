@@ -1,4 +1,4 @@
-"""The items of the library: what each one is made of, and where the Studio stores it."""
+"""The items of the library: their contents, and the addresses at which the Studio stores them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..scene import Material, Scene, fit
 from ..studio import STUDIO, StoreTransaction, store_scene
 from ..tokens import token_scene
 
-#: Built-in pieces that show something else than one solid object, or no object that a scene would be made of.
+#: Built-in pieces that are not one solid object, or not an object of which scenes are made.
 LEFT_OUT = {"cornell-box", "first-render", "wireframe-cube", "wireframe-icosphere"}
 
 
@@ -39,27 +39,27 @@ class Item:
 
     @property
     def is_icon(self) -> bool:
-        """Return whether it is an icon."""
+        """Whether it is an icon."""
         return self.piece.startswith("icons/")
 
     @property
     def pointer(self) -> bytes:
-        """Return the address of the scene."""
+        """Address of the scene."""
         return self.transactions[-1].pointer
 
     @property
     def meshes(self) -> list[bytes]:
-        """Return the addresses of the meshes."""
+        """Addresses of the meshes."""
         return [each.pointer for each in self.transactions[:-1]]
 
     @property
     def gas(self) -> int:
-        """Return the gas of the transactions that store it."""
+        """Gas of the transactions that store it."""
         return sum(each.gas for each in self.transactions)
 
     @property
     def size(self) -> int:
-        """Return how many bytes are stored."""
+        """Number of stored bytes."""
         return sum(each.size for each in self.transactions)
 
 
@@ -73,7 +73,7 @@ def items() -> tuple[Item, ...]:
 
 
 def chosen_items(names: Iterable[str]) -> list[Item]:
-    """Return items by their names, all for none. InputError for a name that is not in the library."""
+    """Return items by name; all if no name is given. InputError for a name that is not in the library."""
     known = {each.name: each for each in items()}
     wanted = list(dict.fromkeys(names))
     for name in wanted:

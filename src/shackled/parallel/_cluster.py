@@ -178,8 +178,9 @@ def _facts_function() -> Any:
 
 
 def _greet(address: str) -> None:
-    """Connect to a scheduler once; raise an error if none answers. A client would wait for ever for a server that
-    accepts connections and is no scheduler.
+    """Connect to a scheduler once; raise an error if none answers.
+
+    A client would wait without limit for a server that accepts connections and is no scheduler.
     """
     from distributed.comm.core import connect
     from distributed.security import Security

@@ -83,7 +83,7 @@ def render_frames(
             pieces = scheduler.run(parts)
         except BaseException:
             if store is not None and store.leave():
-                listener.warned(f"finished parts are kept in {store.folder}: the same command goes on from there")
+                listener.warned(f"finished parts are kept in {store.folder}: run the same command to resume")
             raise
         name = _name(scheduler.used)
         seconds = time.perf_counter() - started

@@ -335,10 +335,12 @@ class Scheduler:
         able = not isinstance(error, OutOfGasError) and any(each.capacity >= pixels for each in others)
         parts = [part] if able else [Part(part.frame, tile) for tile in halves(part.tile)]
         if len(parts) == 1 and not others:
-            self._error = type(error)(
-                f"{error}; a part of {part.tile.width} x {part.tile.height} pixels is still too much: "
-                "take fewer triangles (`max_triangles`)"
-            )
+            tile = f"a tile of {part.tile.width} x {part.tile.height} pixels"
+            if isinstance(error, OutOfGasError) and state.backend.gas is not None and not state.backend.untrusted:
+                text = f"{error} even for {tile}; raise `gas_limit` or use `max_triangles`"
+            else:
+                text = f"{error}; {tile} cannot be split: use fewer triangles (`max_triangles`)"
+            self._error = type(error)(text)
             return
         self._put_first(parts)
         if others and state.misses >= (TIMEOUTS if isinstance(error, NodeTimeoutError) else MISSES):

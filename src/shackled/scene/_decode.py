@@ -1,4 +1,4 @@
-"""Scenes from calldata: the inverse of `_codec`, for bytes that nobody vouches for."""
+"""Scenes from calldata: the inverse of `_codec`, for untrusted bytes."""
 
 from __future__ import annotations
 

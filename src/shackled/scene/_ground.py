@@ -31,7 +31,7 @@ def _optional(value: Any, name: str = "", low: float = -math.inf) -> float | Non
 
 @frozen(field_transformer=with_names)
 class Ground:
-    """A level, matte disc under the objects, which catches shadows and fades into the background; it is drawn last.
+    """A level, matte disc under the objects, which receives shadows and fades into the background; it is drawn last.
 
     height: its y in the world; just below the lowest vertex by default.
     radius: where nothing is left of it, in world units, above 0; a multiple of the size of the objects by default.

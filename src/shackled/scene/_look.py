@@ -135,7 +135,7 @@ SETTINGS = (
         "flag",
         "scene",
         "Canvas",
-        "Smooth the edges, by four samples per pixel.",
+        "Smooth the edges with four samples per pixel.",
         option="--antialias/--no-antialias",
     ),
     Setting(
@@ -146,9 +146,9 @@ SETTINGS = (
         "Rotate the scene about x, then y, then z, through its middle.",
         unit="degrees",
     ),
-    Setting("eye", "vector", "camera", "Camera", "Position of the eye."),
-    Setting("target", "vector", "camera", "Camera", "Point at which the eye looks."),
-    Setting("up", "vector", "camera", "Camera", "Direction that is upward in the picture."),
+    Setting("eye", "vector", "camera", "Camera", "Position of the camera."),
+    Setting("target", "vector", "camera", "Camera", "Point at which the camera looks."),
+    Setting("up", "vector", "camera", "Camera", "Direction that points up in the picture."),
     Setting(
         "azimuth",
         "number",
@@ -173,7 +173,7 @@ SETTINGS = (
         "number",
         "camera",
         "Camera",
-        "Part of half the picture that stays free around the objects.",
+        "Free border, as a fraction of half the picture.",
         *MARGINS,
         default=f"{MESH_STAGING.view.margin:g} for mesh files",
     ),
@@ -200,14 +200,14 @@ SETTINGS = (
         option="--orthographic/--perspective",
     ),
     Setting(
-        "lights", "lights", "scene", "Light", "Up to four lights in place of those of the scene.", option="--light"
+        "lights", "lights", "scene", "Light", "Up to four lights, which replace those of the scene.", option="--light"
     ),
     Setting(
         "ambient_light",
         "color",
         "scene",
         "Light",
-        "Colour of the light that comes from everywhere.",
+        "Colour of the ambient light.",
         default="bluish white for mesh files, else white",
     ),
     Setting(
@@ -217,7 +217,7 @@ SETTINGS = (
         "Light",
         "Light from the sky above and from the ground below, added to the ambient light.",
     ),
-    Setting("rim", "rim", "scene", "Light", "Light along the outlines of objects, wide or narrow by its exponent."),
+    Setting("rim", "rim", "scene", "Light", "Light along the outlines of objects; its exponent sets its width."),
     Setting(
         "fog",
         "fog",
@@ -231,17 +231,17 @@ SETTINGS = (
         "flag",
         None,
         "Light",
-        "Let objects cast shadows in the light of the first light.",
+        "Let objects cast shadows from the first light.",
         option="--shadow/--no-shadow",
     ),
-    Setting("ground", "ground", "scene", "Light", "Ground under the objects, which catches shadows."),
-    Setting("exposure", "number", "tone", "Light", "Factor of all light.", *EXPOSURES, default="1"),
+    Setting("ground", "ground", "scene", "Light", "Ground under the objects, which receives shadows."),
+    Setting("exposure", "number", "tone", "Light", "Multiplier of all light.", *EXPOSURES, default="1"),
     Setting(
         "filmic",
         "flag",
         "tone",
         "Light",
-        "Compress bright light as on film, instead of cutting it off.",
+        "Compress bright light as film does, instead of clipping it.",
         option="--filmic/--no-filmic",
     ),
     Setting(
@@ -249,7 +249,7 @@ SETTINGS = (
         "flag",
         "tone",
         "Light",
-        "Add light in linear space, as in nature, instead of as sRGB values.",
+        "Add light in linear space instead of as sRGB values.",
         option="--gamma/--no-gamma",
     ),
     Setting(
@@ -271,8 +271,8 @@ SETTINGS = (
         "degrees",
         f"the normals of mesh files, or {CREASE:g} where there are none",
     ),
-    Setting("smooth", "flag", None, "Light", "Short for shading smooth.", option="--smooth"),
-    Setting("unlit", "flag", None, "Light", "Short for shading unlit.", option="--unlit"),
+    Setting("smooth", "flag", None, "Light", "Same as --shading smooth.", option="--smooth"),
+    Setting("unlit", "flag", None, "Light", "Same as --shading unlit.", option="--unlit"),
     Setting(
         "ambient",
         "number",
@@ -305,7 +305,7 @@ SETTINGS = (
         "whole",
         "material",
         "Light",
-        "Exponent of highlights, from wide to small.",
+        "Exponent of highlights: the larger, the smaller they are.",
         *EXPONENTS,
         default=f"{_SURFACE.shininess:g} for mesh files",
     ),
@@ -315,12 +315,12 @@ SETTINGS = (
         "flag",
         "object",
         "Surface",
-        "Leave out faces that turn away.",
+        "Cull back faces.",
         default="true for closed mesh files",
         option="--cull/--no-cull",
     ),
     Setting("wireframe", "flag", "object", "Surface", "Draw edges only.", option="--wireframe/--filled"),
-    Setting("opacity", "number", "object", "Surface", "Share of what is behind objects that they hide.", *OPACITIES),
+    Setting("opacity", "number", "object", "Surface", "Opacity of the objects.", *OPACITIES),
 )
 
 

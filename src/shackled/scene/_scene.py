@@ -90,8 +90,8 @@ class Scene:
     rim: light along outlines; also given as a colour, or (colour, power).
     fog: fog between two distances; also given as (colour, near, far).
     tone: how light becomes colours.
-    ground: a disc under the objects, which catches shadows; also given as a colour. Scenes with a hemisphere, rim, fog,
-        tone, shadow or ground are always antialiased.
+    ground: a disc under the objects, which receives shadows; also given as a colour. Scenes with a hemisphere, rim,
+        fog, tone, shadow or ground are always antialiased.
     """
 
     objects: tuple[Object, ...] = field(converter=_objects)

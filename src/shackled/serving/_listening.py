@@ -17,7 +17,7 @@ from ..errors import InputError
 
 
 def listen(host: str, port: int | None, fallback: int) -> socket.socket:
-    """Return a listening socket. InputError if there can be none."""
+    """Return a listening socket. InputError if the address or the port cannot be used."""
     try:
         family = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)[0][0]
     except OSError:

@@ -1,4 +1,4 @@
-"""What the server refuses: requests by pages of other sites, and requests for other host names."""
+"""Middleware that refuses requests by pages of other sites and requests for other host names."""
 
 from __future__ import annotations
 
@@ -36,7 +36,10 @@ class SameOrigin:
     """
 
     def __init__(self, app: ASGIApp, local: bool, names: Iterable[str] = ()) -> None:
-        """local: whether the server listens on a loopback address only. names: allowed host names besides addresses."""
+        """Wrap an application.
+
+        local: whether the server listens on a loopback address only. names: allowed host names besides addresses.
+        """
         self.app = app
         self.local = local
         own = () if local else (socket.gethostname(), socket.getfqdn())
@@ -54,7 +57,7 @@ class SameOrigin:
                 for name, value in HEADERS.items():
                     # a response may have a stricter policy of its own
                     sent.setdefault(name, value)
-                # else browsers may combine scripts of an older version with a new page
+                # otherwise browsers may combine scripts of an older version with a new page
                 sent.setdefault("cache-control", "no-cache")
             await send(message)
 
@@ -76,7 +79,7 @@ class SameOrigin:
 
 
 def _is_same_origin(scope: Scope, headers: Headers) -> bool:
-    """Whether a request was made by our page, by the user or by a program, and not by a page of another site.
+    """Return whether a request was made by our page, by the user or by a program, and not by a page of another site.
 
     Links of other sites may lead here, in a window of its own; they cannot embed anything and so cause no work.
     """
@@ -90,7 +93,7 @@ def _is_same_origin(scope: Scope, headers: Headers) -> bool:
 
 
 def _is_address(name: str) -> bool:
-    """Whether a host name is an IP address, which cannot resolve to another machine."""
+    """Return whether a host name is an IP address, which cannot resolve to another machine."""
     try:
         ipaddress.ip_address(name)
     except ValueError:

@@ -1,7 +1,7 @@
 """Allow lists: which accounts may mint before the public sale, and how many tokens, as a Merkle tree.
 
 The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleTree for ["address", "uint256"], whose
-files can be read and written. Leaves are hashed twice, so that no inner node can pass for one.
+files can be read and written. Leaves are hashed twice, so that no inner node can be taken for a leaf.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class AllowList:
 
     @cached_property
     def _tree(self) -> list[bytes]:
-        """Nodes from the root on; the children of node k are 2k + 1 and 2k + 2. Leaves come last, in falling order."""
+        """The nodes, root first; the children of node k are 2k + 1 and 2k + 2. Leaves come last, in falling order."""
         leaves = self._leaves
         nodes = [b""] * (len(leaves) - 1) + leaves[::-1]
         for place in reversed(range(len(leaves) - 1)):

@@ -42,7 +42,7 @@ KINDS = {
     ),
     "icons": CollectionKind("icons", "Shackled Icons", "IconsCollection", hidden=False, terms=()),
 }
-#: The collection to which anybody adds scenes: it has neither an owner nor a sale.
+#: The collection to which anyone can add scenes: it has neither an owner nor a sale.
 EDITIONS = CollectionKind("editions", "Shackled Editions", "Editions", hidden=False, terms=())
 
 
@@ -83,7 +83,7 @@ class Collection:
     """A collection at an address."""
 
     def __init__(self, connection: Connection, kind: CollectionKind, address: str) -> None:
-        """Take a collection of a known kind; `open_collection` finds out the kind."""
+        """Create a collection of a known kind; `open_collection` determines the kind."""
         self.connection, self.kind, self.address = connection, kind, address
         self.contract = Contract(connection, kind.contract, address)
 
@@ -201,7 +201,7 @@ def open_collection(connection: Connection, address: str, editions: bool = False
         except RevertError:
             continue
         except NodeError as error:
-            # what a node says may contain anything, so the whole phrase of `Contract.call`
+            # the message of a node may contain anything: compare the whole phrase of `Contract.call`
             if f"the address {address} is not a {kind.contract} " in str(error):
                 continue
             raise

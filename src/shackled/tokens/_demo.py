@@ -80,7 +80,7 @@ def run_demo(connection: Connection, folder: Path, report: Callable[[str], None]
         ("tokenURI, gas", f"{min(gas) / 1e6:.1f} to {max(gas) / 1e6:.1f} million"),
         ("tokenURI, bytes", f"at most {max(token.metadata.length for token in demo.tokens):,}"),
     ]
-    html = page("Shackled: tokens that live on chain", INTRODUCTION, demo.tokens, facts, demo.costs)
+    html = page("Shackled: tokens rendered on chain", INTRODUCTION, demo.tokens, facts, demo.costs)
     write_output(demo.gallery, html.encode())
     write_output(demo.listing, tokens_json(demo.tokens).encode())
     return demo

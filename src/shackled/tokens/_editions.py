@@ -1,4 +1,4 @@
-"""Editions: scenes that anybody adds to one collection, each a limited or open number of tokens."""
+"""Editions: scenes that anyone can add to one collection, each a limited or open number of tokens."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ ADDED = b"EditionAdded(uint256,address,address,string,uint256,uint256,uint256,ui
 
 @dataclass(frozen=True)
 class EditionTerms:
-    """What an artist says of a new edition; nothing of it can be changed later.
+    """The terms of a new edition, which cannot be changed later.
 
     name: 1 to 64 bytes. scene: address of the stored scene. price: of a token, in wei. supply: maximum number of
-    tokens, `OPEN` for no limit. royalty: in hundredths of a percent. copies: number of tokens that the artist receives
-    at once, for nothing. scale: side of the square that each pixel becomes.
+    tokens, `OPEN` for no limit. royalty: in hundredths of a percent. copies: number of tokens minted to the
+    artist free of charge. scale: side of the square that each pixel becomes.
     """
 
     name: str
@@ -83,7 +83,7 @@ class EditionTerms:
 
 @dataclass(frozen=True)
 class Edition:
-    """An edition on a chain. settled: number of minted tokens for which nothing is due to the artist any more."""
+    """An edition on a chain. settled: number of minted tokens whose proceeds were withdrawn."""
 
     number: int
     artist: str
@@ -186,7 +186,7 @@ def add_gas(terms: EditionTerms, codes: Mapping[bytes, bytes]) -> int:
         "triangles or no antialiasing"
     )
     try:
-        # a contract that runs out of gas cannot always say so: drawn with more, it can be told from other errors
+        # a contract that runs out of gas cannot always report it; with more gas, other errors can be told apart
         picture = local.call(STUDIO, request, 16 * limit)
     except OutOfGasError:
         raise too_much from None
@@ -221,14 +221,14 @@ def added_edition(collection: Collection, receipt: Receipt, artist: str, terms: 
     found = (edition.name, edition.scene, edition.scale, edition.price, edition.supply, edition.royalty)
     if edition.artist != artist or found != terms.arguments[:-1]:
         raise VerificationError(
-            f"edition {edition.number}, which the {collection.connection.name} says the transaction {receipt.hash} "
-            "added, is another one"
+            f"edition {edition.number}, which the {collection.connection.name} reports for the transaction "
+            f"{receipt.hash}, does not match the terms"
         )
     return edition
 
 
 def withdraw_gas(collection: Collection, editions: Sequence[int], to: str) -> int:
-    """Return the gas of the transaction that withdraws what tokens of these editions have cost."""
+    """Return the gas of the transaction that withdraws the proceeds of these editions."""
     data = collection.contract.interface.encode("withdraw", editions, to)
     return USUAL_GAS["withdraw"] + intrinsic_gas(data) + WITHDRAW_GAS * (len(editions) - 1)
 

@@ -1,4 +1,4 @@
-"""Check of licences: minting publishes a changed copy for ever, and may sell it."""
+"""Check of licences: minting publishes a changed copy permanently, and may sell it."""
 
 from __future__ import annotations
 

@@ -150,7 +150,7 @@ def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[Reveal
         ((start, known) for start in starts if any(known := _hash_of(collection, start))), (0, bytes(32))
     )
     if number == 0:
-        raise NodeError(f"the collection does not know the hash of any block before {latest:,}")
+        raise NodeError(f"the collection has no hash of a block before {latest:,}")
     for block in old:
         if block > number:
             raise NodeError(f"the collection cannot read the hash of block {block:,} yet: run the command again")
@@ -167,5 +167,5 @@ def _proofs(collection: Collection, hashes: dict[int, bytes]) -> Iterator[Reveal
 
 
 def _hash_of(collection: Collection, block: int) -> bytes:
-    """Return the hash of a block that the collection knows; zeros if it knows none."""
+    """Return the hash of a block that the collection can read or has stored; zeros if it has none."""
     return bytes(collection.contract.call("hashOf", block))

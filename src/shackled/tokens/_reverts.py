@@ -13,12 +13,12 @@ from ..ethereum import decode_error, ether
 #: The phases of a sale, in the order of the contract's numbers.
 PHASES = ("closed", "open for the allow list", "open for all")
 
-#: A sentence for each error that users may get, from its values by name.
+#: The message of each error that users may get, from its values by name.
 SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "WrongPhase": lambda v: f"the sale is {_phase(v['phase'])}; for this it must be {_phase(v['needed'])}",
     "Quantity": lambda v: f"a call mints 1 to {v['perTransaction']} tokens, not {v['quantity']}",
-    "Payment": lambda v: f"the price is {ether(v['due'])}, but {ether(v['sent'])} were sent",
-    "PaymentForNothing": lambda v: f"{ether(v['sent'])} were sent, but the call is free",
+    "Payment": lambda v: f"the price is {ether(v['due'])}, but {ether(v['sent'])} was sent",
+    "PaymentForNothing": lambda v: f"{ether(v['sent'])} was sent, but the call is free",
     "NotOnAllowList": lambda v: f"the account {v['account']} is not on the allow list for {v['quantity']} tokens",
     "AllowanceOfAnother": lambda v: f"the permission is for {v['account']}, not for {v['sender']}",
     "AllowanceExpired": lambda v: f"the permission expired at {v['deadline']} s of Unix time, and it is {v['time']}",
@@ -42,13 +42,13 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
     "NotRevealed": lambda v: (
         f"token {v['tokenId']} is not revealed yet (round {v['round']}); run: shackled token reveal"
     ),
-    "NotSealed": lambda v: "the set of icons is not fixed yet: the owner has to seal the collection first",
-    "AlreadySealed": lambda v: "the set of icons is fixed for ever: none can be added",
+    "NotSealed": lambda v: "the set of icons is not sealed yet: the owner has to seal the collection first",
+    "AlreadySealed": lambda v: "the set of icons is sealed: none can be added",
     "NoIcons": lambda v: "a collection without icons cannot be sealed",
-    "UnknownIcon": lambda v: f"there is no icon {v['icon']}: there are {v['icons']}",
+    "UnknownIcon": lambda v: f"there is no icon {v['icon']}: the collection has {v['icons']}",
     "NameLength": lambda v: f"a name has 1 to {v['longest']} bytes, not {v['length']}",
     "NoSupply": lambda v: "an edition needs a supply of 1 token or more",
-    "UnknownEdition": lambda v: f"there is no edition {v['edition']}: there are {v['editions']}",
+    "UnknownEdition": lambda v: f"there is no edition {v['edition']}: the collection has {v['editions']}",
     "TooManyEditions": lambda v: f"the collection is full: it has {v['editions']:,} editions",
     "NotTheArtist": lambda v: (
         f"only its artist {v['artist']} may do this with edition {v['edition']}, not {v['account']}"
@@ -58,9 +58,9 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
         f"drawing the scene {v['scene']} takes more than {v['gasLimit']:,} gas, or more than the transaction has"
     ),
     "NothingKept": lambda v: f"no scene is stored at {v.get('scene', v.get('pointer'))}",
-    "NotAScene": lambda v: f"the data stored at {v['pointer']} are not a scene",
+    "NotAScene": lambda v: f"the data stored at {v['pointer']} is not a scene",
     "BlockToCome": lambda v: f"block {v['blockNumber']:,} is not mined yet",
-    "BlockForgotten": lambda v: f"the chain no longer knows the hash of block {v['blockNumber']:,}",
+    "BlockForgotten": lambda v: f"the chain no longer provides the hash of block {v['blockNumber']:,}",
     "WrongHeader": lambda v: f"the header is not that of block {v['blockNumber']:,}",
     "NoRandomness": lambda v: f"block {v['blockNumber']:,} has no randomness, which this chain does not provide",
     "OwnerQueryForNonexistentToken": lambda v: "there is no such token",
@@ -73,7 +73,7 @@ SENTENCES: dict[str, Callable[[dict[str, Any]], str]] = {
 
 
 def explained(error: RevertError) -> RevertError:
-    """Return a RevertError with an explanation as its message, if its data are those of a known error."""
+    """Return a RevertError with an explanation as its message, if its data is that of a known error."""
     found = decode_error(error.data, known_errors())
     if found is None:
         return error

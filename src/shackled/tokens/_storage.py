@@ -130,7 +130,7 @@ def store(
 
 
 def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneToStore) -> Image:
-    """Return the picture that the Studio draws of a stored scene.
+    """Return the picture of a stored scene, as the Studio renders it.
 
     Raises VerificationError if it is wrong; if the scene was stored exactly, all bytes are compared.
     """
@@ -140,7 +140,9 @@ def read_back(connection: Connection, studio: str, pointer: str, wanted: SceneTo
     seconds = time.perf_counter() - started
     pixels = decode_bmp(bmp, wanted.scene.width, wanted.scene.height)
     if wanted.position_bits is None and wanted.normal_bits == 10 and bmp != render(wanted.scene).bmp:
-        raise VerificationError(f"chain {connection.chain_id} draws {wanted.name} differently than it is computed here")
+        raise VerificationError(
+            f"the picture of {wanted.name} on chain {connection.chain_id} differs from the one computed here"
+        )
     return Image(pixels, bmp, contract.gas(RENDER, pointer), None, connection.name, seconds)
 
 

@@ -1,4 +1,4 @@
-"""Tokens as they present themselves: owner, traits and picture, read from their `tokenURI`."""
+"""Views of tokens: owner, traits and picture, read from their `tokenURI`."""
 
 from __future__ import annotations
 

@@ -164,7 +164,7 @@ export interface Tone {
     gamma?: boolean | undefined;
 }
 
-/** A level, matte disc under the objects, which catches shadows and fades into the background. */
+/** A level, matte disc under the objects, which receives shadows and fades into the background. */
 export interface Ground {
     color: Color;
     /** Its y in the world; just below the lowest vertex by default. */

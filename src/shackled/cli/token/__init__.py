@@ -8,11 +8,13 @@ from .allow_list import allow_list, permit
 from .deploy import demo, deploy
 from .edition import edition
 from .icons import add, seal
-from .owner import hand_over, phase, royalty, take_over, withdraw
+from .owner import accept_ownership, phase, royalty, transfer_ownership, withdraw
 from .sale import mint, reveal, transfer
 from .show import list_, picture, show, verify
 
-token = typer.Typer(no_args_is_help=True, help="Deploy and use collections of tokens whose pictures are on chain.")
+token = typer.Typer(
+    no_args_is_help=True, help="Deploy and use collections of tokens whose pictures are rendered on chain."
+)
 token.command()(deploy)
 token.command()(add)
 token.command()(seal)
@@ -28,8 +30,8 @@ token.command()(picture)
 token.command()(transfer)
 token.command()(withdraw)
 token.command()(royalty)
-token.command("hand-over")(hand_over)
-token.command("take-over")(take_over)
+token.command("transfer-ownership")(transfer_ownership)
+token.command("accept-ownership")(accept_ownership)
 token.command()(demo)
 token.add_typer(edition, name="edition")
 

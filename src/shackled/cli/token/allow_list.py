@@ -29,10 +29,10 @@ def allow_list(
         Path | None, option("-o --output", "Write the tree as OpenZeppelin's StandardMerkleTree, .json.", "FILE")
     ] = None,
     signer: Annotated[
-        str | None, option("--signer", "Account that signs permissions; default: as it is.", "ADDRESS")
+        str | None, option("--signer", "Account that signs permissions; default: unchanged.", "ADDRESS")
     ] = None,
 ) -> None:
-    """Print the root of an allow list; with --rpc, set it in a collection, as its owner."""
+    """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
     from ...tokens import read_allow_list
     from ...whole_file import write_output
 
@@ -61,7 +61,7 @@ def permit(
     output: Annotated[Path | None, option("-o --output", "File to write; default: print it.", "FILE")] = None,
     days: Annotated[float, option("--days", "Days until it expires.", "DAYS", min=0)] = 30,
 ) -> None:
-    """Sign a permission to mint, for one account; it costs nothing. For the signer of the collection."""
+    """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
     from ...tokens import sign_allowance
     from ...whole_file import write_output
 

@@ -37,13 +37,13 @@ def deploy(
     node: NodeOptions,
     payer: PayerOptions,
     price: Annotated[
-        str | None, option("--price", "Price of a token, in ether. Default: 0.15, of an icon 0.02.", "ETHER")
+        str | None, option("--price", "Price of a token, in ether. Default: 0.15, or 0.02 for icons.", "ETHER")
     ] = None,
     reserve: Annotated[
-        int | None, option("--reserve", "Tokens reserved for the team. Default: 20, of each icon 1.", "N")
+        int | None, option("--reserve", "Tokens reserved for the team. Default: 20, or 1 of each icon.", "N")
     ] = None,
     icons: Annotated[
-        str | None, option("--icons", "Objects with commas, as heart,diamond. Default: all icons.", "NAMES")
+        str | None, option("--icons", "Comma-separated names, such as heart,diamond. Default: all icons.", "NAMES")
     ] = None,
     supply: Annotated[int | None, option("--supply", "Tokens of each icon. Default: 100.", "N")] = None,
     per_transaction: Annotated[int, option("--per-transaction", "Maximum number of tokens per call.", "N")] = 5,
@@ -51,7 +51,9 @@ def deploy(
     royalty_receiver: Annotated[
         str | None, option("--royalty-receiver", "Receiver of royalties. Default: the owner.", "ADDRESS")
     ] = None,
-    owner: Annotated[str | None, option("--owner", "Owner of the collection. Default: who pays.", "ADDRESS")] = None,
+    owner: Annotated[
+        str | None, option("--owner", "Owner of the collection. Default: the paying account.", "ADDRESS")
+    ] = None,
     allow_list: Annotated[
         Path | None,
         option("--allow-list", "Allow list: lines of account,quantity, or an OpenZeppelin tree as JSON.", "FILE"),
@@ -59,13 +61,13 @@ def deploy(
     signer: Annotated[
         str | None, option("--signer", "Account that signs permissions to mint before the public sale.", "ADDRESS")
     ] = None,
-    salt: Annotated[int, option("--salt", "Another number gives the same collection another address.", "N")] = 0,
+    salt: Annotated[int, option("--salt", "Number that changes the address of the collection.", "N")] = 0,
     any_chain: Annotated[
         bool, option("--any-chain", "Deploy Genesis on a chain other than Ethereum, its test networks and anvil's.")
     ] = False,
     as_json: Json = False,
 ) -> None:
-    """Deploy a collection and the contracts that it calls. The price is printed first; what is there is skipped."""
+    """Deploy a collection and the contracts that it calls. Prints the price first and skips what exists."""
     from ...tokens import (
         CollectionTerms,
         SceneToStore,
@@ -172,7 +174,7 @@ def deploy(
         return
     print_line(f"{kind.title}: {deployed.address}" + ("" if receipt is None else f", transaction {receipt.hash}"))
     if chosen:
-        print_line("look at the icons, then fix them for ever: shackled token seal -c icons")
+        print_line("check the icons, then seal the collection: shackled token seal -c icons")
     print_line(f"the sale is closed; open it with: shackled token phase public -c {kind.name}")
 
 

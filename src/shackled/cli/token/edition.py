@@ -1,4 +1,4 @@
-"""shackled token edition: scenes that anybody adds to one collection"""
+"""shackled token edition: scenes that anyone can add to one collection"""
 
 from __future__ import annotations
 
@@ -51,14 +51,14 @@ def add(
     name: Annotated[str, typer.Argument(help="Name of the edition, 1 to 64 bytes.", metavar="NAME")],
     which: EditionsOptions,
     payer: TokenPayerOptions,
-    price: Annotated[str, option("--price", "Price of a token, in ether; 0 is possible.", "ETHER")],
+    price: Annotated[str, option("--price", "Price of a token, in ether; may be 0.", "ETHER")],
     supply: Annotated[int | None, option("--supply", "Maximum number of tokens. Default: no limit.", "N")] = None,
     royalty: Annotated[float, option("--royalty", "Share of the price of resales, 0 to 10.", "PERCENT")] = 5,
-    copies: Annotated[int, option("--copies", "Tokens that you receive at once, for nothing, 0 to 100.", "N")] = 1,
+    copies: Annotated[int, option("--copies", "Tokens minted to you free of charge, 0 to 100.", "N")] = 1,
     scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
     as_json: Json = False,
 ) -> None:
-    """Add a scene as an edition, of which anybody can mint tokens. Nothing of it can be changed later."""
+    """Add a scene as an edition, of which anyone can mint tokens. It cannot be changed later."""
     from ...studio import STUDIO, stored_codes
     from ...tokens import EditionTerms, add_gas, added_edition, address_of, parts_of
 
@@ -73,10 +73,10 @@ def add(
     )
     collection = which.open()
     studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
-    # fails before anything is asked if the scene cannot be drawn
+    # fails before the confirmation if the scene cannot be drawn
     gas = add_gas(terms, stored_codes(collection.connection, studio, bytes.fromhex(terms.scene[2:])))
     tokens = "any number of tokens" if supply is None else plural(supply, "token")
-    title = f"add {name}, {tokens} at {ether(terms.price)}; this can never be changed"
+    title = f"add {name}, {tokens} at {ether(terms.price)}; this cannot be changed later"
     receipt = payer.send(collection, title, "add", *terms.arguments, gas=gas)
     added = added_edition(collection, receipt, str(payer.signer.address), terms)
     numbers = minted_numbers(receipt, collection.address)
@@ -86,7 +86,7 @@ def add(
     print_line(f"edition {added.number}: {added.name}; {receipt.gas:,} gas")
     if numbers:
         print_line(f"yours: {', '.join(f'#{each}' for each in numbers)}")
-    print_line(f"anybody can mint it: shackled token edition mint {added.number}")
+    print_line(f"anyone can mint it: shackled token edition mint {added.number}")
 
 
 @edition.command()
@@ -98,7 +98,7 @@ def mint(
     quantity: Annotated[int, typer.Argument(help="Number of tokens, 1 to 100.", metavar="N", min=1, max=100)] = 1,
     as_json: Json = False,
 ) -> None:
-    """Mint tokens of an edition. The price is printed first."""
+    """Mint tokens of an edition. Prints the price first."""
     from ...tokens import edition_at, edition_mint_call
 
     collection = which.open()
@@ -113,7 +113,7 @@ def mint(
         return
     names = ", ".join(f"#{each}" for each in numbers)
     print_line(f"minted {names}; {receipt.gas:,} gas, transaction {receipt.hash}")
-    print_line(f"look at it: shackled token show {numbers[0] if numbers else 'ID'} -c editions -o FILE.png")
+    print_line(f"view it: shackled token show {numbers[0] if numbers else 'ID'} -c editions -o FILE.png")
 
 
 @edition.command("list")
@@ -123,7 +123,7 @@ def list_(
     artist: Annotated[str | None, option("--artist", "Only the editions of this account.", "ADDRESS")] = None,
     as_json: Json = False,
 ) -> None:
-    """List the editions, with what their artists can withdraw."""
+    """List the editions, with the amounts that their artists can withdraw."""
     from ...tokens import editions_of
 
     account = None if artist is None else parse_checksum_address(artist, "--artist")
@@ -161,12 +161,12 @@ def list_(
 @edition.command()
 @with_groups
 def close(edition: Number, which: EditionsOptions, payer: TokenPayerOptions) -> None:
-    """End the minting of an edition, for ever. For its artist."""
+    """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
     from ...tokens import edition_at
 
     collection = which.open()
     chosen = edition_at(collection, edition)
-    title = f"close {chosen.name} with {plural(chosen.minted, 'token')}, for ever"
+    title = f"close {chosen.name} with {plural(chosen.minted, 'token')}; this cannot be undone"
     receipt = payer.send(collection, title, "close", edition)
     print_line(f"edition {edition} is closed; {receipt.gas:,} gas")
 
@@ -181,7 +181,7 @@ def withdraw(
     ] = None,
     to: Annotated[str | None, option("--to", "Receiver; default: you.", "ADDRESS")] = None,
 ) -> None:
-    """Withdraw what the tokens of your editions have cost."""
+    """Withdraw the proceeds of your editions."""
     from ...tokens import edition_at, editions_of, withdraw_gas
 
     account = str(payer.signer.address)

@@ -24,9 +24,9 @@ def add(
     ] = None,
     price: Annotated[str, option("--price", "Price of a token, in ether.", "ETHER")] = "0.02",
     supply: Annotated[int, option("--supply", "Number of tokens.", "N")] = 100,
-    reserve: Annotated[int, option("--reserve", "Number of these that are reserved for the team.", "N")] = 1,
+    reserve: Annotated[int, option("--reserve", "Number of these tokens reserved for the team.", "N")] = 1,
 ) -> None:
-    """Add an icon, whose scene is on the chain, to a collection that is not sealed. For the owner."""
+    """Add an icon, whose scene is stored already, to a collection that is not sealed. For the owner."""
     from ...studio import STUDIO, stored_codes
     from ...tokens import (
         SCALE,
@@ -54,7 +54,7 @@ def add(
             raise InputError(f"{piece.name} is not on the chain yet; run: shackled mint {piece.name}")
         name, place = piece.title, storage.pointers[0]
     arguments = (name, place, SCALE, wei, supply, reserve)
-    # fails before anything is asked if the scene cannot be drawn
+    # fails before the confirmation if the scene cannot be drawn
     studio = bytes.fromhex(address_of(parts_of(STUDIO, itself=True), STUDIO)[2:])
     codes = stored_codes(collection.connection, studio, bytes.fromhex(place[2:]))
     gas = add_call(collection.contract.interface, collection.address, arguments, codes).gas
@@ -64,10 +64,10 @@ def add(
 
 @with_groups
 def seal(which: IconsOptions, payer: TokenPayerOptions) -> None:
-    """Fix the set of icons for ever, which has to be done before the sale. For the owner."""
+    """Seal the set of icons; required before the sale. Cannot be undone. For the owner."""
     from ...tokens import icons_of
 
     collection = which.open()
     icons = icons_of(collection)
-    receipt = payer.send(collection, f"fix {len(icons)} icons for ever", "seal")
-    print_line(f"{collection.name} has {len(icons)} icons, for ever; {receipt.gas:,} gas")
+    receipt = payer.send(collection, f"seal the collection with {len(icons)} icons", "seal")
+    print_line(f"{collection.name} is sealed with {len(icons)} icons; {receipt.gas:,} gas")

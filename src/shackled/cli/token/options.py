@@ -36,7 +36,9 @@ class CollectionOptions(NodeOptions):
         from ...tokens import open_collection
 
         if self.collection == EDITIONS.name:
-            raise InputError("editions have no such sale or owner: see shackled token edition --help")
+            raise InputError(
+                "the collection of editions has no owner and no sale phases: see shackled token edition --help"
+            )
         name, connection = self.collection, self.connect()
         if name.startswith("0x"):
             return open_collection(connection, parse_checksum_address(name, "--collection"))
@@ -58,7 +60,7 @@ class CollectionOptions(NodeOptions):
 
 @dataclass(frozen=True)
 class AnyCollectionOptions(CollectionOptions):
-    """Any collection, and the node: for what can be done with every token."""
+    """Any collection, and the node: for commands that accept every token."""
 
     collection: Annotated[
         str,

@@ -1,4 +1,4 @@
-"""shackled token phase, withdraw, royalty, hand-over and take-over: commands of the owner"""
+"""shackled token phase, withdraw, royalty, transfer-ownership and accept-ownership: commands of the owner"""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def phase(
     which: CollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:
-    """Set who may mint from now on. For the owner."""
+    """Set the phase of the sale, which says who may mint. For the owner."""
     number = PHASES.index(choice(to, "the phase", PHASES))
     collection = which.open()
     receipt = payer.send(collection, f"set the sale to {to}", "setPhase", number)
@@ -50,9 +50,9 @@ def royalty(
     percent: Annotated[float, typer.Argument(help="Share of the price of resales, 0 to 10.", metavar="PERCENT")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
-    receiver: Annotated[str | None, option("--receiver", "Receiver; default: as it is.", "ADDRESS")] = None,
+    receiver: Annotated[str | None, option("--receiver", "Receiver; default: unchanged.", "ADDRESS")] = None,
 ) -> None:
-    """Set the royalty that marketplaces are asked to pay on resales, and its receiver. For the owner."""
+    """Set the royalty on resales, and its receiver. For the owner."""
     parts = round(100 * number(percent, "the royalty", 0, 10))
     given = None if receiver is None else parse_checksum_address(receiver, "--receiver")
     collection = which.open()
@@ -63,26 +63,26 @@ def royalty(
 
 
 @with_groups
-def hand_over(
+def transfer_ownership(
     to: Annotated[str, typer.Argument(help="The new owner.", metavar="ADDRESS")],
     which: CollectionOptions,
     payer: TokenPayerOptions,
 ) -> None:
-    """Offer the collection to a new owner, who then takes it over. For the owner."""
+    """Offer a collection to a new owner, who must accept it. For the owner."""
     address = parse_checksum_address(to, "the new owner")
     collection = which.open()
     receipt = payer.send(collection, f"offer it to {address}", "transferOwnership", address)
-    print_line(f"{address} can take it over: shackled token take-over; {receipt.gas:,} gas")
+    print_line(f"{address} can accept it: shackled token accept-ownership; {receipt.gas:,} gas")
 
 
 @with_groups
-def take_over(which: CollectionOptions, payer: TokenPayerOptions) -> None:
-    """Become the owner of a collection that was offered to you."""
+def accept_ownership(which: CollectionOptions, payer: TokenPayerOptions) -> None:
+    """Accept the ownership of a collection that was offered to you."""
     collection = which.open()
     signer = str(payer.signer.address)
     pending = checksum_address(bytes.fromhex(collection.contract.call("pendingOwner")[2:]))
     if pending != signer:
-        offered = "to nobody" if int(pending, 16) == 0 else f"to {pending}"
-        raise InputError(f"{collection.name} is offered {offered}, not to {signer}")
-    receipt = payer.send(collection, "become its owner", "acceptOwnership")
+        offered = "is not offered to anyone" if int(pending, 16) == 0 else f"is offered to {pending}, not to {signer}"
+        raise InputError(f"{collection.name} {offered}")
+    receipt = payer.send(collection, "accept its ownership", "acceptOwnership")
     print_line(f"{collection.name} belongs to {collection.state().owner}; {receipt.gas:,} gas")

@@ -32,7 +32,7 @@ def mint(
     payer: TokenPayerOptions,
     quantity: Annotated[int, typer.Argument(help="Number of tokens.", metavar="N", min=1, max=MAX_NUMBER)] = 1,
     allow_list: Annotated[
-        Path | None, option("--allow-list", "Mint as an account of this list, as the owner published it.", "FILE")
+        Path | None, option("--allow-list", "The allow list that the owner published, with your account.", "FILE")
     ] = None,
     permission: Annotated[
         Path | None, option("--permission", "Mint with a permission from `shackled token permit`.", "FILE")
@@ -45,7 +45,7 @@ def mint(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Mint tokens. The price is printed first."""
+    """Mint tokens. Prints the price first."""
     from ...tokens import find_icon, mint_call
 
     if sum(each is not None for each in (allow_list, permission, reserve_to)) > 1:
@@ -89,17 +89,17 @@ def reveal(
     wait: Annotated[bool, option("--wait", "Wait for blocks that are not mined yet.")] = False,
     calldata: Annotated[
         Path | None,
-        option("--calldata", "Send nothing; write the transactions as JSON, for a wallet that sends them.", "FILE"),
+        option("--calldata", "Write the transactions to a JSON file for a wallet, and send nothing.", "FILE"),
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Reveal the tokens whose blocks are mined. Anyone can, from any wallet; the result is the same."""
+    """Reveal the tokens whose blocks are mined. Anyone can do this."""
     from ...deploy import current_fees
     from ...tokens import hidden_rounds, price_calls, price_wallet_calls, reveal_calls
 
     collection = which.open()
     if not collection.kind.hidden:
-        raise InputError(f"the tokens of {collection.name} show their pictures at once: there is nothing to reveal")
+        raise InputError(f"the tokens of {collection.name} are never hidden: there is nothing to reveal")
     rounds = hidden_rounds(collection)
     if not rounds:
         if calldata is not None:
@@ -138,7 +138,7 @@ def reveal(
             print_json({"rounds": [each.number for each in ready], "transactions": hashes, "gas": gas})
     if len(ready) < len(rounds):
         waiting, following = plural(len(rounds) - len(ready), "round"), rounds[len(ready)]
-        text = f"left to reveal: {waiting}, whose blocks are to come, the next one {following.block:,}"
+        text = f"not yet revealable: {waiting}; the next one needs block {following.block:,}"
         (print_note if as_json else print_line)(text)
 
 
@@ -148,7 +148,7 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
 
     latest = latest_block(collection)
     while wait and (missing := rounds[-1].missing_blocks(latest)):
-        print_note(f"waiting for block {rounds[-1].block:,}, {missing:,} more to come")
+        print_note(f"waiting for block {rounds[-1].block:,}: {plural(missing, 'more block')}")
         time.sleep(PAUSE)
         latest = latest_block(collection)
     ready = [each for each in rounds if not each.missing_blocks(latest)]
@@ -161,7 +161,7 @@ def _ready_rounds(collection: Collection, rounds: list[Round], wait: bool) -> li
 
 
 def _name_of(call: RevealCall) -> str:
-    """Return what a call is for; no two calls of a reveal have the same name."""
+    """Return the purpose of a call; no two calls of a reveal have the same one."""
     if call.function != "reveal":
         return f"prove blocks before {call.arguments[0]}"
     numbers = call.arguments[0]
@@ -169,9 +169,9 @@ def _name_of(call: RevealCall) -> str:
 
 
 def _print_pasting(quotes: list[Quote], path: Path) -> None:
-    """Print how the transactions get into a wallet that reads no file."""
+    """Print how to send the transactions with a wallet that reads no file."""
     if len(quotes) > 1:
-        print_line(f"send them one after the other, each when the one before is in a block: {path} has `to` and `data`")
+        print_line(f"send them in order, each after the previous one is mined: {path} has `to` and `data`")
         return
     call = quotes[0].call
     assert call.to is not None

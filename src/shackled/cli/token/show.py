@@ -24,11 +24,11 @@ def show(
     token_id: Annotated[int, typer.Argument(help="Number of the token.", metavar="ID", min=0, max=MAX_NUMBER)],
     which: AnyCollectionOptions,
     output: Annotated[
-        Path | None, option("-o --output", "File for the picture; in the token's own format, its very bytes.", "FILE")
+        Path | None, option("-o --output", "File for the picture; unchanged if it has the token's format.", "FILE")
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Show a token: its traits, and its picture as a file, both from its `tokenURI`."""
+    """Show the traits of a token, and save its picture, both from its `tokenURI`."""
     from ...tokens import read_view
 
     if output is not None:
@@ -95,7 +95,7 @@ def picture(
     ],
     node: NodeOptions,
     output: Annotated[
-        Path, option("-o --output", "File: a picture, .png or .svg, or a model, .glb, that viewers turn.", "FILE")
+        Path, option("-o --output", "Output file: a picture, .png or .svg, or a 3D model, .glb.", "FILE")
     ],
     scale: Annotated[int, option("--scale", "Side of the square that each pixel becomes.", "N", min=1, max=8)] = 4,
     turntable: Annotated[
@@ -106,7 +106,7 @@ def picture(
     ] = DURATION,
     size: Annotated[str | None, option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE")] = None,
 ) -> None:
-    """Have a chain draw a scene that is stored there, as a file that contracts make."""
+    """Render a stored scene on a chain."""
     from ...studio import ANIMATE, STUDIO
     from ...tokens import Contract, address_of, parts_of
 
@@ -161,4 +161,4 @@ def verify(
     if failed:
         raise VerificationError(f"{failed} of the checks failed" + (f", and {not_read}" if unread else ""))
     if unread:
-        raise VerificationError(f"no check failed, but {not_read}: use a node that gives calls more gas")
+        raise VerificationError(f"no check failed, but {not_read}: use a node with a higher gas limit for calls")

@@ -1,4 +1,4 @@
-"""What the messages of the page do, by name. The messages are untrusted: each value is checked."""
+"""The actions of the messages of the page, by name. The messages are untrusted: each value is checked."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .wallet import offer_of
 
 
 async def act(visitor: Visitor, message: object) -> None:
-    """Do what a message says. A wrong message changes nothing; the visitor is shown the error."""
+    """Execute a message. A wrong message changes nothing; the visitor is shown the error."""
     if not isinstance(message, dict) or not isinstance(message.get("do"), str) or message["do"] not in ACTIONS:
         return
     try:
@@ -286,7 +286,7 @@ async def _reveal(visitor: Visitor, message: Message) -> None:
         raise InputError("there is no such wallet")
     _check_not_revealing(visitor)
     visitor.collection = collection
-    # it may wait for a block: another look replaces it
+    # it may wait for a block: another search replaces it
     visitor.job("reveal", lambda: dialogs.find_tokens(visitor, collection, number))
 
 

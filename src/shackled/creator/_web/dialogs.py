@@ -94,7 +94,7 @@ async def stages(visitor: Visitor) -> None:
 
 
 async def compare(visitor: Visitor) -> None:
-    """Render the picture on the node and say whether it is the same."""
+    """Render the picture on the node and report whether it is the same."""
     await visitor.tell({"texts": {"node": "Rendering on the node …"}, "attributes": {"node": {"disabled": ""}}})
     try:
         result = await visitor.pool.compare(visitor.name, visitor.state)
@@ -185,7 +185,10 @@ async def _show_transaction(visitor: Visitor, reveal: Reveal | None) -> None:
 async def _with_wallet(
     visitor: Visitor, number: int, name: str, work: Callable[[Wallet, Tell], Awaitable[str]], waits: bool = True
 ) -> None:
-    """Do what needs a wallet, and say how it goes. name: of the status, and of the buttons that wait for the end."""
+    """Run a task that needs a wallet, and report its progress.
+
+    name: of the status, and of the buttons that wait for the end.
+    """
 
     async def tell(words: str) -> None:
         if words != visitor.status.get(name):

@@ -1,7 +1,7 @@
 """The picture on the page as an edition of the visitor, stored, added and minted by the visitor's own wallet.
 
-Everything that the wallet says is checked: the code of the contracts and of what was stored, the receipts, and the
-edition as the collection answers it.
+Every answer of the wallet is checked: the code of the contracts and of what was stored, the receipts, and the edition
+as the collection returns it.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def parse_terms(fields: Any, source: Source) -> EditionTerms:
 
 
 def can_be_sold(source: Source) -> bool:
-    """Return whether the licence of a piece allows an edition of it; of a file the visitor states it."""
+    """Return whether the licence of a piece allows an edition of it; for a file the visitor states it."""
     if source.kind == "upload":
         return True
     piece = require(source.name)
@@ -76,7 +76,7 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     """Store the scene where it is missing, add the edition, and return a sentence that says which it is.
 
     tell: called with a sentence on each step. InputError if the chain has no collection, WalletError if the wallet
-    refuses or answers what cannot be.
+    refuses or returns an invalid answer.
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
@@ -84,8 +84,8 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     chain = chain_name(number_of_chain)
     if await _code(wallet, calls.collection) != calls.code:
         raise InputError(
-            f"{chain} has no collection of editions at {calls.collection}: switch the wallet to a chain that has, or "
-            "deploy it there: shackled deploy --contracts Editions"
+            f"{chain} has no collection of editions at {calls.collection}: switch the wallet to a chain that has "
+            "one, or deploy it there: shackled deploy --contracts Editions"
         )
     missing = [each for each in calls.storing if await _code(wallet, each.pointer) != each.code]
     for number, each in enumerate(missing, 1):
@@ -96,8 +96,8 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
             raise WalletError(f"the transaction succeeded, but the scene is not at {each.pointer} on {chain}")
     terms, transaction = calls.terms, {"from": account, "to": calls.collection, "data": to_hex(calls.add)}
     await tell(
-        f"Adding the edition: {terms.name}, {ether(terms.price)} a token, about {calls.gas:,} gas. This can never be "
-        "changed. Confirm it in the wallet …"
+        f"Adding the edition: {terms.name}, {ether(terms.price)} a token, about {calls.gas:,} gas. This cannot be "
+        "changed later. Confirm it in the wallet …"
     )
     receipt = await wallet.send(transaction | {"value": "0x0"}, tell, number_of_chain)
     added = events(receipt, calls.collection, ADDED)
@@ -109,7 +109,7 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     )
     found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, price, supply, royalty)
     if artist.lower() != account.lower() or found != terms.arguments[:-1]:
-        raise WalletError(f"edition {number}, which the wallet says was added, is another one")
+        raise WalletError(f"edition {number}, which the wallet reports as added, does not match the terms")
     yours = "".join(f", token {each} is yours" for each in minted_tokens(receipt, calls.collection))
     return f"Added: edition {number} of {EDITIONS.title}{yours}, at {calls.collection} on {chain}"
 

@@ -42,7 +42,7 @@ MAX_VISITORS = 500
 ABSENCE = 120
 #: Largest number of bytes of a message from the page.
 MAX_MESSAGE = 65536
-#: Seconds that a connection may take for one message. A page that vanished would hold its place much longer, since
+#: Seconds that a connection may take for one message. A page that vanished would keep its place much longer, since
 #: pings are not answered but the connection is closed only when the buffered message is sent.
 MAX_SENDING = 40
 
@@ -51,7 +51,7 @@ class Visitors:
     """All visitors, by names that cannot be guessed."""
 
     def __init__(self, pool: Pool, first: Source) -> None:
-        """pool: renders for all of them. first: what visitors see who have no link."""
+        """Begin without visitors. pool: renders for all of them. first: the source for visitors without a link."""
         self.pool = pool
         self.first = first
         self._all: dict[str, Visitor] = {}

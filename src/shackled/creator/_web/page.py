@@ -1,4 +1,4 @@
-"""The HTML of the page, made from templates, and what its keys do. What it shows of a picture comes by WebSocket."""
+"""The HTML of the page, made from templates, and the actions of its keys. The picture comes by WebSocket."""
 
 from __future__ import annotations
 
@@ -65,19 +65,19 @@ KEYS: tuple[Key, ...] = (
     Key(("-", "_"), "-", "Zoom out", {"do": "zoom", "notches": -1}),
     Key(("f", "F"), "F", "Fit the object into the picture", {"do": "fit"}),
     Key(("0", "Home"), "0", "Reset the camera", {"do": "reset-group", "group": "camera"}),
-    Key(("p", "P"), "P", "Perspective or orthographic", {"do": "cycle", "path": "camera.projection"}),
-    Key(("s", "S"), "S", "Unlit, flat or smooth", {"do": "cycle", "path": "surface.shading"}),
+    Key(("p", "P"), "P", "Switch projection", {"do": "cycle", "path": "camera.projection"}),
+    Key(("s", "S"), "S", "Cycle shading", {"do": "cycle", "path": "surface.shading"}),
     Key(("w", "W"), "W", "Wireframe", {"do": "cycle", "path": "wireframe"}),
-    Key(("c", "C"), "C", "Leave out back faces", {"do": "cycle", "path": "cull"}),
+    Key(("c", "C"), "C", "Cull back faces", {"do": "cycle", "path": "cull"}),
     Key(("i", "I"), "I", "Invert", {"do": "cycle", "path": "invert"}),
     Key(("a", "A"), "A", "Anti-aliasing", {"do": "cycle", "path": "antialias"}),
     Key(("l", "L"), "L", "Next look", {"do": "next-look"}),
-    Key(("g", "G"), "G", "Random piece of Genesis", {"do": "any-genesis"}),
+    Key(("g", "G"), "G", "Random Genesis piece", {"do": "any-genesis"}),
     Key(("Ctrl+z",), "Ctrl Z", "Undo", {"do": "undo"}),
     Key(("Ctrl+Shift+z", "Ctrl+y"), "Ctrl Shift Z", "Redo", {"do": "redo"}),
     Key(("Enter",), "Enter", "Gas, limits and stages", {"do": "stages"}),
     Key(("d", "D"), "D", "Download and share", {"do": "takeaway"}),
-    Key(("?",), "?", "This help", {"open": "keys"}),
+    Key(("?",), "?", "Show this help", {"open": "keys"}),
 )
 
 #: What the pointer does, and how.
@@ -131,6 +131,6 @@ def on_shelf(name: str) -> list[Piece]:
 
 
 def has_thumbnail(name: str) -> bool:
-    """Whether there is a piece of this name that needs no download."""
+    """Return whether there is a piece of this name that needs no download."""
     piece = find(name) if len(name) <= 40 else None
     return piece is not None and piece.ready()

@@ -1,7 +1,7 @@
 """Revealing tokens of Genesis by the visitor's own wallet, which also reads from the chain.
 
 `find_reveal` makes the transaction, which the page shows, and `send_reveal` has the wallet send it. Nothing that the
-wallet says is trusted: each header is compared with the hash that the collection has of its block.
+wallet reports is trusted: each header is compared with the hash that the collection has of its block.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from ...values import plural
 from .wallet import AT_ONCE, DeclinedError, Tell, Wallet, WalletError, chain_name
 
 KIND = KINDS["genesis"]
-#: Seconds between two looks at the chain, and how many in a row may fail.
+#: Seconds between two requests for the latest block, and how many in a row may fail.
 PAUSE, TRIES = 4.0, 10
 #: The largest number of tokens of a collection.
 MOST_TOKENS = 1024
@@ -78,8 +78,8 @@ async def find_reveal(address: str, wallet: Wallet, number: int, tell: Tell) -> 
     """Return the transaction that reveals what can be revealed; None if everything is revealed.
 
     If no block of a hidden round is mined yet, wait for the first. number: of the wallet. tell: called with a sentence
-    on each step. InputError if there is no collection, or if the hashes of all the blocks are forgotten; WalletError or
-    NodeError if the wallet refuses, or answers what cannot be.
+    on each step. InputError if there is no collection, or if the hashes of all the blocks are no longer available;
+    WalletError or NodeError if the wallet refuses, or returns an invalid answer.
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
@@ -120,14 +120,14 @@ async def find_reveal(address: str, wallet: Wallet, number: int, tell: Tell) -> 
 async def send_reveal(reveal: Reveal, wallet: Wallet, tell: Tell) -> str:
     """Have the wallet send the transaction, and return a sentence that says what it revealed.
 
-    InputError if it would reveal nothing any more, WalletError if the wallet refuses or answers what cannot be.
+    InputError if it would reveal nothing any more, WalletError if the wallet refuses or returns an invalid answer.
     """
     await tell("Waiting for the wallet …")
     account = await wallet.account()
     await _require_chain(wallet, reveal.chain)
     collection = _Collection(wallet, reveal.collection)
     if all(map(any, await collection.randomness(reveal.rounds))):
-        raise InputError("somebody else has revealed these tokens already")
+        raise InputError("these tokens are revealed already")
     await tell("Confirm it in the wallet …")
     transaction = {"from": account, "to": reveal.collection, "data": to_hex(reveal.data), "value": "0x0"}
     await wallet.send(transaction, tell, reveal.chain)
@@ -163,7 +163,7 @@ class _Collection:
         """Return the rounds with tokens that are not revealed, in order."""
         minted = await self.read("totalSupply")
         if minted > MOST_TOKENS:
-            raise WalletError(f"the wallet says that the collection has {minted:,} tokens, more than {MOST_TOKENS:,}")
+            raise WalletError(f"the wallet reports {minted:,} tokens of the collection, more than {MOST_TOKENS:,}")
         numbers: set[int] = set()
         for first in range(0, minted, TOKENS_AT_ONCE):
             numbers.update(await self.read("hiddenRounds", first, min(first + TOKENS_AT_ONCE, minted) - 1))
@@ -180,8 +180,8 @@ async def _wait(wallet: Wallet, first: Round, latest: int, tell: Tell) -> int:
     failures = 0
     while missing := first.missing_blocks(latest):
         await tell(
-            f"The seeds come from block {first.block:,}: {plural(missing, 'block')} to wait for. The page checks again "
-            "by itself, and then shows the transaction."
+            f"The seeds come from block {first.block:,}; the round can be revealed in {plural(missing, 'block')}. "
+            "The page checks automatically, and then shows the transaction."
         )
         await asyncio.sleep(PAUSE)
         try:
@@ -213,19 +213,21 @@ def _randomness(header: bytes) -> bytes:
 def _later(rounds: list[Round], mined: list[Round], known: int) -> str:
     """Return a sentence about the rounds that cannot be revealed now, or that do not fit in; "" if there are none.
 
-    known: number of those whose block hashes the collection knows.
+    known: number of those whose block hashes the collection has.
     """
     words = []
     if known > ROUNDS_AT_ONCE:
-        words.append(f"{plural(known - ROUNDS_AT_ONCE, 'round')} more can be revealed: look again afterwards.")
+        words.append(f"{plural(known - ROUNDS_AT_ONCE, 'more round')} can be revealed: search again afterwards.")
     if len(mined) > known:
         words.append(
-            f"{plural(len(mined) - known, 'round')} cannot be revealed from here, because the chain keeps no hashes of "
-            f"such old blocks: the command `{COMMAND}` proves them, with --calldata FILE for a wallet."
+            f"{plural(len(mined) - known, 'round')} cannot be revealed from this page, because the chain keeps no "
+            f"hashes of such old blocks: the command `{COMMAND}` proves them, with --calldata FILE for a wallet."
         )
     if len(rounds) > len(mined):
         coming = rounds[len(mined)].block
-        words.append(f"{plural(len(rounds) - len(mined), 'round')} more to come, the next one with block {coming:,}.")
+        words.append(
+            f"{plural(len(rounds) - len(mined), 'round')} cannot be revealed yet; the next one needs block {coming:,}."
+        )
     return " ".join(words)
 
 

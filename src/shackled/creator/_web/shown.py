@@ -1,4 +1,4 @@
-"""What a page shows: the message with all that has changed since the last one, and the figures below the picture."""
+"""The messages to a page: all that has changed since the last one, and the figures below the picture."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .._presets import PRESETS
 from .._scene import Facts, filled
 from .._state import Orbit, State
 
-_NOTHING = "nothing of the object is in view"
+_NOTHING = "the object is out of view"
 
 
 class Shown:
-    """What one page shows already."""
+    """The values that one page shows already."""
 
     def __init__(self) -> None:
         """Begin with a page that shows nothing yet."""
@@ -91,7 +91,7 @@ def figures(frame: Frame, facts: Facts, draft: bool) -> dict[str, Any]:
     if draft:
         return {"texts": texts}
     fits = headline(frame.fits) if frame.fits else "gas is not counted here"
-    hint = "" if frame.triangles != 0 else f" · {_NOTHING}: F fits it"
+    hint = "" if frame.triangles != 0 else f" · {_NOTHING}: press F to fit it"
     texts |= {
         "triangles": "" if frame.triangles is None else f"{frame.triangles:,}",
         "triangles-label": f"Triangles drawn, of {facts.triangles:,}",

@@ -202,7 +202,7 @@ class Visitor:
         self._jobs[name] = asyncio.create_task(self._job(name, work))
 
     def is_at(self, name: str) -> bool:
-        """Whether the long task of this name is running."""
+        """Return whether the long task of this name is running."""
         return name in self._jobs
 
     def stop(self, name: str) -> None:
@@ -271,7 +271,7 @@ class Visitor:
 
     @property
     def view(self) -> Message:
-        """What the page needs to draw pictures of a movement: the camera, and a digest of everything else."""
+        """The view with which the page draws pictures of a movement: the camera, and a digest of everything else."""
         state = self.posed
         assert state.camera is not None
         return {"key": scene_key(state), "camera": asdict(state.camera), "follow": state.lights_follow}

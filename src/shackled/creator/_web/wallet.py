@@ -23,7 +23,7 @@ REFUSED, UNKNOWN_CHAIN = (4001, 5000), 4902
 #: Seconds that a visitor may take to confirm.
 PATIENCE = 300
 #: Names of well-known chains.
-CHAINS = {1: "Ethereum", 11155111: "Sepolia", 17000: "Holesky", 31337: "a development chain"}
+CHAINS = {1: "Ethereum", 11155111: "Sepolia", 560048: "Hoodi", 31337: "a development chain"}
 OPEN_FOR_ALL = 2
 #: Seconds between two requests for the receipt, and the largest number of requests.
 PAUSE, TRIES = 1.0, 240
@@ -80,14 +80,17 @@ class Waiting:
             waiting.set_result(result)
             return
         kind = DeclinedError if code in REFUSED else UnknownChainError if code == UNKNOWN_CHAIN else WalletError
-        waiting.set_exception(kind(f"the wallet says: {' '.join(str(error).split())[:200]}"))
+        waiting.set_exception(kind(f"the wallet reports: {' '.join(str(error).split())[:200]}"))
 
 
 class Wallet:
     """One of the wallets that the page has found."""
 
     def __init__(self, waiting: Waiting, send: Callable[[dict[str, Any]], Awaitable[None]], number: int) -> None:
-        """waiting: requests of the visitor. send: sends a message to the page. number: place in the list of wallets."""
+        """Take one of the wallets.
+
+        waiting: requests of the visitor. send: sends a message to the page. number: place in the list of wallets.
+        """
         self._waiting = waiting
         self._send = send
         self._number = number
@@ -167,11 +170,11 @@ class Offer:
 
     @property
     def words(self) -> str:
-        """What is minted, in one sentence."""
+        """Description of the token, in one or two sentences."""
         where = ", ".join(chain_name(each) for each in self.places)
         if self.kind.hidden:
-            return f"A token of {self.kind.title} ({where}). Which piece it is is drawn at random after minting."
-        return f"The icon as it is in {self.kind.title} ({where}), without your changes."
+            return f"A token of {self.kind.title} ({where}). The piece is chosen at random after minting."
+        return f"The icon as stored in {self.kind.title} ({where}), without your changes."
 
 
 def chain_name(chain: int) -> str:
@@ -189,7 +192,7 @@ def offer_of(source: Source) -> Offer | None:
 
 
 async def mint(offer: Offer, wallet: Wallet, tell: Tell) -> str:
-    """Mint one token; return a sentence that says which. tell: called with a sentence on each step.
+    """Mint one token; return a sentence that names it. tell: called with a sentence on each step.
 
     InputError if it cannot be minted, WalletError if the wallet refuses.
     """

@@ -26,7 +26,7 @@ const view = new View($("#view"), {
   covered: () => local.moving,
 });
 let visitor = "";
-let opens = location.pathname === "/reveal"; // an address that others can be told
+let opens = location.pathname === "/reveal"; // an address that can be shared
 
 // ---- what comes back ----
 
