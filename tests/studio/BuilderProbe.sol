@@ -61,6 +61,16 @@ contract BuilderProbe {
         return stage.scene;
     }
 
+    /// @notice A mesh of some scale, seen from a direction, white before black.
+    function alone(bytes memory packed, int256 numerator, int256 denominator, int256[3] memory toward) external pure returns (Scene memory) {
+        Stage memory stage = StageMaker.stage(64, 64);
+        stage.background(0, 0);
+        stage.add(packed, StageMaker.unlit()).scale = StageMaker.fraction(numerator, denominator);
+        stage.paint(0xffffff);
+        stage.fit(StageMaker.units(toward[0], toward[1], toward[2]));
+        return stage.scene;
+    }
+
     /// @notice A mesh placed in a box, and one of which only the bounds are known.
     function placed(bytes memory packed, int256[3][2] memory bounds, int256[6] memory room) external pure returns (Scene memory) {
         Stage memory stage = StageMaker.stage(60, 40);

@@ -14,6 +14,7 @@ from tools.ledger import World, call_data
 
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
+from shackled.image import decode_bmp
 from shackled.scene import Viewpoint, frame, is_closed, pack, pack_texture, unpack
 from shackled.scene import decode as decode_scene
 from shackled.studio import scene_struct, split_mesh
@@ -319,6 +320,25 @@ def test_scenes_from_elsewhere_go_on(world: World, probe: bytes) -> None:
     assert scene[5] == given[5] + given[5][:1]
     assert scene[6][:2] == given[6]
     assert scene[6][2][0] == bytes(5)
+
+
+@pytest.mark.parametrize(
+    ("length", "scale"), [(1500, (1, 10)), (3000, (1, 10)), (1000, (1, 1000)), (1000, (1, 100000))]
+)
+def test_long_and_small_objects_are_in_view(world: World, probe: bytes, length: int, scale: tuple[int, int]) -> None:
+    """A pyramid and a bar, seen from their ends with the eye close by: nothing is clipped, at any scale."""
+    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    for near, far in ((0, 300), (2, 2)):
+        corners = [(far * x, far * y, 0) for x, y in square] + [(near * x, near * y, length) for x, y in square]
+        sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4)] + [(k, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
+        mesh = pack(Mesh(corners, [*sides, (4, 5, 6), (4, 6, 7)]))
+        (scene,) = ask(world, probe, [SCENE_STRUCT], "alone(bytes,int256,int256,int256[3])", mesh, *scale, [0, 0, 1])
+        bitmap = world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
+        white = decode_bmp(decode(["bytes"], bitmap)[0], 64, 64)[..., 0] == 255
+        rows, columns = np.nonzero(white)
+        # whole, symmetric, in the middle
+        assert white.sum() == (rows.max() - rows.min() + 1) * (columns.max() - columns.min() + 1) > 0
+        assert (rows.min() + rows.max(), columns.min() + columns.max()) == (63, 63)
 
 
 @pytest.mark.parametrize("tenths", [0, 500, 225])

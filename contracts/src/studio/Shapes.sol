@@ -386,7 +386,7 @@ library Shapes {
         unchecked {
             first = m.vertexCount;
             (int256 radius, int256 y) = (point[0], turn.y + point[1]);
-            if (radius < 0) revert SizeOutOfRange(radius);
+            if (radius < 0 || radius > 65535) revert SizeOutOfRange(radius);
             if (radius == 0) {
                 m.vertex(turn.x, y, turn.z, turn.color);
                 return first;

@@ -31,13 +31,15 @@ def stored_codes(connection: Connection, studio: bytes, pointer: bytes) -> dict[
         return codes[place][1:]
 
     def read(place: bytes) -> bytes:
-        """Return the bytes stored at an address. As in Kept.sol the parts of a list are bytes, whatever they begin with."""
+        """Return the bytes stored at an address. As in Kept.sol, the parts of a list are never lists themselves."""
         data = part(place)
         if data[:1] != bytes([PARTS]):
             return data
         places = [data[1 + 20 * k : 21 + 20 * k] for k in range((len(data) - 1) // 20)]
         if sum(len(part(each)) for each in places) > MAX_SIZE:
-            raise VerificationError(f"the parts at {checksum_address(place)} have more than {MAX_SIZE:,} bytes together")
+            raise VerificationError(
+                f"the parts at {checksum_address(place)} have more than {MAX_SIZE:,} bytes together"
+            )
         return b"".join(part(each) for each in places)
 
     for mesh in stored_meshes(read(pointer)):

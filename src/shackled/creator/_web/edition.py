@@ -17,7 +17,7 @@ from .._state import Source
 from .wallet import Tell, Wallet, WalletError, chain_name, events, minted_tokens
 
 #: Topic of the event of a new edition.
-ADDED = to_hex(keccak256(b"EditionAdded(uint256,address,address,string,uint256,uint256,uint256,uint256)"))
+ADDED = to_hex(keccak256(b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"))
 #: Address of a scene that is not known yet.
 UNKNOWN = "0x" + "00" * 20
 
@@ -41,6 +41,7 @@ def parse_terms(fields: Any, source: Source) -> EditionTerms:
         price=parse_ether(price, "the price"),
         supply=int(supply) if supply else OPEN,
         royalty=round(100 * _percent(royalty)),
+        model=fields.get("model") == "on",
     )
 
 
@@ -104,10 +105,10 @@ async def mint_edition(calls: EditionCalls, wallet: Wallet, tell: Tell) -> str:
     if len(added) != 1:
         raise WalletError("the transaction succeeded, but its receipt names no new edition")
     number = added[0][1]
-    artist, price, supply, _, _, _, royalty, scale, scene, name = await wallet.read(
+    artist, price, supply, _, _, _, royalty, scale, model, scene, name = await wallet.read(
         EDITIONS.contract, calls.collection, "editionAt", number
     )
-    found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, price, supply, royalty)
+    found = (name, checksum_address(bytes.fromhex(scene[2:])), scale, model, price, supply, royalty)
     if artist.lower() != account.lower() or found != terms.arguments[:-1]:
         raise WalletError(f"edition {number}, which the wallet reports as added, does not match the terms")
     yours = "".join(f", token {each} is yours" for each in minted_tokens(receipt, calls.collection))
