@@ -74,7 +74,7 @@ web: $(DEV) $(NODE) ## types, style and tests of the TypeScript package, and whe
 	$(BIN)/python tools/build_web.py --check
 
 docs: $(DEV) ## the documentation, in site/
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 unit: $(DEV) $(NODE) browser opengl ## the tests, the gas snapshot among them
 	$(BIN)/pytest -n 2 --dist worksteal
@@ -114,9 +114,10 @@ paper: $(DEV) $(NODE) ## make the experiments of the paper again: benchmarks/res
 	$(BIN)/python -m tools.anvil $(BIN)/shackled bench --all -o benchmarks/results --rpc
 	$(BIN)/python -m benchmarks.story
 
-pictures: $(DEV) ## draw the pictures of the documentation
+pictures: $(DEV) ## draw the pictures of the documentation, except those of docs/draw_creator.py and docs/draw_gallery.py
 	$(BIN)/python -m docs.draw_pictures
 	$(BIN)/python -m docs.draw_studio
+	$(BIN)/python -m docs.draw_textures
 	$(BIN)/python -m docs.draw_building
 	$(BIN)/python -m docs.draw_preview
 	$(BIN)/python -m docs.draw_library

@@ -1,4 +1,4 @@
-"""The cost of the collections: all 1,024 pieces of Genesis, all icons, PNG files."""
+"""Measure the cost of the collections: all 1,024 pieces of Genesis, all icons, PNG files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .studio import recorded as recorded_of_studio
 
 #: Seeds of the collection of 2021.
 PIECES = 1024
-#: Of the original, as its paper states it.
+#: Gas of the most expensive piece and of the generation in the original, as the paper states it.
 ORIGINAL_PIECE, ORIGINAL_GENERATION = 17_831e6, 40.2e6
 
 
@@ -34,26 +34,28 @@ def piece_rows() -> list[Row]:
     generation = [call("Genesis", generate + seed_of(number)).gas for number in range(PIECES)]
     pictures = [gas(load(f"genesis/{number}")) for number in range(PIECES)]
     worst = int(np.argmax(pictures))
-    dearest = Row(
-        f"dearest Genesis piece of {PIECES:,}",
+    expensive = Row(
+        f"most expensive Genesis piece of {PIECES:,}",
         pictures[worst],
         ORIGINAL_PIECE,
-        must=7.5e6,
-        aim=6e6,
+        required=7.5e6,
+        target=6e6,
         more=f"number {worst}",
     )
     median = statistics.median(generation)
-    return [dearest, Row("Genesis generation, median", median, ORIGINAL_GENERATION, must=0.70e6, aim=0.60e6)]
+    return [expensive, Row("Genesis generation, median", median, ORIGINAL_GENERATION, required=0.70e6, target=0.60e6)]
 
 
 def token_rows() -> list[Row]:
-    """Measure `tokenURI` of both collections."""
+    """Measure `tokenURI` of Genesis and of Icons."""
     of_genesis, of_icons = genesis_uris(), icon_uris()
-    worst, dearest = int(np.argmax(of_genesis)), max(of_icons, key=of_icons.__getitem__)
+    worst, icon = int(np.argmax(of_genesis)), max(of_icons, key=of_icons.__getitem__)
     return [
-        Row(f"Genesis `tokenURI`, mean of {PIECES:,}", statistics.fmean(of_genesis), must=5.0e6, aim=4.5e6),
-        Row("the same, dearest", of_genesis[worst], must=12e6, aim=10e6, more=f"number {worst}"),
-        Row("dearest icon's `tokenURI`", of_icons[dearest], must=16.5e6, aim=14e6, more=dearest),
+        Row(f"Genesis `tokenURI`, mean of {PIECES:,}", statistics.fmean(of_genesis), required=5.0e6, target=4.5e6),
+        Row(
+            "Genesis `tokenURI`, most expensive", of_genesis[worst], required=12e6, target=10e6, more=f"number {worst}"
+        ),
+        Row("`tokenURI` of an icon, most expensive", of_icons[icon], required=16.5e6, target=14e6, more=icon),
     ]
 
 
@@ -85,8 +87,11 @@ def with_icons(s: Stage, names: list[str]) -> Contract:
 
 
 def png_row() -> Row:
-    """Return what a PNG file costs beyond the bitmap that it is made of; the figure of studio.json."""
+    """Return what a PNG file costs in addition to its bitmap: the figure of studio.json."""
     (name,) = (name for name in recorded_of_studio() if name.startswith("PNG, Genesis, x 4") and name.endswith(": gas"))
     return Row(
-        "PNG of 128 x 128 enlarged 4 times, more than BMP, mean", recorded_of_studio()[name], must=1.3e6, aim=1.1e6
+        "PNG of 128 x 128 enlarged 4 times, more than BMP, mean",
+        recorded_of_studio()[name],
+        required=1.3e6,
+        target=1.1e6,
     )

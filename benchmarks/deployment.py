@@ -133,7 +133,7 @@ def storing_table(costs: dict[str, Cost]) -> str:
     others = [each.name for each in items() if not each.is_icon]
     rows = {
         f"the cheapest item, `{ordered[0]}`": costs[ordered[0]],
-        f"the dearest item, `{ordered[-1]}`": costs[ordered[-1]],
+        f"the most expensive item, `{ordered[-1]}`": costs[ordered[-1]],
         f"the {len(icons)} icons": total(costs[name] for name in icons),
         f"the {len(others)} common objects": total(costs[name] for name in others),
         f"**all {len(costs)} items**": total(costs.values()),

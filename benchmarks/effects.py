@@ -52,7 +52,7 @@ def ground(scene: Scene) -> Scene:
 ROWS: dict[str, Change] = {
     "antialiased, without effects": lambda scene: scene,
     "the EffectsEngine, with no effect": scene_with(tone=Tone()),
-    "light from the sky": scene_with(hemisphere=Hemisphere("skyblue", "tan")),
+    "hemisphere light": scene_with(hemisphere=Hemisphere("skyblue", "tan")),
     "rim, exponent 3": scene_with(rim=Rim("white", 3)),
     "fog": scene_with(fog=Fog("white", 1.0, 4.0)),
     "exposure": scene_with(tone=Tone(1.5)),

@@ -1,4 +1,4 @@
-"""Whether gas is linear in the number of triangles and of pixels."""
+"""Measure whether gas is linear in the number of triangles and of pixels."""
 
 from __future__ import annotations
 
@@ -66,11 +66,11 @@ def section() -> Section:
         f" triangles, {SQUARE_SIDE} x {SQUARE_SIDE} pixels.\n"
         f"Cubes: one on canvases of {SIDES[0]} x {SIDES[0]} to {SIDES[-1]} x {SIDES[-1]} pixels. All: both together."
         " Matte: without highlights.\n\n"
-        "triangles: faces of the mesh; pixels: of the canvas; rows: of pixels that each triangle has, summed, which\n"
-        "grow with the root of the triangles. Square: the part of the gas of the largest scene that a term with the\n"
-        "square of the triangles, or of the pixels, takes when the fit may use one.\n\n"
-        "Highlights are computed for single pixels in large triangles and for vertices in small ones; so a glossy\n"
-        "square cut finer needs first more gas, then less, then more again, and lies on no line.\n\n"
+        "triangles: faces of the mesh; pixels: of the canvas; rows: the pixel rows of all triangles, summed, which\n"
+        "grow with the root of the number of triangles. Square: the share of a term with the square of the triangles,\n"
+        "or of the pixels, in the gas of the largest scene, if the fit may use such a term.\n\n"
+        "Highlights are computed per pixel in large triangles and per vertex in small ones. The gas of a glossy\n"
+        "square that is cut finer therefore first rises, then falls, then rises again, and is not linear.\n\n"
     )
     return Section(TITLE, text + table(["look, scenes", "gas", "R2", "square"], lines), data)
 

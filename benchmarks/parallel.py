@@ -1,7 +1,7 @@
 """`python -m benchmarks.parallel`: measure the gas of tiles, and the frames per second of several backends.
 
-Written to parallel.md and parallel.json beside this file. Gas is exact; times are of one run on one machine, and say
-little but for their ratios.
+Written to parallel.md and parallel.json beside this file. Gas is exact; times are of one run on one machine, so
+only their ratios are meaningful.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ def tiles() -> Section:
         "The teapot, 992 triangles, smooth. Gas of all tiles together, divided by that of the whole picture.\n\n"
         + table(heads, rows)
         + "\n\nEach tile reads the vertices and faces of the whole scene once more, to find those that it shows, so "
-        "that tiles are dear for small pictures. Up to 16 strips (1 x n) cost about as much as squares; of 64 tiles "
-        "squares cost up to 16 % less. "
-        "Of a large picture tiles may cost less than the whole: memory becomes dearer the more of it a call uses."
+        "that tiles are expensive for small pictures. Up to 16 strips (1 x n) cost about as much as squares; of 64 "
+        "tiles squares cost up to 16% less. "
+        "Tiles of a large picture can cost less than the whole: the price of memory grows with the square of its size."
     )
     return Section("Tiles", text, data)
 

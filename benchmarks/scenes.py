@@ -1,4 +1,4 @@
-"""Scenes that need no file."""
+"""Make scenes that need no file."""
 
 from __future__ import annotations
 

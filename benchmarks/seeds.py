@@ -20,7 +20,7 @@ from tools.tokens.world import GAS
 
 PAGE = ROOT / "docs" / "genesis.md"
 COUNT = 10_000
-#: Gas of which the share of dearer seeds is told.
+#: Seeds that take more gas than this are counted.
 LIMIT = 10_000_000
 
 
@@ -40,7 +40,7 @@ def table(gas: list[int]) -> str:
     rows = {
         "mean": f"{fmean(gas) / 1e6:.2f}M",
         "median": f"{median(gas) / 1e6:.2f}M",
-        "dearest": f"{max(gas) / 1e6:.2f}M",
+        "most expensive": f"{max(gas) / 1e6:.2f}M",
         f"above {LIMIT / 1e6:.0f}M": f"{above:,}, {above / len(gas):.2%}",
     }
     lines = [f"| gas of `tokenURI` | {len(gas):,} random seeds |", "|---|---:|"]

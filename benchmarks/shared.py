@@ -1,7 +1,9 @@
-"""The scenes of the cost table, which are not part of the repository.
+"""Load the scenes of the cost table, which are not part of the repository.
 
-They are looked for in the folder `shared` beside the repository, or where SHACKLED_SHARED says; what needs them is left
-out without them.
+They are the scenes with which the original was measured: 15 meshes of about 1,000 triangles, pieces of its collection,
+cubes and a square, as JSON files in the format of the original. SHACKLED_SHARED names the folder that contains them in
+`scenes`; by default it is a folder `shared` beside the repository. Measurements that need them are skipped if they are
+missing.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from .scenes import LAMP
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = Path(os.environ.get("SHACKLED_SHARED") or ROOT.parent / "shared") / "scenes"
 
-SKIPPED = "skipped: there is no folder `shared` with the scenes beside the repository (or SHACKLED_SHARED names none)"
+SKIPPED = "skipped: the scenes of the cost table are missing (SHACKLED_SHARED names the folder that contains them)"
 
 FRONTAL_LAMP = Light("point", (0, 0, -1500))
 
@@ -29,7 +31,7 @@ UNLIT_SUFFIX, SMOOTH_SUFFIX, OWN_SUFFIX, LAMP_SUFFIX = " unlit", " smooth", " sm
 
 
 def is_there() -> bool:
-    """Return whether the folder is there."""
+    """Return whether the folder of the scenes exists."""
     return FOLDER.is_dir()
 
 
@@ -76,7 +78,7 @@ def _with(of: Scene, materials: list[Material]) -> Scene:
 
 @cache
 def table_scenes() -> dict[str, Scene]:
-    """Return the scenes of the cost table, by name and what was changed; nothing if the folder is missing."""
+    """Return the scenes of the cost table, by name and change; none if the folder is missing."""
     if not is_there():
         return {}
     scenes = {}
@@ -92,7 +94,7 @@ def table_scenes() -> dict[str, Scene]:
 
 
 def all_scenes() -> dict[str, Scene]:
-    """Return all scenes of the folder that can be loaded; some are made to be refused."""
+    """Return all scenes of the folder that can be loaded; some are invalid on purpose."""
     scenes = {}
     for path in sorted(FOLDER.glob("*.json")):
         try:

@@ -1,4 +1,4 @@
-"""Take the gas snapshot: exact figures in git, so that every change shows its price.
+"""Take the gas snapshot: exact figures in git, so that the cost of every change is visible.
 
     python -m benchmarks.snapshot
 

@@ -80,12 +80,12 @@ def report(scenes: dict[str, Scene]) -> Section:
 
 
 EXPLANATION = (
-    "Every instruction's gas, charged to the stage whose source it comes from, beside the floor: what a count of the\n"
-    "least instructions gives, to about 15 %: 250 a vertex, 150 a face, 900 a drawn triangle and 900 more where\n"
-    "it is lit by a face normal, 153 a row of a triangle, 74 a tested pixel, 300 (directional lights) or 680 (a point\n"
-    "light) a visible pixel that is lit for itself, 2.75 of memory a pixel of a band for depths, no more.\n"
-    "Light that is interpolated over a triangle may cost less than that. The fragment shader walks the rows and tests\n"
-    "the depths of all triangles that are not plain, so its floor and that of the rows belong together.\n\n"
+    "The gas of every instruction, charged to the stage whose source it comes from, beside the floor: an estimate\n"
+    "of the least gas, to about 15%: 250 per vertex, 150 per face, 900 per drawn triangle and 900 more if it is\n"
+    "lit by a face normal, 153 per row of a triangle, 74 per tested pixel, 300 (directional lights) or 680 (a\n"
+    "point light) per visible pixel that is lit separately, 2.75 for the memory of each pixel of a band of\n"
+    "depths. Light that is interpolated over a triangle can cost less. The fragment shader processes the rows and\n"
+    "tests the depths of all triangles that are not plain, so its floor and that of the rows belong together.\n\n"
 )
 
 

@@ -1,9 +1,9 @@
-"""Measure `shackled token demo` on a real node: every action of both collections beside the original's.
+"""Measure `shackled token demo` on a real node: every action of Genesis and Icons, compared with the original.
 
     python -m benchmarks.token_demo
 
-starts an anvil, runs the demo, and writes token-demo.md. The pictures of Genesis, and with them the gas of their
-`tokenURI`, are others each time, as the chain draws them; benchmarks/tokens.py has exact figures of fixed seeds.
+starts an anvil, runs the demo, and writes token-demo.md. The pieces of Genesis, and the gas of their
+`tokenURI`, differ from run to run, because the chain determines the seeds; benchmarks/tokens.py measures fixed seeds.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ FILE = Path(__file__).with_name("token-demo.md")
 
 HEAD = """# Tokens on a node
 
-Made by `python -m benchmarks.token_demo`: what `shackled token demo` pays on a fresh anvil, at its default limits.
-Of transactions all gas that was paid, of `tokenURI` the execution alone. The original, the Shackled contracts of 2021:
-mint 1 and mint 5 as measured, `tokenURI` from 5,700 to 14,400 million.
+Made by `python -m benchmarks.token_demo`: the gas of `shackled token demo` on a fresh anvil, with its default limits.
+The figures of transactions include all gas that was paid; those of `tokenURI` are execution only. *Original*: the
+Shackled contracts of 2021, as measured; their `tokenURI` took 5,700 to 14,400 million gas.
 
 """
 

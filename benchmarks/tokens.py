@@ -1,4 +1,4 @@
-"""Measure the collections: exact gas of every action, in git, so that every change shows its price.
+"""Measure the collections: exact gas of every action, in git, so that the cost of every change is visible.
 
     python -m benchmarks.tokens
 
@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
 PAGE = ROOT / "docs" / "tokens.md"
 
-#: Of the contracts of 2021, as their authors state it.
+#: Gas of the contracts of 2021, as measured on them.
 ORIGINAL = {"mint 1": 124_000, "mint 5": 712_000}
 #: Seeds of the collection over which the statistics of tokenURI are.
 SEEDS = 256
@@ -81,7 +81,7 @@ def take(seeds: int = SEEDS) -> Figures:
 
 
 def editions(s: Stage) -> Figures:
-    """Measure the collection to which anybody adds scenes."""
+    """Measure the collection to which anyone can add scenes."""
     contract = s.world.deploy("Editions", s.studio)
     figures = {"deploy Editions": contract.gas}
     for number, name in enumerate(("lightning", "crown")):

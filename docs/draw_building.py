@@ -1,4 +1,4 @@
-"""Draws the pictures of docs/building.md: the scenes of examples/building/Gallery.sol.
+"""Draw the pictures of docs/building.md: the scenes of examples/building/ShapeGallery.sol and StageGallery.sol.
 
     python -m docs.draw_building
 
@@ -58,7 +58,7 @@ def draw(world: World, scene: bytes) -> NDArray[np.uint8]:
 
 
 def main() -> None:
-    """The command."""
+    """Draw the pictures."""
     world = World()
     for gallery, pictures in PICTURES.items():
         for name, functions in pictures.items():

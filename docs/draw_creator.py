@@ -24,7 +24,7 @@ PACE, SHRINK = 10, 1.5
 
 
 def main() -> None:
-    """Make all of them."""
+    """Make all pictures."""
     with creator() as server, sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=browser_path(), args=list(ARGUMENTS))
 

@@ -1,8 +1,8 @@
-"""Draws the picture of token-commands.md: the gallery that `shackled token demo` leaves, in a real browser.
+"""Draw the picture of token-commands.md: the gallery that `shackled token demo` writes, in a real browser.
 
     python -m docs.draw_gallery
 
-Needs anvil and chromium. The pieces are others each time, as the chain draws their seeds.
+Needs anvil and chromium. The pieces differ from run to run, because the chain determines their seeds.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from shackled.tokens import run_demo
 
 FOLDER = Path(__file__).parent
 
-#: Of a palette, which is enough for a page and keeps the file small.
+#: Size of the palette, which keeps the file small.
 COLORS = 256
 
 
 def main() -> None:
-    """The picture."""
+    """Draw the picture."""
     binary = find_anvil()
     if binary is None:
         raise SystemExit("anvil is not installed: npm ci in contracts/")

@@ -1,4 +1,4 @@
-"""Draws the pictures of docs/library.md: all items, asked of the contract Web, and the scenes of an example.
+"""Draw the pictures of docs/library.md: all items, requested from the contract Web, and the scenes of an example.
 
     python -m docs.draw_library
 
@@ -52,14 +52,14 @@ class Shelf:
                 assert answer.status == Status.SUCCESS, item.name
 
     def ask(self, site: bytes, path: str, **parameters: str) -> tuple[int, bytes, dict[str, str]]:
-        """Return what a contract answers to a request of a browser (ERC-5219): status, body, headers."""
+        """Return the response of a contract to a request (ERC-5219): status, body, headers."""
         # the body is bytes, which the ABI of the contracts calls text
         request = artifact("Web").interface.encode("request", path.split("/")[1:], list(parameters.items()))
         status, body, headers = decode(["uint16", "bytes", "(string,string)[]"], self.call(site, request))
         return status, body, dict(headers)
 
     def call(self, contract: bytes, data: bytes) -> bytes:
-        """Return what a contract answers. LookupError if it reverts."""
+        """Return the result of a call. LookupError if it reverts."""
         answer = self.evm.call(contract, data, GAS)
         if answer.status != Status.SUCCESS:
             raise LookupError(describe_revert(answer.output))
@@ -125,7 +125,7 @@ def example_picture() -> PillowImage.Image:
 
 
 def main() -> None:
-    """The command."""
+    """Draw the pictures."""
     contact_sheet(Shelf(items()), items()).save(FOLDER / "library.png", optimize=True)
     example_picture().save(FOLDER / "library-pedestal.png", optimize=True)
 

@@ -1,7 +1,7 @@
-"""Draws the pictures of the documentation, and notes what they cost: `make pictures`.
+"""Draw pictures of the documentation, and write their gas to pictures.json: `make pictures`.
 
-Every pixel is one that the contracts made; the strip puts several pictures side by side, and the sheets
-of pieces their names beneath them.
+The contracts compute every pixel of the pictures. The strip has several pictures side by side; contact sheets have the
+names of pieces below them.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ GLAZED = Material("smooth", ambient=0.25, diffuse=0.85, specular=0.6, shininess=
 
 
 def pot(divisions: int, size: int, material: Material, **look: Unpack[LookOptions]) -> Scene:
-    """The teapot, its spout to the right."""
+    """Return a scene of the teapot, its spout to the right."""
     posed: LookOptions = {"rotate": (0, 12, 0), "azimuth": 30, "elevation": 20, **look}
     return stage(teapot(divisions), size, material=material, **posed)
 
 
 def smooth() -> Image:
-    """What `make demo` draws."""
+    """Draw the picture of `make demo`."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, str(EXAMPLES / "meshes.py"), "--into", folder, "teapot"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -57,12 +57,12 @@ def smooth() -> Image:
 
 
 def wireframe() -> Image:
-    """Its edges."""
+    """Draw the edges of the teapot."""
     return render(pot(4, 256, UNLIT, color="#ffb35c", background=NIGHT, wireframe=True, cull=True))
 
 
 def still_life() -> Image:
-    """examples/scene.toml, larger."""
+    """Draw examples/scene.toml, larger."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, str(EXAMPLES / "meshes.py"), "--into", f"{folder}/meshes"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -72,13 +72,13 @@ def still_life() -> Image:
 
 
 def smoothed() -> PillowImage.Image:
-    """A crown without and with anti-aliasing, each pixel a square of 4."""
+    """Draw a crown without and with anti-aliasing, each pixel enlarged to 4 x 4."""
     pair = [render("icons/crown", size=96, antialias=flag).pixels for flag in (False, True)]
     return PillowImage.fromarray(np.hstack(pair)).resize((8 * 96, 4 * 96), PillowImage.Resampling.NEAREST)
 
 
 def transparent() -> tuple[PillowImage.Image, int | None]:
-    """A mushroom under glass before its background, and over a checkerboard; the gas of the second picture."""
+    """Draw a mushroom behind glass, with its background and over a checkerboard; also return the gas of the latter."""
     scene = load("icons/mushroom", 256, antialias=True)
     pane = load("cube", color="#d8f4ff").objects[0]
     glass = Material("flat", ambient=0.6, diffuse=0.4, specular=0.3, shininess=20)
@@ -94,7 +94,7 @@ def transparent() -> tuple[PillowImage.Image, int | None]:
 
 
 def glass() -> list[Image]:
-    """A teapot before balls: opaque, of one opacity, and with opacities that grow toward its foot."""
+    """Draw a teapot in front of balls: opaque, with one opacity, and with opacities that increase toward its foot."""
     scene = pot(6, 192, GLAZED, color="#2f7fa8", lights=KEY, background=CREAM, antialias=True)
     (vessel,) = scene.objects
     balls = [
@@ -112,7 +112,7 @@ def glass() -> list[Image]:
 
 
 def strip() -> list[Image]:
-    """The same teapot in six ways, 128 x 128 pixels each."""
+    """Draw the same teapot with six looks, 128 x 128 pixels each."""
     flat = evolve(GLAZED, shading="flat")
     dim = evolve(GLAZED, ambient=0.1, diffuse=0.75)
     lamps = [
@@ -137,7 +137,7 @@ def strip() -> list[Image]:
 
 
 def effects() -> dict[str, list[Image]]:
-    """The options of docs/light.md: rows of pictures, 192 x 192 pixels each, of which the first is without."""
+    """Draw the rows of docs/light.md and docs/shadows.md, 192 x 192 pixels each, the first without the effect."""
     chalk = Material("smooth", ambient=0.6, diffuse=0.5, specular=0.1, shininess=20)
     pale = pot(6, 192, chalk, color="#f0ece4", lights=KEY, ambient_light="#a0a0a0", background="#c4d8ec")
     dark = pot(6, 192, evolve(GLAZED, ambient=0.12), color=CLAY, lights=KEY, background=NIGHT)
@@ -191,13 +191,13 @@ def effects() -> dict[str, list[Image]]:
 
 
 def spin() -> Animation:
-    """A turntable, small enough for a page."""
+    """Draw a turntable, small enough for a page."""
     pose = pot(6, 160, GLAZED, color=CLAY, lights=KEY, background=CREAM, cull=True)
     return turntable(pose, 24, duration=80)
 
 
 def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Image, list[int]]:
-    """Pieces, 128 x 128 pixels each, with their names beneath; and what each costs in gas."""
+    """Draw pieces, 128 x 128 pixels each, with their names below; also return the gas of each."""
     side, label = 128, 22
     sheet = PillowImage.new("RGB", (columns * side, -(-len(pieces) // columns) * (side + label)), "#14161c")
     pen, font = ImageDraw.Draw(sheet), ImageFont.load_default(13)
@@ -212,14 +212,14 @@ def contact_sheet(pieces: Sequence[Piece], columns: int) -> tuple[PillowImage.Im
 
 
 def genesis() -> tuple[PillowImage.Image, list[int]]:
-    """The first 24 pieces of the collection, each made by one call from its seed; and what each costs in gas."""
+    """Draw the first 24 pieces of the collection, each with one call from its seed; also return the gas of each."""
     images = [picture_on_chain(generate(seed_of(number))) for number in range(24)]
     rows = [np.hstack([image.pixels for image in images[start : start + 8]]) for start in (0, 8, 16)]
     return PillowImage.fromarray(np.vstack(rows)), [image.gas or 0 for image in images]
 
 
 def main() -> None:
-    """The command."""
+    """Draw all pictures, and write pictures.json."""
     IMAGES.mkdir(exist_ok=True)
     figures: dict[str, Any] = {}
     for name, draw in {"teapot": smooth, "wireframe": wireframe, "scene": still_life}.items():

@@ -1,4 +1,4 @@
-"""Draws the picture of docs/studio.md: tokens of examples/tokens, as they stand in their own URIs.
+"""Draw the picture of docs/studio.md: tokens of examples/tokens, as their URIs contain them.
 
     python -m docs.draw_studio
 
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def main() -> None:
-    """The command."""
+    """Draw the picture."""
     world = World()
     studio = world.address("Studio")
     for storing in store_scene(load("icons/diamond"), studio, chain=world.chain):

@@ -1,4 +1,4 @@
-"""Draws docs/images/textures.png: a jar without and with its texture, and its texels near by."""
+"""Draw docs/images/textures.png: a jar without and with its texture, and a close-up of its texels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lets pictures of the site be turned, those that carry their scene: a hook of mkdocs."""
+"""Make the pictures of the site interactive that contain their scene: a hook of mkdocs."""
 
 from __future__ import annotations
 

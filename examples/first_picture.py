@@ -1,8 +1,8 @@
-"""A picture from Python: a scene of two objects, rendered by the contracts in this process.
+"""Build a scene of two objects in Python, and render it with the contracts in this process.
 
     python examples/first_picture.py
 
-writes first_picture.png and says what it cost.
+writes first_picture.png and prints its gas.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Writes the meshes of the examples as OBJ files.
+"""Write the meshes of the examples as OBJ files.
 
-python examples/meshes.py                         all of them, beside this file
-python examples/meshes.py --into build teapot     one of them, somewhere else
+python examples/meshes.py                         all of them, in the folder meshes beside this file
+python examples/meshes.py --into build teapot     one of them, into another folder
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ Points = NDArray[np.float64]
 
 
 def teapot_mesh() -> Mesh:
-    """The Utah teapot, 3.15 high, standing on y = 0: 4,032 triangles."""
+    """Return the Utah teapot, 3.15 high, standing on y = 0: 4,032 triangles."""
     return teapot(8)
 
 
 def sphere(around: int = 32, down: int = 16) -> Mesh:
-    """Radius 1 about the origin."""
+    """Return a sphere of radius 1 about the origin."""
     latitude = np.linspace(0, np.pi, down + 1)
     return lathe(np.sin(latitude), np.cos(latitude), around)
 
 
 def goblet(around: int = 28) -> Mesh:
-    """A goblet, 2.6 high, standing on y = 0, open at the top."""
+    """Return a goblet, 2.6 high, standing on y = 0, open at the top."""
     height = np.linspace(1, 0, 21)
     radius = 0.42 + 0.42 * np.sin(2.6 * np.pi * height**0.8 + 0.4) * (1 - 0.55 * height)
     return lathe(np.append(radius, 0), np.append(2.6 * height, 0), around)
 
 
 def ring(radius: float = 1.0, thickness: float = 0.32, around: int = 40, across: int = 16) -> Mesh:
-    """A torus that lies on y = 0, about the y axis."""
+    """Return a torus that lies on y = 0, about the y axis."""
     u, v = np.meshgrid(*(np.linspace(0, 2 * np.pi, n, endpoint=False) for n in (around, across)), indexing="ij")
     reach = radius + thickness * np.cos(v)
     points = np.stack([reach * np.cos(u), thickness * (1 + np.sin(v)), -reach * np.sin(u)], axis=-1)
@@ -47,7 +47,7 @@ def ring(radius: float = 1.0, thickness: float = 0.32, around: int = 40, across:
 
 
 def ball() -> Mesh:
-    """A geodesic sphere of radius 1, 320 triangles, for wireframes."""
+    """Return a geodesic sphere of radius 1, 320 triangles, for wireframes."""
     phi = (1 + 5**0.5) / 2
     corners = np.array([(0, s, t * phi) for s in (1, -1) for t in (1, -1)])
     points = [tuple(np.roll(corner, turn)) for turn in range(3) for corner in corners]
@@ -70,7 +70,7 @@ def ball() -> Mesh:
 
 
 def floor(side: int = 12) -> Mesh:
-    """A chessboard of `side` by `side` squares of side 1, at y = 0, its middle at the origin."""
+    """Return a chessboard of `side` by `side` squares of side 1, at y = 0, centred at the origin."""
     x, z = (c.reshape(-1) for c in np.meshgrid(np.arange(side), np.arange(side), indexing="ij"))
     places = np.stack([x, z], axis=1)[:, None] + [(0, 0), (0, 1), (1, 1), (1, 0)] - np.array(side / 2)
     positions = np.stack([places[..., 0], np.zeros(places.shape[:2]), places[..., 1]], axis=-1).reshape(-1, 3)
@@ -80,7 +80,7 @@ def floor(side: int = 12) -> Mesh:
 
 
 def lathe(radius: Points, height: Points, around: int) -> Mesh:
-    """The surface that a profile, from the top down, sweeps about the y axis."""
+    """Return the surface of revolution of a profile, given from top to bottom, about the y axis."""
     angle = np.linspace(0, 2 * np.pi, around, endpoint=False)
     points = np.stack(
         [
@@ -94,7 +94,7 @@ def lathe(radius: Points, height: Points, around: int) -> Mesh:
 
 
 def _grid_faces(rows: int, columns: int, closed: bool) -> NDArray[np.int64]:
-    """Two triangles for each cell of a grid whose columns, and whose rows if `closed`, go round."""
+    """Return two triangles for each cell of a grid. Columns wrap around; rows, too, if `closed`."""
     row, column = np.meshgrid(np.arange(rows if closed else rows - 1), np.arange(columns), indexing="ij")
     below, right = (row + 1) % rows, (column + 1) % columns
     a, b, c, d = (r * columns + q for r, q in ((row, column), (below, column), (below, right), (row, right)))
@@ -102,7 +102,7 @@ def _grid_faces(rows: int, columns: int, closed: bool) -> NDArray[np.int64]:
 
 
 def _welded(points: Points, faces: NDArray[np.int64]) -> Mesh:
-    """Points in one place, but for rounding, become one vertex; faces without an area are left out."""
+    """Merge points that are equal up to rounding, and remove faces without an area."""
     positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
     one, two, three = (faces := number.reshape(-1)[faces]).T
     return Mesh(positions, faces[(one != two) & (two != three) & (three != one)])
@@ -119,7 +119,7 @@ MESHES: dict[str, Callable[[], Mesh]] = {
 
 
 def main() -> None:
-    """The command."""
+    """Write the meshes."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"which: {', '.join(MESHES)}; else all")
     parser.add_argument("--into", type=Path, default=Path(__file__).parent / "meshes", help="the folder")

@@ -2,7 +2,8 @@
 
     python -m tools.anvil COMMAND ...
 
-runs a command while an anvil with the contracts of the renderer is there; its address is the command's last argument.
+starts an anvil with the contracts of the renderer, runs a command with the URL of the node as its last argument, and
+stops the anvil.
 """
 
 from __future__ import annotations

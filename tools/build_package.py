@@ -3,9 +3,9 @@
     python tools/build_package.py            writes contracts/src/Addresses.sol and the folder build/npm
     python tools/build_package.py --check    writes nothing; fails if contracts/src/Addresses.sol is not up to date
 
-`npm pack` and `npm publish` in build/npm take it from there. The folder contains the sources of contracts/src, the
-files of contracts/npm, docs/contract-authors.md as README, and what is made of the compiled contracts: artifacts, ABIs
-with types, addresses, and the code for the Foundry fixture.
+Run `npm pack` or `npm publish` in build/npm afterwards. The folder contains the sources of contracts/src, the files of
+contracts/npm, docs/contract-authors.md as README, and files generated from the compiled contracts: artifacts, ABIs with
+types, addresses, and the code for the Foundry fixture.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def _code_functions(code: bytes) -> str:
 
 
 def hardhat_artifact(name: str) -> str:
-    """Return a compiled contract as an artifact of Hardhat, which other tools read, too."""
+    """Return a compiled contract as an artifact in the format of Hardhat, which other tools read, too."""
     built = json.loads((ARTIFACTS / f"{name}.json").read_text("utf-8"))
     return _json(
         {

@@ -4,8 +4,8 @@
     python tools/gas_blocks.py teapot LinearSpans.plain             the blocks of one of them
     python tools/gas_blocks.py --call Genesis 0x5d6c... Layouts.fits    of a call of another contract, by its data
 
-Of a scene (a file, a name, a piece of a dataset) the call is `Renderer.render`. Look for what repeats: a value that is
-taken out of a word again at each use, and long rows of DUP and SWAP, mean that the function has a variable too many.
+For a scene (a file or the name of a dataset piece) the call is `Renderer.render`. Look for repetition: a value that is
+unpacked from a word at each use, and long sequences of DUP and SWAP, mean that the function has too many variables.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A chain in this process on which contracts may create others, as the Studio does."""
+"""Simulate a chain in this process on which contracts can create others, as the Studio does."""
 
 from __future__ import annotations
 

@@ -20,6 +20,9 @@ TOKENS = ROOT / "benchmarks" / "tokens.json"
 PICTURES = ROOT / "docs" / "images" / "pictures.json"
 EFFECTS = ROOT / "benchmarks" / "effects.json"
 
+#: Numbers in words, for sentences.
+COUNTS = {5: "five", 6: "six", 7: "seven"}
+
 #: Rows of the cost table for the README: a part of the name of the row, and the title.
 ROWS = {
     "obj_*_cull": "a model of about 1,000 triangles, lit (mean of 15)",
@@ -44,10 +47,11 @@ def costs() -> str:
 
 
 def tokens() -> str:
-    """Return the table of what tokens cost, beside the figures of the original's authors."""
+    """Return the table of what tokens cost, beside what they cost in the original."""
     data: dict[str, int] = json.loads(TOKENS.read_text("utf-8"))
-    mean = next(value for name, value in data.items() if name.startswith("tokenURI, mean"))
-    most = next(value for name, value in data.items() if name.startswith("tokenURI, most"))
+    pieces: dict[str, dict[str, Any]] = next(iter(json.loads(RESULTS.read_text("utf-8")).values()))
+    mean = next(row["gas"] for name, row in pieces.items() if name.startswith("Genesis `tokenURI`, mean"))
+    most = next(row["gas"] for name, row in pieces.items() if name.startswith("Genesis `tokenURI`, most"))
     return (
         "| Genesis | original, gas | Shackled, gas |\n|---|---:|---:|\n"
         f"| mint 1 | 124 thousand | {data['mint 1'] / 1e3:.0f} thousand |\n"
@@ -64,9 +68,10 @@ def pictures() -> str:
     return (
         f"Every pixel above was computed by contracts. The still life: {scene['width']} x {scene['height']} pixels,"
         f" {scene['triangles']:,} triangles, {millions(scene['gas'])} gas.\n"
-        f"The strip: 128 x 128 pixels each, {millions(min(strip['gas']))} to {millions(max(strip['gas']))} gas."
-        f" The teapot of `make demo`, {teapot['triangles']:,} triangles drawn at"
-        f" {teapot['width']} x {teapot['height']}: {millions(teapot['gas'])}."
+        f"The strip: {COUNTS[len(strip['gas'])]} pictures of 128 x 128 pixels, {min(strip['gas']) / 1e6:.1f} to"
+        f" {max(strip['gas']) / 1e6:.1f} million gas each.\n"
+        f"The teapot of `make demo`: {teapot['triangles']:,} triangles drawn at"
+        f" {teapot['width']} x {teapot['height']} pixels, {millions(teapot['gas'])} gas."
     )
 
 
@@ -74,7 +79,7 @@ def effects() -> str:
     """Return the table of what the pictures of docs/light.md cost, from left to right."""
     data = json.loads(PICTURES.read_text("utf-8"))
     lines = ["| pictures | without | with |", "|---|---:|---:|"]
-    for name, title in {"hemisphere": "light from the sky", "rim": "rim", "fog": "fog", "tone": "tone"}.items():
+    for name, title in {"hemisphere": "hemisphere light", "rim": "rim", "fog": "fog", "tone": "tone"}.items():
         first, *others = (f"{gas / 1e6:.1f}" for gas in data[name]["gas"])
         lines.append(f"| {title} | {first} | {', '.join(others)} |")
     return "\n".join(lines)
@@ -103,7 +108,7 @@ def millions(gas: float) -> str:
 
 
 def main() -> int:
-    """Update the README."""
+    """Update the figures, or check that they are up to date."""
     parser = argparse.ArgumentParser(description="Update the figures of README.md.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
     check = parser.parse_args().check

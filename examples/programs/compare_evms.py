@@ -1,4 +1,4 @@
-"""Compare the pictures of two EVMs with NumPy, and edit one with Pillow."""
+"""Compare the pictures of an EVM and of the NumPy reference, and edit one with Pillow."""
 
 import numpy as np
 from PIL import Image

@@ -1,4 +1,4 @@
-"""Print the gas of a picture, by stage, and the limits within which it fits. The stages need py-evm."""
+"""Print the gas of a picture, by stage, and the limits within which it fits."""
 
 import shackled
 from shackled.gas import limits, profile

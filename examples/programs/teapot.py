@@ -1,4 +1,4 @@
-"""Render a built-in model, save the picture, and print what it cost."""
+"""Render a built-in model, save the picture, and print its gas."""
 
 import shackled
 

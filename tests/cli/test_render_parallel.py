@@ -137,7 +137,7 @@ def test_wrong_usage(capsys: pytest.CaptureFixture[str], options: list[str], mes
 def test_what_is_too_much_for_any_part(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["render", "teapot", "-o", "a.png", "--gas-limit", "100000"]) == 1
     messages = capsys.readouterr().err
-    assert "ran out of gas: 100,000 did not suffice; a part of" in messages
+    assert "ran out of gas: 100,000 gas is not enough even for a tile of" in messages
     assert not Path("a.png").exists()
     assert not Path("a.png.parts").exists()
 

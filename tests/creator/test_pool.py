@@ -366,7 +366,7 @@ def test_what_is_wrong_is_said() -> None:
             await pool.render("a", State(Source("piece", "teapott")))
         with pytest.raises(InputError, match="is not in the memory of this server: open it again"):
             await pool.render("a", State(Source("upload", "ab" * 32)))
-        with pytest.raises(ChainError, match="ran out of gas: 100,000 did not suffice"):
+        with pytest.raises(ChainError, match="ran out of gas: 100,000 gas is not enough"):
             await pool.render("a", TETRAHEDRON)
         with pytest.raises(InputError, match="no node to compare with"):
             await pool.compare("a", TETRAHEDRON)

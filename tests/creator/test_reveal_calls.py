@@ -125,7 +125,7 @@ def test_older_blocks_are_for_the_command(chain: RevealChain) -> None:
     chain.stage.world.mine_to(chain.genesis.call("blockOf", round_) + 300)
     reveal = found(chain)
     assert [each.number for each in reveal.rounds] == [round_]
-    assert "1 round cannot be revealed from here" in reveal.later
+    assert "1 round cannot be revealed from this page" in reveal.later
 
 
 def test_what_others_have_revealed_is_not_sent(chain: RevealChain) -> None:

@@ -61,7 +61,7 @@ def test_limits_that_cannot_be() -> None:
     for lower, upper in [(5, 5), (6, 5), (-1, 5)]:
         with pytest.raises(InputError, match="0 <= lower < upper"):
             search(lambda _: True, lower, upper)
-    with pytest.raises(OutOfGasError, match="1,000, the upper limit of the search, did not suffice"):
+    with pytest.raises(OutOfGasError, match="1,000 gas, the upper limit of the search, is not enough"):
         search(lambda _: False, 0, 1000)
     with pytest.raises(OutOfGasError):
         search(lambda _: False)

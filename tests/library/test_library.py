@@ -207,7 +207,7 @@ def test_the_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: p
         assert run(paid) == 0
         assert capsys.readouterr().out.count("0x") == 2
         assert run(paid) == 0
-        assert "all of it is stored already: nothing was sent" in capsys.readouterr().err
+        assert "all items are stored already: nothing was sent" in capsys.readouterr().err
         assert run(["library", "list", "--rpc", node.url, "--json"]) == 0
         listed = {each["name"]: each["stored"] for each in json.loads(capsys.readouterr().out)["items"]}
         assert [name for name, stored in listed.items() if stored] == ["ethereum", "cube"]

@@ -52,7 +52,7 @@ def test_an_old_block_is_proven_by_the_headers_after_it(
         before = node.rpc("evm_snapshot")
         monkeypatch.chdir(tmp_path)
         assert run(["token", "reveal", "--rpc", node.url, "--calldata", "calls.json"]) == 0
-        assert "send them one after the other" in capsys.readouterr().out
+        assert "send them in order, each after the previous one is mined" in capsys.readouterr().out
         written = json.loads(Path("calls.json").read_text())["calls"]
         assert [call["name"].partition(" ")[0] for call in written] == ["prove"] * 3 + ["reveal"]
         assert len({call["name"] for call in written}) == 4

@@ -95,7 +95,7 @@ def balance(node: Anvil) -> int:
 
 def ceiling(said: str) -> int:
     """The most that was told, in wei."""
-    found = re.findall(r"at most ([\d.]+) ether in all", said) or re.findall(r"total.* ([\d.]+)\s*$", said, re.M)
+    found = re.findall(r"at most ([\d.]+) ether in total", said) or re.findall(r"total.* ([\d.]+)\s*$", said, re.M)
     (told,) = found
     return int(Decimal(told) * ETHER)
 

@@ -1,1 +1,1 @@
-"""The collections, deployed on a chain in this process."""
+"""Deploy the collections on a chain in this process."""

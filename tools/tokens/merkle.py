@@ -1,4 +1,4 @@
-"""The tree of an allow-list, written down once more: leaves in order, pairs sorted."""
+"""Build the Merkle tree of an allow list independently: leaves in order, pairs sorted."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def leaf(address: str, quantity: int) -> bytes:
 
 
 def pair(*nodes: bytes) -> bytes:
-    """Hash two nodes, whichever comes first; a single node is handed on."""
+    """Hash two nodes, in either order; a single node is returned unchanged."""
     return nodes[0] if len(nodes) == 1 else keccak(b"".join(sorted(nodes)))
 
 

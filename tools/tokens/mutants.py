@@ -1,4 +1,4 @@
-"""Change the contract Editions in many small ways, and check that its tests fail for each change.
+"""Make faulty versions of the contract Editions, and check that its tests detect each.
 
     python -m tools.tokens.mutants           all of them, about twenty minutes
     python -m tools.tokens.mutants WORD ...  those whose code contains one of the words

@@ -1,4 +1,4 @@
-"""A world with the collections deployed, one for each test."""
+"""Make a world with the collections deployed, for each test."""
 
 from __future__ import annotations
 
@@ -7,26 +7,28 @@ from dataclasses import dataclass
 from functools import cache
 
 from attrs import evolve
-from eth_utils.abi import collapse_if_tuple
 
 from shackled import Scene
 from shackled.artifacts import artifact
 from shackled.datasets import icons
-from shackled.scene import encode
-from tools.tokens.world import ETHER, GAS, Contract, World, account, keccak
+from shackled.studio import store_scene as storing
+from tools.tokens.world import ETHER, GAS, Contract, World, account
 
 PRICE = ETHER // 20
 RESERVE = 24
 LIMIT = 10
 CLOSED, ALLOW_LIST, PUBLIC = range(3)
 
-#: Two small ones: name, supply, reserve, price.
+#: Two small icons: name, supply, reserve, price.
 ICONS = {"icons/lightning": ("Lightning", 12, 2, ETHER // 10), "icons/ethereum": ("Ether", 1000, 0, ETHER // 100)}
 
 
 @dataclass
 class Stage:
-    """The sales are open for all; round 0 of Genesis begins with its first block. Everybody has 1000 ether."""
+    """The contracts and accounts of a world.
+
+    The sales are public; round 0 of Genesis begins with the first block. Each account has 1,000 ether.
+    """
 
     world: World
     renderer: Contract
@@ -40,13 +42,13 @@ class Stage:
     bob: str
 
     def mint(self, quantity: int = 1, sender: str | None = None) -> list[int]:
-        """Mints tokens of Genesis; their numbers."""
+        """Mint tokens of Genesis; return their numbers."""
         first = int(self.genesis.call("totalSupply"))
         self.genesis.send("mint", quantity, sender=sender or self.alice, value=quantity * PRICE)
         return list(range(first, first + quantity))
 
     def reveal(self, *rounds: int) -> None:
-        """Reveals rounds, as early as the world's hashes of blocks can be read."""
+        """Reveal rounds, in the first block in which the contract can read the hashes that it needs."""
         blocks = [self.genesis.call("blockOf", each) for each in rounds]
         self.world.mine_to(max(*blocks, self.world.number - 257) + 257)
         self.genesis.send("reveal", list(rounds), [self.world.header(block) for block in blocks], sender=self.bob)
@@ -74,21 +76,19 @@ def _deployed(chain_id: int) -> Stage:
 
 
 def icon_scene(name: str) -> Scene:
-    """The scene of a piece of the dataset, 128 x 128 pixels."""
+    """Return the scene of an icon, 128 x 128 pixels."""
     (piece,) = (each for each in icons.pieces() if each.name == name)
     return evolve(piece.make(), width=128, height=128)
 
 
 def store_scene(studio: Contract, scene: Scene) -> str:
-    """Has the studio keep a scene; its pointer."""
-    (entry,) = (each for each in studio.abi if each.get("name") == "storeScene")
-    selector = keccak(f"storeScene({collapse_if_tuple(entry['inputs'][0])})".encode())[:4]
-    output = studio.world.run(
-        account("owner"), studio.address, encode(selector, scene), 0, GAS, True, studio.abi
-    ).output
-    return "0x" + output[12:32].hex()
+    """Store a scene in the Studio as the commands do; return its pointer."""
+    transactions = storing(scene, bytes.fromhex(studio.address[2:]))
+    for each in transactions:
+        studio.world.run(account("owner"), studio.address, each.data, 0, GAS, True, studio.abi)
+    return "0x" + transactions[-1].pointer.hex()
 
 
 def stage(chain_id: int = 1) -> Stage:
-    """A new one."""
+    """Return a new stage."""
     return copy.deepcopy(_deployed(chain_id))

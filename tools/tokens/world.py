@@ -1,8 +1,9 @@
-"""A chain with state in this process: accounts, blocks with headers, contracts by name, exact gas.
+"""Simulate a chain with state in this process: accounts, blocks with headers, contracts by name, exact gas.
 
-pyrevm keeps addresses and slots warm from call to call. So each transaction runs in an EVM of its own, set up from what
-is kept here, cold: its gas is that of a real chain, and going back to an earlier state is a copy. The rules are those
-of Cancun, with two of Prague that matter here: hashes of older blocks (EIP-2935), and the price of data (EIP-7623).
+pyrevm keeps addresses and slots warm from call to call. Each transaction therefore runs in a new EVM, set up from the
+state that is stored here, with all addresses cold: its gas is that of a real chain, and an earlier state is restored by
+a copy. The rules are those of Cancun, with two of Prague: hashes of older blocks (EIP-2935), and the price of data
+(EIP-7623).
 """
 
 from __future__ import annotations
@@ -42,12 +43,12 @@ def keccak(data: bytes) -> bytes:
 
 
 def least_gas(data: bytes) -> int:
-    """What a transaction with this data costs at least, whatever it executes: EIP-7623."""
+    """Return the least gas of a transaction with this data, whatever it executes: EIP-7623."""
     return 21_000 + 10 * data.count(0) + 40 * (len(data) - data.count(0))
 
 
 def account(name: str) -> str:
-    """An address that nothing else has."""
+    """Return the address of an account by its name."""
     return "0x" + keccak(name.encode())[12:].hex()
 
 
@@ -55,14 +56,14 @@ class Refused(Exception):
     """A call that was reverted: the name of the error and its values."""
 
     def __init__(self, name: str, values: tuple[Any, ...] = ()) -> None:
-        """Keep what the contract said."""
+        """Store the error. name: of the error. values: of its parameters."""
         super().__init__(f"{name}{values}")
         self.name, self.values = name, values
 
 
 @dataclass
 class Account:
-    """What the chain keeps of an address."""
+    """The state of an address."""
 
     balance: int = 0
     nonce: int = 0
@@ -72,8 +73,9 @@ class Account:
 
 @dataclass(frozen=True)
 class Receipt:
-    """What a transaction did. gas: of all of it, intrinsic gas too. execution: without that, as a call needs it.
-    events: name and values of each that is known.
+    """The result of a transaction.
+
+    gas: of the whole transaction. execution: the gas without intrinsic gas. events: names and values.
     """
 
     gas: int
@@ -84,17 +86,17 @@ class Receipt:
 
 @dataclass(frozen=True)
 class Built:
-    """A contract before it stands anywhere."""
+    """A compiled contract: ABI and creation code."""
 
     abi: list[dict[str, Any]]
     creation: bytes
 
 
 class World:
-    """The chain. Its first block is far enough from 0 that there are older ones."""
+    """The chain. Its first block has a large number, so that there are older blocks."""
 
     def __init__(self, chain_id: int = 1, salt: str = "") -> None:
-        """Begin with the contract that knows the hashes of blocks. salt: makes their hashes differ."""
+        """Create the contract of EIP-2935. chain_id: of the chain. salt: changes the hashes of all blocks."""
         self.chain_id, self.salt = chain_id, salt
         self.accounts: dict[str, Account] = {HISTORY: Account(nonce=1, code=HISTORY_CODE)}
         self.number, self.time = 20_000_000, 1_800_000_000
@@ -106,7 +108,7 @@ class World:
     # ---- blocks ----
 
     def mine(self, count: int = 1) -> None:
-        """Makes blocks. Transactions are part of the block after the last one that was made."""
+        """Make blocks. Transactions are part of the block after the last one."""
         for _ in range(count):
             header = self._header(self.number)
             self._headers[self.number] = header
@@ -115,15 +117,15 @@ class World:
             self.time += 12
 
     def mine_to(self, number: int) -> None:
-        """Makes blocks until transactions are part of block `number`."""
+        """Make blocks until transactions are part of block `number`."""
         self.mine(number - self.number)
 
     def header(self, number: int) -> bytes:
-        """The header of a block that was made."""
+        """Return the header of an existing block."""
         return self._headers[number]
 
     def randomness(self, number: int) -> bytes:
-        """PREVRANDAO of a block, of those to come too."""
+        """Return PREVRANDAO of a block, also of a future one."""
         return keccak(f"{self.salt} randomness {number}".encode())
 
     def _header(self, number: int) -> bytes:
@@ -156,7 +158,7 @@ class World:
 
     @contextmanager
     def attempt(self) -> Iterator[None]:
-        """What is done in it is undone afterwards."""
+        """Restore the state when the context ends."""
         kept = copy.deepcopy((self.accounts, self.number, self.time))
         try:
             yield
@@ -166,7 +168,7 @@ class World:
     # ---- contracts ----
 
     def deploy(self, contract: str | Built, *arguments: Any, sender: str = ZERO) -> Contract:
-        """Deploys a contract of ours by its name, or one that a test has compiled."""
+        """Deploy a contract of the package by its name, or one that a test has compiled."""
         built = Built(artifact(contract).abi, artifact(contract).creation) if isinstance(contract, str) else contract
         inputs: list[dict[str, Any]] = next(
             (entry["inputs"] for entry in built.abi if entry["type"] == "constructor"), []
@@ -183,7 +185,7 @@ class World:
     def run(
         self, sender: str, to: str, data: bytes, value: int, gas: int, keep: bool, abi: list[dict[str, Any]]
     ) -> Receipt:
-        """Execute a transaction, or a call if nothing is to be kept. Raises Refused where it is reverted."""
+        """Execute a transaction, or a call if `keep` is false. Refused if it reverts."""
         evm, intrinsic = self._evm() if keep else self._kept_evm(), intrinsic_gas(data)
         before = evm.snapshot()
         try:
@@ -199,7 +201,7 @@ class World:
         return Receipt(max(used, least_gas(data)), used - intrinsic, output, _events(logs, abi))
 
     def _kept_evm(self) -> Any:
-        """Return an EVM for a call, which must be undone in it: that of the last call, if nothing has changed since."""
+        """Return an EVM for a call, which must be reverted: that of the last call if the state is the same."""
         accounts = [
             (address, each.balance, each.nonce, each.code, *each.storage.items())
             for address, each in self.accounts.items()
@@ -227,7 +229,7 @@ class World:
         return evm
 
     def _keep(self, evm: Any) -> None:
-        """Takes over what a transaction has left. Storage is told only in the text that pyrevm makes for people."""
+        """Store the state after a transaction. pyrevm gives storage only in the text of its journal."""
         state = evm.journal_str.partition(", transient_storage: {")[0]
         for part in re.split(r"(?=0x[0-9a-f]{40}: Account \{)", state)[1:]:
             here = self.of(part[:42])
@@ -246,29 +248,32 @@ class Contract:
     """A contract at an address."""
 
     def __init__(self, world: World, address: str, abi: list[dict[str, Any]], gas: int = 0) -> None:
-        """`gas`: what its deployment took."""
+        """Refer to a contract on a chain. gas: of its deployment."""
         self.world, self.address, self.abi, self.gas = world, address, abi, gas
         self._functions: dict[tuple[str, int], tuple[dict[str, Any], list[str], bytes]] = {}
 
     def call(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Any:
-        """What a function answers; nothing is kept."""
+        """Call a function without a transaction; return its result."""
         entry, data = self.encode(function, arguments)
         output = self.world.run(sender, self.address, data, value, gas, False, self.abi).output
         values = decode([collapse_if_tuple(each) for each in entry["outputs"]], output)
         return values[0] if len(values) == 1 else values
 
     def gas_of(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0) -> int:
-        """The gas of the execution of a call, without intrinsic gas."""
+        """Return the execution gas of a call, without intrinsic gas."""
         _, data = self.encode(function, arguments)
         return self.world.run(sender, self.address, data, value, GAS, False, self.abi).execution
 
     def send(self, function: str, *arguments: Any, sender: str = ZERO, value: int = 0, gas: int = GAS) -> Receipt:
-        """A transaction."""
+        """Send a transaction; return its receipt."""
         _, data = self.encode(function, arguments)
         return self.world.run(sender, self.address, data, value, gas, True, self.abi)
 
     def encode(self, function: str, arguments: tuple[Any, ...]) -> tuple[dict[str, Any], bytes]:
-        """A function by its name, or by its signature if there are several of that name, and the data of a call."""
+        """Return the ABI entry of a function and the data of a call.
+
+        function: its name, or its signature if several functions have that name.
+        """
         found = self._functions.get((function, len(arguments)))
         if found is None:
             found = self._functions[function, len(arguments)] = self._find(function, len(arguments))
@@ -286,7 +291,7 @@ class Contract:
 
 
 def _plain(value: Any) -> Any:
-    """Contracts as their addresses."""
+    """Replace contracts by their addresses."""
     if isinstance(value, Contract):
         return value.address
     return type(value)(map(_plain, value)) if isinstance(value, list | tuple) else value

@@ -63,7 +63,7 @@ class Bounds:
 
 @dataclass(frozen=True)
 class Facts:
-    """What is known of a source, small enough to be passed between processes.
+    """The facts about a source, small enough to be passed between processes.
 
     title: any characters; it must be escaped where it is shown. notice: attribution and conditions of use, or "".
     licence: of the model as stated by its source, or "" if unknown. triangles, vertices, objects: their numbers.

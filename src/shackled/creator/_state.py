@@ -130,7 +130,7 @@ class Haze:
 
 @dataclass(frozen=True)
 class Curve:
-    """How light becomes colours."""
+    """The conversion of light to colours."""
 
     exposure: float = 1.0
     filmic: bool = False

@@ -81,7 +81,7 @@ def search(
     least = last if upper is not None else min(last, max(FIRST_LIMIT, 2 * lower))
     while not attempt(least):
         if least == last:
-            raise OutOfGasError(f"the call ran out of gas: {last:,}, the upper limit of the search, did not suffice")
+            raise OutOfGasError(f"the call ran out of gas: {last:,} gas, the upper limit of the search, is not enough")
         least = min(2 * least, last)
     while least - lower > 1:
         middle = (lower + least) // 2

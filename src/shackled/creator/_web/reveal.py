@@ -57,7 +57,7 @@ class Reveal:
 
     @property
     def words(self) -> str:
-        """What it reveals and where, in one phrase."""
+        """Description of the rounds and of the collection, in one phrase."""
         return f"{plural(len(self.rounds), 'round')} of {KIND.title}, at {self.collection} on {chain_name(self.chain)}"
 
 
@@ -163,7 +163,9 @@ class _Collection:
         """Return the rounds with tokens that are not revealed, in order."""
         minted = await self.read("totalSupply")
         if minted > MOST_TOKENS:
-            raise WalletError(f"the wallet reports {minted:,} tokens of the collection, more than {MOST_TOKENS:,}")
+            raise WalletError(
+                f"the wallet reports that the collection has {minted:,} tokens, more than {MOST_TOKENS:,}"
+            )
         numbers: set[int] = set()
         for first in range(0, minted, TOKENS_AT_ONCE):
             numbers.update(await self.read("hiddenRounds", first, min(first + TOKENS_AT_ONCE, minted) - 1))
