@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
+import {Fixed} from "../../contracts/src/math/Fixed.sol";
 import {Object, Scene} from "../../contracts/src/scene/Scene.sol";
 import {Box, Framing, Model, ModelMaker, Stage, StageMaker} from "../../contracts/src/studio/SceneBuilder.sol";
 
@@ -104,6 +105,8 @@ contract BuilderProbe {
             if (step == "d") stage.dark();
             if (step == "w") stage.shadow();
             if (step == "l") stage.look(StageMaker.units(400, 0, 0), StageMaker.units(0, 0, 0));
+            if (step == "D") stage.look(StageMaker.units(7, 50, 9), StageMaker.units(7, 0, 9));
+            if (step == "u") stage.look(StageMaker.units(7, -50, 9), StageMaker.units(7, 0, 9));
             if (step == "F") stage.fit(StageMaker.units(0, 0, 1));
             if (step == "n") stage.fit(StageMaker.units(0, 0, 0));
             if (step == "v") stage.fieldOfView(180);
@@ -118,6 +121,9 @@ contract BuilderProbe {
             if (step == "8") stage.tone((1 << 24) + 100, true, true);
             if (step == "9") stage.opacity(StageMaker.unit(257));
             if (step == "g") stage.ground(0, StageMaker.units(0, 0, 0), 1 << 32);
+            if (step == "O") stage.opacities(new bytes(7));
+            if (step == "U") stage.texture(1, 1, 0, "", new bytes(3), new int256[2][](9));
+            if (step == "i") stage.fieldOfView(Fixed.wrap(50));
             if (step == "x") stage.texture(1, 1, 4, "", new bytes(3), new int256[2][](8));
             if (step == "r") stage.place(Framing.box(0, 0, 0, 1, 0, 1));
         }
@@ -181,8 +187,8 @@ contract BuilderProbe {
     }
 
     function seeThrough(bytes memory levels) external pure returns (Scene memory) {
-        Model memory m = ModelMaker.model(8, 12);
-        m.box(-100, -100, -100, 100, 100, 100, 0x102030);
+        Model memory m = ModelMaker.model();
+        for (uint256 k; k != levels.length; ++k) m.vertex(int256(k), 0, 0, 0x102030);
         Stage memory stage = StageMaker.stage(20, 10, 2);
         stage.add(hex"0000000000", StageMaker.unlit());
         stage.opacities("");

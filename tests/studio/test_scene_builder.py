@@ -258,6 +258,13 @@ def test_the_sun_shines_until_other_light_is_added(world: World, probe: bytes) -
     assert stepped(world, probe, "wts")[7].endswith(b"\n\0\0\0\1" + bytes(31) + b"\1")
 
 
+@pytest.mark.parametrize(("order", "up"), [("D", -1), ("u", 1)])
+def test_cameras_look_straight_down_and_up(world: World, probe: bytes, order: str, up: int) -> None:
+    scene = stepped(world, probe, order)
+    assert scene[1][2] == (0, 0, up * ONE)
+    world.run(world.address("Renderer"), call_data(f"render({SCENE_STRUCT})", scene))
+
+
 def test_one_of_several_objects_is_painted(world: World, probe: bytes) -> None:
     """Objects may share a mesh; what is painted has its own from then on."""
     scene = stepped(world, probe, "aaaPL")
@@ -292,6 +299,9 @@ def test_fractions(world: World, probe: bytes) -> None:
         ("ar", "NoRoom", "uint256"),
         ("v", "FieldOfViewOutOfRange", "int256"),
         ("o", "HeightOutOfRange", "int256"),
+        ("i", "FieldOfViewOutOfRange", "int256"),
+        ("aO", "NotOnePerVertex", "uint256,uint256"),
+        ("aU", "NotOnePerVertex", "uint256,uint256"),
         ("1", "SpotAnglesOutOfRange", "int256,int256"),
         ("2", "SpotAnglesOutOfRange", "int256,int256"),
         ("3", "SpotOutOfRange", "uint256,int256,int256,int256"),

@@ -18,7 +18,7 @@ struct Box {
 
 /// @title Framing: places the camera, and fits objects into boxes.
 library Framing {
-    /// @notice A field of view must be above 0 and below 180 degrees (Q32).
+    /// @notice A field of view must be at least 0.112 and below 180 degrees (Q32).
     error FieldOfViewOutOfRange(int256 degrees_);
     /// @notice The height of an orthographic view must be above 0 (Q32).
     error HeightOutOfRange(int256 height);
@@ -34,6 +34,8 @@ library Framing {
     /// @dev Near plane of an orthographic camera; it clips nothing.
     int256 private constant BEHIND_ALL = -(1 << 58);
     int256 private constant MAX = type(int256).max;
+    /// @dev The least half-height of a perspective camera: see `Checks.sol`.
+    Fixed private constant SMALLEST_TANGENT = Fixed.wrap(1 << 22);
 
     /// @dev The axes of the camera.
     struct Axes {
@@ -42,11 +44,13 @@ library Framing {
         Vector toward;
     }
 
-    /// @notice Places the camera at `eye`, upright, looking at `target`. Projection and near plane do not change; the near plane of a new
-    /// stage is at 1 unit.
+    /// @notice Places the camera at `eye`, upright, looking at `target`; if it looks straight down or up, -z or z is up in the picture.
+    /// Projection and near plane do not change; the near plane of a new stage is at 1 unit.
     function look(Stage memory made, Vector memory eye, Vector memory target) internal pure {
         Camera memory camera = made.scene.camera;
-        (camera.eye, camera.target, camera.up) = (eye, target, StageMaker.units(0, 1, 0));
+        Vector memory up = StageMaker.units(0, 1, 0);
+        if (eye.x.raw() == target.x.raw() && eye.z.raw() == target.z.raw()) up = StageMaker.units(0, 0, eye.y > target.y ? -1 : int256(1));
+        (camera.eye, camera.target, camera.up) = (eye, target, up);
         lightFromLeft(made);
     }
 
@@ -60,6 +64,7 @@ library Framing {
         if (degrees_.raw() <= 0 || degrees_.raw() >= 180 << 32) revert FieldOfViewOutOfRange(degrees_.raw());
         Camera memory camera = made.scene.camera;
         (Fixed sine, Fixed cosine) = sinCosOfHalf(degrees_.raw());
+        if (sine / cosine < SMALLEST_TANGENT) revert FieldOfViewOutOfRange(degrees_.raw());
         if (camera.projection != PERSPECTIVE) camera.near = ONE;
         (camera.projection, camera.halfHeight) = (PERSPECTIVE, sine / cosine);
     }
@@ -88,14 +93,15 @@ library Framing {
         Camera memory camera = made.scene.camera;
         Axes memory axes = axesOf(toward);
         Fixed aspect = aspectOf(made.scene.canvas);
-        Fixed tangent = camera.projection == ORTHOGRAPHIC ? ZERO : camera.halfHeight * StageMaker.percent(USED);
+        bool isPerspective = camera.projection == PERSPECTIVE;
+        Fixed tangent = isPerspective ? camera.halfHeight * StageMaker.percent(USED) : ZERO;
         (Fixed x, Fixed width) = span(made, axes.right, axes.toward.scale(tangent * aspect));
         (Fixed y, Fixed height) = span(made, axes.up, axes.toward.scale(tangent));
         camera.target = axes.right.scale(x).add(axes.up.scale(y));
         height = larger(width / aspect, height);
         (Fixed z, Fixed depth) = span(made, axes.toward, StageMaker.units(0, 0, 0));
         Fixed distance;
-        if (tangent.raw() == 0) {
+        if (!isPerspective) {
             // a line along the viewing direction fits any height
             camera.halfHeight = height.raw() == 0 ? ONE : height / StageMaker.percent(USED);
             distance = depth + ONE;

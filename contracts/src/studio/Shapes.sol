@@ -176,6 +176,7 @@ library Shapes {
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z1, color);
             uint256 back = m.vertexCount;
             for (uint256 k; k != outline.length; ++k) m.vertex(outline[k][0], outline[k][1], z0, color);
+            checkSimple(outline, cap);
             bool clockwise = doubleArea(outline, cap) < 0;
             cut(m, outline, cap, front, back, clockwise);
             // walls do not share vertices with the caps, so that their edges are sharp
@@ -280,6 +281,26 @@ library Shapes {
                 m.quad(a + count, b + count, b, a);
             }
         }
+    }
+
+    /// @dev Reverts if two edges cross. Edges may touch, as those of a bridge to a hole do.
+    function checkSimple(int256[2][] memory outline, uint256[] memory numbers) private pure {
+        unchecked {
+            uint256 count = numbers.length;
+            for (uint256 j = 2; j < count; ++j) {
+                (int256[2] memory c, int256[2] memory d) = (outline[numbers[j]], outline[numbers[j + 1 == count ? 0 : j + 1]]);
+                for (uint256 k; k + 1 < j; ++k) {
+                    (int256[2] memory a, int256[2] memory b) = (outline[numbers[k]], outline[numbers[k + 1]]);
+                    bool isCrossed = haveOppositeSigns(side(a, b, c), side(a, b, d));
+                    if (isCrossed && haveOppositeSigns(side(c, d, a), side(c, d, b))) revert NotAnOutline();
+                }
+            }
+        }
+    }
+
+    /// @dev Returns whether one number is positive and the other negative.
+    function haveOppositeSigns(int256 a, int256 b) private pure returns (bool) {
+        return (a < 0 && b > 0) || (a > 0 && b < 0);
     }
 
     /// @dev Triangulates the front and back caps by ear clipping: an ear is a convex corner whose triangle contains no other point.

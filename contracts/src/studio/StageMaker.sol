@@ -5,7 +5,7 @@ import {Fixed, ZERO, ONE} from "../math/Fixed.sol";
 import {Vector} from "../math/Vector.sol";
 import {Quaternion} from "../math/Quaternion.sol";
 import {fromEuler, sinCosOfHalf} from "../math/Euler.sol";
-import {PackedMesh} from "../mesh/PackedMesh.sol";
+import {HEADER_SIZE, PackedMesh} from "../mesh/PackedMesh.sol";
 import {NORMALS, WIDE} from "../scene/Mesh.sol";
 import {
     ANTIALIAS, FOG, GROUND, HEMISPHERE, OPACITIES_OF, OPACITY_OF, RIM, SHADOW, SHADOWS_ALL, SPOT, TEXTURE_BILINEAR, TEXTURE_CLAMP,
@@ -51,6 +51,8 @@ library StageMaker {
     error SpotAnglesOutOfRange(int256 inner, int256 outer);
     /// @notice The mesh is stored or compact; only packed meshes can be painted. `IStudio.mesh` returns a stored mesh in packed form.
     error MeshNotPacked(uint256 object);
+    /// @notice A mesh of `vertexCount` vertices needs as many values.
+    error NotOnePerVertex(uint256 vertexCount, uint256 values);
     /// @notice A palette has 2, 4, 16 or 256 colours of 3 bytes.
     error TexturePalette(uint256 size);
     /// @notice A texture has 1 to 256 texels along each side.
@@ -261,6 +263,7 @@ library StageMaker {
             }
             if (width - 1 > 255 || height - 1 > 255) revert TextureSize(width, height);
             if (flags > TEXTURE_BILINEAR | TEXTURE_CLAMP) revert SceneErrors.TextureFormat(last(made), flags, bits);
+            checkCount(made, uvs.length);
             uint256 expected = (width * height * bits + 7) / 8;
             if (texels.length != expected) revert TextureTexels(expected, texels.length);
             bytes memory head = abi.encodePacked(uint8(flags), uint8(width - 1), uint8(height - 1), uint8(bits), palette, texels);
@@ -287,6 +290,7 @@ library StageMaker {
     /// @param levels One byte per vertex, from 0, transparent, to 255, opaque.
     function opacities(Stage memory made, bytes memory levels) internal pure {
         unchecked {
+            checkCount(made, levels.length);
             // whole words, at least one
             bytes memory content = new bytes(levels.length == 0 ? 32 : (levels.length + 31) & ~uint256(31));
             copyBytes(content, 0, levels, 0, levels.length);
@@ -405,6 +409,14 @@ library StageMaker {
             if (count == 0) revert NoSuchObject(0, 0);
             return count - 1;
         }
+    }
+
+    /// @dev Reverts if the last object's mesh is packed, so that its vertices can be counted, and has another number of them.
+    function checkCount(Stage memory made, uint256 values) private pure {
+        bytes memory mesh = made.scene.objects[last(made)].mesh;
+        if (mesh.length < HEADER_SIZE || uint8(mesh[0]) > NORMALS + WIDE) return;
+        uint256 vertexCount = uint256(uint8(mesh[1])) << 8 | uint8(mesh[2]);
+        if (values != vertexCount) revert NotOnePerVertex(vertexCount, values);
     }
 
     /// @dev Reverts if a colour is not 0xRRGGBB.

@@ -21,6 +21,11 @@ library Units {
             int256 distance = largest(x - camera.target.x.raw(), y - camera.target.y.raw(), z - camera.target.z.raw());
             // only the direction of an orthographic camera matters
             if (camera.projection == PERSPECTIVE && distance != 0 && distance < SMALL_DISTANCE) {
+                // `fit` moves the camera close to objects that are too small
+                for (uint256 k; k != scene.objects.length; ++k) {
+                    int256 scale = scene.objects[k].scale.raw();
+                    if (scale > 0 && scale < SMALL_SCALE) revert StudioErrors.ScaleLooksUnscaled(k, scale);
+                }
                 revert StudioErrors.CameraLooksUnscaled(x, y, z);
             }
             for (uint256 k; k != scene.objects.length; ++k) {
