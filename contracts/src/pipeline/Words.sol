@@ -362,7 +362,7 @@ uint256 constant ACCUMULATOR_DEPTH_AT = 192;
 uint256 constant ACCUMULATOR_DEPTH_MASK = 0xffffffffffffffff;
 
 // --------------------------------------------------------------------------------------------------------------------- triangle of a list
-// The first vertex is the topmost, and the three run counter-clockwise on the screen.
+// The first vertex is the topmost, and the vertices are counter-clockwise on the screen.
 
 /// @dev Addresses of the third, second and first vertex record.
 uint256 constant TRIANGLE_C_AT = 0;
