@@ -27,10 +27,9 @@ import "./Registers.sol";
 //   - Half vectors change by at most the root of HALF_REACH: see Specular.halfReach. Between unit vectors the interpolated one is too short
 //     by the factor 1 - sum w_i w_j (H_i - H_j)^2 / 2; this is compensated for N * H near |N|, where highlights are.
 //   - If the squares of both exceed these bounds, but not eight times the bounds, or 6.5 times for half vectors, and depths differ by
-//     at most a third, their products are made exact at the edge midpoints too. Errors are of third order then: 0.008 times
-//     the third derivative, which is at most 3 e^3 for the direction to a point, for an edge of length e in distances. With a diffuse
-//     coefficient of 0.7 that is two levels; for a half vector that turns by d it is 0.024 d^3, or 2.6 levels by the fourth root of the
-//     shininess.
+//     at most a third, their products are made exact at the edge midpoints too. Errors are of third order then: 0.008 times the third
+//     derivative, which is at most 3 e^3 for the direction to a point, for an edge of length e in distances. With a diffuse coefficient
+//     of 0.7 that is two levels; for a half vector that turns by d it is 0.024 d^3, or 2.6 levels by the fourth root of the shininess.
 //   - Colours are perspective-correct where linear ones would be too inaccurate (Shading.isAffine): they are multiplied by the weights of
 //     the normals, and divided at each fragment by its depth, which is the sum of the weights.
 //   - N * N is 1/4 to 17/16; in this range one step of Newton's method from a linear function gives its root to 1/1300. In a triangle it is

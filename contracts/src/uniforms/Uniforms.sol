@@ -21,9 +21,8 @@ import "../pipeline/Registers.sol";
 //
 //   4 bytes            selector
 //   FRAME_SIZE bytes   the registers of the frame
-//                      the scene, as in the calldata of the Renderer, with everything after it; the engine reads its meshes. For a tile,
-//                      they
-//                      contain only the faces that may touch it: see TileCulling. Then a word of any content
+//                      the scene, as in the calldata of the Renderer, with everything after it; the engine reads its meshes. For a
+//                      tile, these contain only the faces that may touch it: see TileCulling. Then a word of any content
 //   for each object:   its registers, OBJECT_BYTES bytes; omitted for objects without faces in a tile
 //                      the pixels and depths drawn by other engines: see DRAWN_BEFORE
 
