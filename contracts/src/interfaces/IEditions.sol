@@ -9,6 +9,7 @@ import {IStudio} from "./IStudio.sol";
 /// @notice There is no owner. The account that adds a scene is the artist of the edition, and has no power over other editions. The
 /// picture, name, price, supply and royalty of an edition never change; its artist can only close it and withdraw its proceeds.
 interface IEditions is StudioErrors {
+    /// @notice Emitted when an edition is added.
     event EditionAdded(
         uint256 indexed edition,
         address indexed artist,
@@ -22,25 +23,38 @@ interface IEditions is StudioErrors {
     );
     /// @notice Emitted when an edition is closed. No more of its tokens can be minted.
     event EditionClosed(uint256 indexed edition, uint256 minted);
+    /// @notice Emitted when an artist withdraws proceeds, in wei.
     event Withdrawn(address indexed artist, address indexed to, uint256 amount);
 
+    /// @notice The address has no code.
     error NoStudio(address studio);
+    /// @notice The number of the edition is not below the number of editions.
     error UnknownEdition(uint256 edition, uint256 editions);
+    /// @notice The maximum number of editions is reached.
     error TooManyEditions(uint256 editions);
+    /// @notice The name must have 1 to `longest` bytes.
     error NameLength(uint256 length, uint256 longest);
     /// @notice The bytes of the name from this position on are not valid UTF-8.
     error NameNotUtf8(uint256 position);
+    /// @notice The supply must not be 0.
     error NoSupply();
+    /// @notice The royalty exceeds the highest one, in basis points.
     error Royalty(uint256 royalty, uint256 highest);
     /// @notice Drawing the scene ran out of gas: it needs more than `gasLimit`, or the transaction has too little.
     error DrawingOutOfGas(address scene, uint256 gasLimit);
+    /// @notice The caller is not the artist of the edition.
     error NotTheArtist(uint256 edition, address artist, address account);
+    /// @notice The edition is already closed.
     error AlreadyClosed(uint256 edition);
+    /// @notice The quantity is out of range: at most `perTransaction`; for `mint`, at least 1.
     error Quantity(uint256 quantity, uint256 perTransaction);
+    /// @notice The payment must be exactly `due`, in wei.
     error Payment(uint256 sent, uint256 due);
     /// @notice Transfers and approvals accept no ether.
     error PaymentForNothing(uint256 sent);
+    /// @notice The quantity exceeds the number of tokens left.
     error NothingLeft(uint256 quantity, uint256 left);
+    /// @notice The receiver did not accept the ether.
     error WithdrawalRefused(address to, uint256 amount);
     /// @notice Declared by the library that formats addresses as text. Never thrown.
     error StringsInsufficientHexLength(uint256 value, uint256 length);

@@ -32,11 +32,11 @@ import {SceneErrors} from "./SceneErrors.sol";
 uint256 constant MAX_CANVAS = 2048;
 uint256 constant MAX_LIGHTS = 4;
 uint256 constant MAX_SHININESS = 128;
-/// @dev 2^26 world units.
+/// @dev 2^26 world units, Q32.
 int256 constant MAX_COORDINATE = 1 << 58;
 /// @dev Half the extent of a scaled mesh: 2^27 world units, Q32.
 int256 constant MAX_EXTENT = 1 << 59;
-/// @dev 4.
+/// @dev 4, Q32.
 int256 constant MAX_COEFFICIENT = 4 << 32;
 
 /// @notice Checks a scene, except for the vertex indices of the faces, which primitive assembly checks.

@@ -23,6 +23,7 @@ interface StudioErrors is SceneErrors, MeshErrors, PngErrors, GlbErrors, Turntab
     error NotAScene(address pointer);
     /// @notice `fields` has unknown bits.
     error UnknownChanges(uint256 fields);
+    /// @notice The colour is not 0xRRGGBB.
     error ColorOutOfRange(uint256 color);
     /// @notice The rotation is zero, or one of its components is larger than 2^16.
     error TurnOutOfRange();

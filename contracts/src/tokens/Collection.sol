@@ -29,6 +29,7 @@ abstract contract Collection is Sale, ERC2981 {
     /// @notice Emitted when the metadata of these tokens changes (ERC-4906).
     event BatchMetadataUpdate(uint256 _fromTokenId, uint256 _toTokenId);
 
+    /// @notice The royalty exceeds the highest one, in basis points.
     error Royalty(uint256 royalty, uint256 highest);
 
     constructor(string memory name_, string memory symbol_, Terms memory terms)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 pragma solidity ^0.8.25;
 
-/// @notice A scene of which anyone can mint tokens. Only `minted`, `settled` and `closed` ever change.
+/// @notice A scene for which anyone can mint tokens. Only `minted`, `settled` and `closed` ever change.
 /// @param artist The account that added the edition and receives its proceeds and royalties.
 /// @param price The price of a token, in wei.
 /// @param supply The maximum number of tokens; 2^32 - 1 if the edition is open.

@@ -29,7 +29,9 @@ contract GenesisCollection is Collection, Rounds {
     /// @notice The number of reserved tokens already minted.
     uint256 public reserveMinted;
 
+    /// @notice The address has no code.
     error NoMetadata(address metadata);
+    /// @notice The reserve exceeds the supply.
     error Reserve(uint256 reserve, uint256 supply);
     /// @notice The round of the token is not revealed yet: see `blockOf` and `reveal`.
     error NotRevealed(uint256 tokenId, uint256 round);
@@ -55,14 +57,14 @@ contract GenesisCollection is Collection, Rounds {
         sell(quantity);
     }
 
-    /// @notice Mints tokens to the caller, who proves a place on the allow-list by a Merkle proof.
+    /// @notice Mints tokens to the caller, who proves a place on the allow list by a Merkle proof.
     /// @param allowed The total number of tokens that the list allows the caller to mint.
     function mintWithProof(uint256 quantity, uint256 allowed, bytes32[] calldata proof) external payable {
         spendByProof(quantity, allowed, proof);
         sell(quantity);
     }
 
-    /// @notice Mints tokens to the caller, who proves a place on the allow-list by a signature.
+    /// @notice Mints tokens to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 quantity, Allowance calldata allowance, bytes calldata signature) external payable {
         spendBySignature(quantity, allowance, signature);
         sell(quantity);

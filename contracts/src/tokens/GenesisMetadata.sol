@@ -38,7 +38,9 @@ contract GenesisMetadata {
     /// @notice The encoder of PNG files.
     PngEncoder public immutable encoder;
 
+    /// @notice The address has no code.
     error NoGenesis(address genesis);
+    /// @notice The address has no code.
     error NoEncoder(address encoder);
 
     constructor(Genesis genesis_, PngEncoder encoder_) {

@@ -63,18 +63,26 @@ contract IconsCollection is Collection, StudioErrors {
     /// @dev The icon of the tokens that are being minted.
     uint24 private transient minting;
 
+    /// @notice Emitted when an icon is added.
     event IconAdded(uint256 indexed icon, string name, address scene, uint256 price, uint256 supply, uint256 reserve);
     /// @notice Emitted when the set of icons is sealed.
     event Sealed(uint256 icons);
 
+    /// @notice The address has no code.
     error NoStudio(address studio);
+    /// @notice The collection is already sealed.
     error AlreadySealed();
+    /// @notice The collection is not sealed yet.
     error NotSealed();
+    /// @notice The collection has no icons to seal, or too many.
     error NoIcons();
+    /// @notice The number of the icon is not below the number of icons.
     error UnknownIcon(uint256 icon, uint256 icons);
+    /// @notice The name must have 1 to `longest` bytes.
     error NameLength(uint256 length, uint256 longest);
     /// @notice The bytes of the name from this position on are not valid UTF-8.
     error NameNotUtf8(uint256 position);
+    /// @notice The supply must not be 0, and the reserve must not exceed it.
     error Supply(uint256 supply, uint256 reserve);
 
     constructor(Studio studio_, Terms memory terms) Collection("Shackled Icons", "SHKI", terms) {
@@ -151,14 +159,14 @@ contract IconsCollection is Collection, StudioErrors {
         sell(icon, quantity);
     }
 
-    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow-list by a Merkle proof.
+    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a Merkle proof.
     /// @param allowed The total number of tokens, of all icons together, that the list allows the caller to mint.
     function mintWithProof(uint256 icon, uint256 quantity, uint256 allowed, bytes32[] calldata proof) external payable {
         spendByProof(quantity, allowed, proof);
         sell(icon, quantity);
     }
 
-    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow-list by a signature.
+    /// @notice Mints tokens of an icon to the caller, who proves a place on the allow list by a signature.
     function mintWithSignature(uint256 icon, uint256 quantity, Allowance calldata allowance, bytes calldata signature)
         external
         payable

@@ -30,14 +30,18 @@ abstract contract Rounds {
     /// @dev Block hashes stored by `keepHash`.
     mapping(uint256 blockNumber => bytes32) private kept;
 
+    /// @notice Emitted when the randomness of a round is stored.
     event Revealed(uint256 indexed round, uint256 indexed blockNumber, bytes32 randomness);
+    /// @notice Emitted when the hash of a block is stored.
     event HashKept(uint256 indexed blockNumber, bytes32 hash);
 
+    /// @notice The number of headers must equal the number of rounds.
     error AsManyHeadersAsRounds(uint256 headers, uint256 rounds);
     /// @notice The block is not yet mined, or is the current one.
     error BlockToCome(uint256 blockNumber);
     /// @notice The hash of the block is no longer available: prove it with the headers of later blocks, by `keepHash`.
     error BlockForgotten(uint256 blockNumber);
+    /// @notice The header does not have the hash of the block.
     error WrongHeader(uint256 blockNumber, bytes32 hash, bytes32 hashOfHeader);
     /// @notice PREVRANDAO is zero: the chain provides no randomness.
     error NoRandomness(uint256 blockNumber);

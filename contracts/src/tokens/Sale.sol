@@ -9,9 +9,9 @@ import {EIP712} from "@openzeppelin/contracts/utils/cryptography/EIP712.sol";
 import {MerkleProof} from "@openzeppelin/contracts/utils/cryptography/MerkleProof.sol";
 import {SignatureChecker} from "@openzeppelin/contracts/utils/cryptography/SignatureChecker.sol";
 
-/// @notice An entry of the allow-list, signed by `allowListSigner` as EIP-712 typed data.
+/// @notice An entry of the allow list, signed by `allowListSigner` as EIP-712 typed data.
 /// @param account The account that may mint. No other account can use the entry.
-/// @param quantity The total number of tokens that the account may mint from the allow-list, including those it has already minted.
+/// @param quantity The total number of tokens that the account may mint from the allow list, including those it has already minted.
 /// @param deadline The last second at which the entry is valid, in Unix time.
 struct Allowance {
     address account;
@@ -19,9 +19,9 @@ struct Allowance {
     uint256 deadline;
 }
 
-/// @title Sale: phases of minting, the allow-list, and the proceeds.
-/// @notice Payments must be exact. The ether stays in the contract until the owner withdraws it. An account proves its place on the
-/// allow-list by a Merkle proof or by a signature; both state the total number of tokens it may mint, so neither can be used twice.
+/// @title Sale: phases of minting, the allow list, and the proceeds.
+/// @notice Payments must be exact. The ether stays in the contract until the owner withdraws it. An account proves its place on the allow
+/// list by a Merkle proof or by a signature; both state the total number of tokens it may mint, so neither can be used twice.
 abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
     enum Phase {
         Closed,
@@ -36,29 +36,43 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
 
     /// @notice The current phase, which determines who may mint.
     Phase public phase;
-    /// @notice The Merkle root of the allow-list; zero if there is none.
+    /// @notice The Merkle root of the allow list; zero if there is none.
     bytes32 public allowListRoot;
     /// @notice The account or contract that signs allowances; zero if there is none.
     address public allowListSigner;
 
+    /// @notice Emitted when the phase changes.
     event PhaseChanged(Phase phase);
+    /// @notice Emitted when the allow list changes.
     event AllowListChanged(bytes32 root, address indexed signer);
+    /// @notice Emitted when the proceeds are withdrawn, in wei.
     event Withdrawn(address indexed to, uint256 amount);
 
     /// @notice The limit per call must be 1 to 100 tokens: it bounds the number of tokens that ERC-721A scans for the owner of a token.
     error PerTransaction(uint256 perTransaction);
+    /// @notice The sale is not in the needed phase.
     error WrongPhase(Phase phase, Phase needed);
+    /// @notice The quantity must be 1 to `perTransaction`.
     error Quantity(uint256 quantity, uint256 perTransaction);
+    /// @notice The payment must be exactly `due`, in wei.
     error Payment(uint256 sent, uint256 due);
     /// @notice Transfers and approvals accept no ether.
     error PaymentForNothing(uint256 sent);
+    /// @notice The Merkle proof does not prove that the account may mint this total quantity.
     error NotOnAllowList(address account, uint256 quantity);
+    /// @notice The allowance belongs to another account.
     error AllowanceOfAnother(address account, address sender);
+    /// @notice The deadline of the allowance has passed.
     error AllowanceExpired(uint256 deadline, uint256 time);
+    /// @notice The allowance is not signed by the current signer.
     error AllowanceNotSigned(address signer);
+    /// @notice The mint would exceed the account's allowance.
     error AllowanceExceeded(uint256 minted, uint256 quantity, uint256 allowance);
+    /// @notice The quantity exceeds the number of tokens left.
     error NothingLeft(uint256 quantity, uint256 left);
+    /// @notice The receiver did not accept the ether.
     error WithdrawalRefused(address to, uint256 amount);
+    /// @notice The collection cannot be without an owner.
     error OwnerNeeded();
 
     constructor(string memory name_, string memory symbol_, address owner_, uint256 perTransaction_)
@@ -78,7 +92,7 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         emit PhaseChanged(phase_);
     }
 
-    /// @notice Replaces the allow-list. Tokens minted from the old list count toward the limits of the new one.
+    /// @notice Replaces the allow list. Tokens minted from the old list count toward the limits of the new one.
     /// @param root The root of a tree with leaves keccak256(keccak256(abi.encode(account, quantity))) and sorted pairs; zero for none.
     /// @param signer The signer of `Allowance`s, an account or a contract (ERC-1271); zero for none.
     function setAllowList(bytes32 root, address signer) external onlyOwner {
@@ -104,9 +118,9 @@ abstract contract Sale is ERC721AQueryable, Ownable2Step, EIP712 {
         revert OwnerNeeded();
     }
 
-    // ---- allow-list ----
+    // ---- allow list ----
 
-    /// @notice Returns the number of tokens that an account has minted from the allow-list.
+    /// @notice Returns the number of tokens that an account has minted from the allow list.
     function mintedFromAllowList(address account) public view returns (uint256) {
         return _getAux(account);
     }
