@@ -18,9 +18,9 @@ library Addresses {
     address internal constant PNG_ENCODER = 0xD35d1Fe27b16DC0b1c5526981643a50eAc5c7e0e;
     address internal constant TURNTABLE = 0x9fe10CA7597Fc6Bc26C10e78ad87E2DDe48F8717;
     address internal constant GLB_ENCODER = 0x1a839Be185c1924644175712A16a34E19341160d;
-    address internal constant STUDIO = 0x63042787FACD50087F1Fc4609a76525A5f494534;
-    address internal constant LIBRARY = 0x73a9D0d3Cf33f9871d54c29d1cCaa085a7BcE1F0;
-    address internal constant WEB = 0x0562D2463E3774E4641d31620fBd19aCC4fe57c1;
-    address internal constant EDITIONS = 0x9c5c3f85184c4A0DAa8CD85D77F386d8568f22c2;
+    address internal constant STUDIO = 0x986c25516AD978c1dcf27D34A47f3df6ec24c2b7;
+    address internal constant LIBRARY = 0x7b98e9Ef1030dD413cF5Ab0D79bD694BFBEf3d1c;
+    address internal constant WEB = 0xD3a167BC29F2173c2bA163390553b18A9cdEa4A7;
+    address internal constant EDITIONS = 0x5C6aad3430e48757e1e1fc7eCc54C5B7ceD40CaA;
     address internal constant GENESIS_METADATA = 0x31955971B0A1c97714d6D74C39b5488f815D867D;
 }
