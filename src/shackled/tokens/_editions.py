@@ -28,7 +28,7 @@ MAX_SCALE = 8
 #: Bytes of the JSON of a token without its picture, at most.
 DOCUMENT = 1_500
 #: Gas of `add` that depends on the chain: counters and balances that are new or not, each copy, and the rest.
-ADD_GAS, COPY_GAS = 30_000, 3_000
+ADD_GAS, COPY_GAS = 70_000, 3_000
 #: Gas of `withdraw` for each edition but the first.
 WITHDRAW_GAS = 8_000
 ADDED = b"EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"
