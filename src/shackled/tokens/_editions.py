@@ -225,9 +225,9 @@ def added_edition(collection: Collection, receipt: Receipt, artist: str, terms: 
     if len(logs) != 1 or len(logs[0]["topics"]) != 4:
         raise VerificationError(f"the receipt of the transaction {receipt.hash} names no new edition")
     edition = edition_at(collection, int(logs[0]["topics"][1], 16))
-    found = (edition.name, edition.scene, edition.scale, edition.model)
-    found += (edition.price, edition.supply, edition.royalty)
-    if edition.artist != artist or found != terms.arguments[:-1]:
+    terms_found = edition.name, edition.scene, edition.scale, edition.model
+    sale_found = edition.price, edition.supply, edition.royalty
+    if edition.artist != artist or (*terms_found, *sale_found) != terms.arguments[:-1]:
         raise VerificationError(
             f"edition {edition.number}, which the {collection.connection.name} reports for the transaction "
             f"{receipt.hash}, does not match the terms"
